@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The programs of demos/, and the measuring code they share with the tests.
+
+find_package(CLI11 REQUIRED)
+find_package(assimp REQUIRED)
+
+# The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
+file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
+list(FILTER support_sources EXCLUDE REGEX "_test\\.cpp$")
+list(FILTER support_sources EXCLUDE REGEX "/(fcl|ccd|cgal)_[a-z_]*\\.cpp$")  # in Tests.cmake
+add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
+set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
+ode_ext_compile_options(ode_ext_test_support)
+# Headers only: the objects of ode_ext_core come from whoever links this.
+target_include_directories(ode_ext_test_support PUBLIC
+  tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_options(ode_ext_test_support PUBLIC ${public_options})
+target_link_libraries(ode_ext_test_support PUBLIC ODE::ODE Threads::Threads)
+
+# All of falling_objects but main, once for the program and once for its tests.
+file(GLOB falling_objects_sources CONFIGURE_DEPENDS demos/falling_objects/*.cpp)
+list(FILTER falling_objects_sources EXCLUDE REGEX "/main\\.cpp$")
+if(falling_objects_sources)
+  add_library(falling_objects_parts OBJECT EXCLUDE_FROM_ALL ${falling_objects_sources})
+  ode_ext_compile_options(falling_objects_parts)
+  target_include_directories(falling_objects_parts PUBLIC demos tests ${public_includes})
+  target_compile_options(falling_objects_parts PUBLIC ${public_options})
+  target_link_libraries(falling_objects_parts PUBLIC
+    CLI11::CLI11 assimp::assimp ODE::ODE Threads::Threads)
+endif()
+
+# add_demo(<name> <main source> [<target to link>...]): nothing where the source is not there.
+function(add_demo name source)
+  if(ODE_EXT_BUILD_DEMOS AND EXISTS ${PROJECT_SOURCE_DIR}/${source})
+    add_executable(${name} ${source})
+    ode_ext_compile_options(${name})
+    target_link_libraries(${name} PRIVATE ode_ext::ode_ext ${ARGN})
+  endif()
+endfunction()
+
+add_demo(hello demos/hello/hello.c)
+add_demo(ode_ext_info demos/info/main.cpp)
+add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_parts ode_ext_test_support)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Which files make up the device program, and the source that carries them in the library.
+#
+# Shared headers come first, in an order in which each needs only earlier ones; then the kernels.
+
+set(kernels_dir ${PROJECT_SOURCE_DIR}/kernels)
+file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/shared/*.h)
+file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl)
+
+set(ODE_EXT_KERNEL_FILES)
+foreach(header shared/types.h shared/transform.h shared/ray_triangle.h)
+  if(header IN_LIST headers)
+    list(APPEND ODE_EXT_KERNEL_FILES ${header})
+    list(REMOVE_ITEM headers ${header})
+  endif()
+endforeach()
+list(APPEND ODE_EXT_KERNEL_FILES ${headers} ${kernels})
+
+set(ODE_EXT_EMBEDDED_KERNELS ${PROJECT_BINARY_DIR}/generated/embedded_kernels.cpp)
+list(TRANSFORM ODE_EXT_KERNEL_FILES PREPEND ${kernels_dir}/ OUTPUT_VARIABLE kernel_paths)
+add_custom_command(
+  OUTPUT ${ODE_EXT_EMBEDDED_KERNELS}
+  COMMAND ${CMAKE_COMMAND} -DOUT=${ODE_EXT_EMBEDDED_KERNELS} -DROOT=${kernels_dir}
+          "-DFILES=${ODE_EXT_KERNEL_FILES}" -P ${PROJECT_SOURCE_DIR}/cmake/EmbedKernels.cmake
+  DEPENDS ${kernel_paths} ${PROJECT_SOURCE_DIR}/cmake/EmbedKernels.cmake
+  COMMENT "Embedding the kernels"
+  VERBATIM)

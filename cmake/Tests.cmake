@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The tests: one GoogleTest program, and checks of the sources and of the installed library.
+
+include(GoogleTest)
+find_package(GTest REQUIRED)
+find_package(rapidcheck REQUIRED)
+find_package(fcl REQUIRED)
+find_package(ccd REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
+     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp)
+if(test_sources)
+  add_executable(ode_ext_tests ${test_sources})
+  ode_ext_compile_options(ode_ext_tests)
+  target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(ode_ext_tests PRIVATE
+    ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
+    GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen ${CMAKE_DL_LIBS})
+  # A fixed seed: a run that fails must fail again. For other seeds run bin/ode_ext_tests itself.
+  gtest_discover_tests(ode_ext_tests
+    NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 120 ENVIRONMENT "RC_PARAMS=seed=1")
+endif()
+
+# Every check of the sources has a test that it fails where it should.
+set(scripts ${PROJECT_SOURCE_DIR}/scripts)
+add_test(NAME house_rules COMMAND ${scripts}/check-house)
+add_test(NAME kernels_compile COMMAND ${scripts}/check-kernels)
+add_test(NAME format COMMAND ${scripts}/check-format)
+add_test(NAME checks_fail_on_violations COMMAND ${PROJECT_SOURCE_DIR}/tests/support/checks_test.sh)
+set_tests_properties(house_rules kernels_compile format checks_fail_on_violations PROPERTIES
+                     TIMEOUT 120)
+
+# The consumer is not built with sanitizers, so it cannot link a library that is.
+if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
+  add_test(NAME install_consumer
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/install/run.sh ${PROJECT_BINARY_DIR})
+  set_tests_properties(install_consumer PROPERTIES TIMEOUT 300)
+endif()

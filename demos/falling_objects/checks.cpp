@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "falling_objects/speeds.h"
+
+namespace falling_objects {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::string text(256, '\0');
+  const int length = std::snprintf(text.data(), text.size(), pattern, values...);
+  text.resize(std::min(text.size() - 1, static_cast<std::size_t>(std::max(length, 0))));
+  return text;
+}
+
+std::string name_of(std::size_t index, const Scene& scene) {
+  if (index >= scene.objects().size()) return "the ground";
+  return format("object %zu (%s)", index, scene.shape_of(index).name.c_str());
+}
+
+bool is_finite(dBodyID body) {
+  const auto all_finite = [](const dReal* values, int count) {
+    return std::all_of(values, values + count, [](dReal x) { return std::isfinite(x); });
+  };
+  return all_finite(dBodyGetPosition(body), 3) && all_finite(dBodyGetQuaternion(body), 4) &&
+         all_finite(dBodyGetLinearVel(body), 3) && all_finite(dBodyGetAngularVel(body), 3);
+}
+
+}  // namespace
+
+void Finding::add(double badness, const std::string& words) {
+  if (count_ == 0) first_ = words;
+  if (count_ == 0 || badness > worst_badness_) {
+    worst_badness_ = badness;
+    worst_ = words;
+  }
+  ++count_;
+}
+
+std::string Finding::describe() const {
+  std::string text = what_ + ": " + std::to_string(count_) + "; first: " + first_;
+  if (worst_ != first_) text += "; worst: " + worst_;
+  return text;
+}
+
+std::string Checks::at(int step) const { return format("at %.2f s ", (step + 1) / hz_); }
+
+bool Checks::after_step(const StepRecord& record, std::span<const dContactGeom> contacts) {
+  if ((record.status & dBatchStatusDeviceFailed) != 0) device_.add(0, at(record.step));
+  for (const dContactGeom& contact : contacts) {
+    // The ground is always the larger.
+    double diameter = INFINITY;
+    for (const dGeomID geom : {contact.g1, contact.g2}) {
+      if (dGeomGetBody(geom) != nullptr) diameter = std::min(diameter, 2 * kShapeRadius);
+    }
+    const double depth = contact.depth;
+    if (!(depth <= diameter)) {
+      impossible_.add(depth, at(record.step) + format("%.3f m: ", depth) +
+                                 name_of(index_of(contact.g1), scene_) + " and " +
+                                 name_of(index_of(contact.g2), scene_));
+    }
+  }
+  const Ground& ground = scene_.ground();
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
+    const dBodyID body = scene_.objects()[i].body;
+    if (!is_finite(body)) {
+      not_finite_.add(0, at(record.step) + name_of(i, scene_));
+      continue;
+    }
+    const dReal* p = dBodyGetPosition(body);
+    const double below = ground.height(p[0], p[1]) - p[2];
+    const double beyond = std::max(std::abs(p[0]), std::abs(p[1])) - ground.half_size();
+    if ((below > kShapeRadius || beyond > 0) && lost_.emplace(i, record.step).second) {
+      fell_out_.add(std::max(below, beyond),
+                    at(record.step) + name_of(i, scene_) +
+                        format(" at (%.2f, %.2f, %.2f)", static_cast<double>(p[0]),
+                               static_cast<double>(p[1]), static_cast<double>(p[2])));
+    }
+  }
+  return not_finite_.empty();
+}
+
+void Checks::after_measurement(int step, const std::vector<Penetration>& too_deep) {
+  std::map<std::pair<std::size_t, std::size_t>, int> now;
+  for (const Penetration& p : too_deep) {
+    const std::pair pair{p.object, p.other};
+    const auto before = too_deep_since_.find(pair);
+    const int since = before == too_deep_since_.end() ? step : before->second;
+    now.emplace(pair, since);
+    if ((step - since) / hz_ > 0.5) {
+      stuck_.add(p.depth, at(step) +
+                              format("%.3f m (allowed %.3f m) for %.1f s: ", p.depth, p.allowed,
+                                     (step - since) / hz_) +
+                              name_of(p.object, scene_) + " and " + name_of(p.other, scene_));
+    }
+  }
+  too_deep_since_ = std::move(now);
+}
+
+void Checks::collect_speeds() {
+  const std::vector<double> now = speeds(scene_);
+  final_speeds_.insert(final_speeds_.end(), now.begin(), now.end());
+}
+
+void Checks::judge_rest() {
+  const double one_step = kGravity / hz_;
+  const double average = mean(final_speeds_);
+  const double fast = quantile(final_speeds_, 0.95);
+  if (!(average <= one_step / 2) || !(fast <= one_step)) {
+    restless_.add(0, format("mean speed %.3f m/s (allowed %.3f), 95th percentile %.3f m/s "
+                            "(allowed %.3f)",
+                            average, one_step / 2, fast, one_step));
+  }
+}
+
+std::vector<std::string> Checks::failures() const {
+  std::vector<std::string> result;
+  for (const Finding* finding :
+       {&not_finite_, &fell_out_, &impossible_, &stuck_, &device_, &restless_}) {
+    if (!finding->empty()) result.push_back(finding->describe());
+  }
+  return result;
+}
+
+}  // namespace falling_objects

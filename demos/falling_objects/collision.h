@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two colliders over the same space and the same callback.
+#pragma once
+
+#include <ode/ode.h>
+#include <ode_ext/ode_ext.h>
+
+#include "falling_objects/contact_list.h"
+#include "falling_objects/options.h"
+
+namespace falling_objects {
+
+class Collision {
+ public:
+  // Creates the batch collider if the options need it. Throws NoDevice, or std::runtime_error if
+  // they ask for ODE's own collider beside it and this ODE does not export it.
+  Collision(const Options& options, dSpaceID space);
+  ~Collision();
+  Collision(const Collision&) = delete;
+  Collision& operator=(const Collision&) = delete;
+
+  // Fills `contacts` and returns the wall time [ms]. Throws std::runtime_error on an error.
+  double collide(Collider collider, ContactList& contacts);
+
+  // Of the last batched pass; zeroes without a batch collider.
+  dBatchColliderStats stats() const;
+  bool has_batch() const { return batch_ != nullptr; }
+
+ private:
+  dSpaceID space_;
+  dBatchColliderID batch_ = nullptr;
+};
+
+struct NoDevice {
+  std::string message;
+};
+
+}  // namespace falling_objects

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of the user's own.
+#pragma once
+
+#include <string>
+
+#include "falling_objects/triangle_mesh.h"
+
+namespace falling_objects {
+
+// Reads whatever Assimp reads: all meshes of the file as one, in their places, welded, wound
+// outwards, centred and scaled like the demo's own shapes. Throws std::runtime_error with a
+// sentence that names the file.
+TriangleMesh load_mesh(const std::string& path);
+
+}  // namespace falling_objects

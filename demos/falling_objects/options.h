@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace falling_objects {
+
+enum class Collider { kBatch, kOde };
+
+enum ExitCode { kExitOk = 0, kExitCheckFailed = 1, kExitUsage = 2, kExitNoDevice = 3 };
+
+struct Options {
+  std::string scene = "rigid";
+  int objects = 1000;
+  int steps = 600;  // GRAPP section 6: 10 s at 60 Hz
+  double hz = 60;
+  std::uint64_t seed = 1;
+  std::vector<std::string> meshes;  // files; none: the four shapes
+
+  Collider collider = Collider::kBatch;  // the one whose contacts drive the simulation
+  bool compare = false;
+  int max_contacts = 16;
+  std::string device;     // empty: the environment, else the library's choice
+  int workload = 0;       // dBatchWorkload...
+  int prediction = 0;     // dBatchPrediction...
+  double confidence = 0;  // 0: the library's default
+  bool trust_meshes = false;
+
+  std::string csv;
+  bool check = false;
+  bool check_rest = false;
+  bool quiet = false;
+};
+
+struct ParsedOptions {
+  Options options;
+  std::optional<int> exit_code;  // set: help was asked for, or the command line is wrong
+};
+
+ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out,
+                            std::ostream& err);
+
+}  // namespace falling_objects

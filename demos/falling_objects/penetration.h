@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How deep the objects are in each other and in the ground, measured on the meshes by an oracle
+// that shares nothing with the collider: what a collider overlooks is seen here.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "falling_objects/scene.h"
+#include "support/mesh_oracle.h"
+
+namespace falling_objects {
+
+struct Penetration {
+  std::size_t object;
+  std::size_t other;  // the number of objects: the ground
+  double depth;       // [m]
+  double allowed;     // [m]: half the thinnest part of the two
+};
+
+class PenetrationMeter {
+ public:
+  explicit PenetrationMeter(const Scene& scene);
+
+  struct Result {
+    double deepest = 0;                 // of all pairs [m]
+    std::vector<Penetration> too_deep;  // the pairs that are deeper than allowed
+  };
+  // At the current poses. Open meshes have no inside: left out.
+  Result measure() const;
+
+ private:
+  const Scene& scene_;
+  std::vector<ode_ext::oracle::Mesh> shapes_;
+  std::vector<double> half_thinnest_;  // of the shapes [m]
+  ode_ext::oracle::Mesh ground_;
+};
+
+}  // namespace falling_objects

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where the objects start: in layers that follow the bowl, their bounding spheres apart.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "falling_objects/ground.h"
+#include "falling_objects/random.h"
+
+namespace falling_objects {
+
+struct Placement {
+  Point position;                  // [m]
+  std::array<double, 4> rotation;  // unit quaternion w, x, y, z
+  std::size_t shape;
+};
+
+// Half the side of a ground that is wide enough for so many objects [m].
+double ground_half_size(std::size_t count);
+
+std::vector<Placement> place_objects(std::size_t count, std::size_t shape_count,
+                                     const Ground& ground, Random& random);
+
+}  // namespace falling_objects

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run prints and writes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "falling_objects/options.h"
+#include "falling_objects/step_record.h"
+
+namespace falling_objects {
+
+// One line that is rewritten on a terminal; elsewhere a line a simulated second.
+class Progress {
+ public:
+  explicit Progress(const Options& options);
+  void show(const StepRecord& record);
+  void finish();
+
+ private:
+  bool quiet_;
+  bool terminal_;
+  int steps_;
+  int every_;
+};
+
+struct Summary {
+  std::string device;  // empty: no batch collider
+  std::size_t lost_objects = 0;
+  std::uint64_t hash = 0;
+};
+
+void print_report(std::ostream& out, const Options& options, const std::vector<StepRecord>& steps,
+                  const Summary& summary);
+
+void write_csv(std::ostream& out, const std::vector<StepRecord>& steps);
+
+}  // namespace falling_objects

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <utility>
+
+#include "falling_objects/checks.h"
+#include "falling_objects/mesh_file.h"
+#include "falling_objects/penetration.h"
+#include "falling_objects/report.h"
+#include "falling_objects/simulation.h"
+
+namespace falling_objects {
+namespace {
+
+constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
+constexpr double kRestWindow = 0.5;    // [s] at the end, over which speeds are judged
+
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct OdeSession {
+  OdeSession() { dInitODE2(0); }
+  ~OdeSession() { dCloseODE(); }
+};
+
+std::vector<NamedMesh> load_meshes(const Options& options) {
+  if (options.meshes.empty()) return make_shapes();
+  std::vector<NamedMesh> meshes;
+  try {
+    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
+  } catch (const std::runtime_error& e) {
+    throw UsageError(e.what());
+  }
+  return meshes;
+}
+
+int steps_in(double seconds, double hz) {
+  return std::max(1, static_cast<int>(std::lround(seconds * hz)));
+}
+
+int print_verdict(const Options& options, const Checks& checks) {
+  if (!options.check && !options.check_rest) return kExitOk;
+  const std::vector<std::string> failures = checks.failures();
+  for (const std::string& failure : failures) std::cout << "check: failed: " << failure << '\n';
+  if (failures.empty()) std::cout << "check: passed\n";
+  return failures.empty() ? kExitOk : kExitCheckFailed;
+}
+
+int run_scene(const Options& options) {
+  std::ofstream csv;
+  if (!options.csv.empty()) {
+    csv.open(options.csv);
+    if (!csv) throw UsageError("cannot write '" + options.csv + "'");
+  }
+  const OdeSession session;
+  std::vector<std::string> warnings;
+  Scene scene(load_meshes(options), options, warnings);
+  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
+
+  Collision collision(options, scene.space());
+  Simulation simulation(options, scene, collision);
+  const PenetrationMeter meter(scene);
+  Checks checks(scene, options.hz);
+  Progress progress(options);
+  std::vector<StepRecord> records;
+  const int measure_every = steps_in(kMeasureEvery, options.hz);
+  const int rest_from = options.steps - steps_in(kRestWindow, options.hz);
+  for (int step = 0; step < options.steps; ++step) {
+    StepRecord record = simulation.step();
+    const bool finite = checks.after_step(record, simulation.contacts());
+    if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
+      const PenetrationMeter::Result measured = meter.measure();
+      checks.after_measurement(step, measured.too_deep);
+      record.deepest_penetration = measured.deepest;
+    }
+    if (options.check_rest && step >= rest_from) checks.collect_speeds();
+    records.push_back(record);
+    progress.show(record);
+    if (!finite) break;
+  }
+  progress.finish();
+  if (options.check_rest) checks.judge_rest();
+
+  Summary summary{"", checks.lost_objects(), simulation.hash()};
+  if (collision.has_batch()) summary.device = collision.stats().device;
+  print_report(std::cout, options, records, summary);
+  if (csv.is_open()) {
+    write_csv(csv, records);
+    csv.close();
+    if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
+  }
+  return print_verdict(options, checks);
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  try {
+    return run_scene(options);
+  } catch (const NoDevice& e) {
+    std::cerr << "no device: " << e.message << '\n';
+    return kExitNoDevice;
+  } catch (const UsageError& e) {
+    std::cerr << e.what() << '\n';
+    return kExitUsage;
+  } catch (const std::exception& e) {
+    std::cerr << e.what() << '\n';
+    return kExitCheckFailed;
+  }
+}
+
+}  // namespace falling_objects

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "falling_objects/speeds.h"
+
+namespace falling_objects {
+
+Simulation::Simulation(const Options& options, Scene& scene, Collision& collision)
+    : options_(options),
+      scene_(scene),
+      collision_(collision),
+      contacts_(options.max_contacts),
+      compared_(options.max_contacts),
+      joints_(dJointGroupCreate(0)) {}
+
+Simulation::~Simulation() { dJointGroupDestroy(joints_); }
+
+StepRecord Simulation::step() {
+  StepRecord record;
+  record.step = steps_++;
+  collide(record);
+  advance(record);
+  record.mean_speed = mean(speeds(scene_));
+  return record;
+}
+
+void Simulation::collide(StepRecord& record) {
+  const auto run = [&](Collider collider) {
+    ContactList& list = collider == options_.collider ? contacts_ : compared_;
+    const double ms = collision_.collide(collider, list);
+    const auto count = static_cast<long long>(list.contacts().size());
+    if (collider == Collider::kBatch) {
+      record.batch_ms = ms;
+      record.batch_contacts = count;
+    } else {
+      record.ode_ms = ms;
+      record.ode_contacts = count;
+    }
+  };
+  if (options_.compare) {
+    // The second finds warm caches: they take turns at it.
+    const bool batch_first = record.step % 2 == 0;
+    run(batch_first ? Collider::kBatch : Collider::kOde);
+    run(batch_first ? Collider::kOde : Collider::kBatch);
+  } else {
+    run(options_.collider);
+  }
+  record.collide_ms = options_.collider == Collider::kBatch ? record.batch_ms : record.ode_ms;
+
+  record.pairs = contacts_.pairs();
+  record.colliding_pairs = contacts_.colliding_pairs();
+  record.contacts = static_cast<long long>(contacts_.contacts().size());
+  for (const dContactGeom& contact : contacts_.contacts()) {
+    record.deepest_contact = std::max(record.deepest_contact, static_cast<double>(contact.depth));
+  }
+  hash_ = hash_contacts(contacts_.contacts(), hash_);
+  const dBatchColliderStats stats = collision_.stats();
+  record.rays = stats.actual[dBatchBufferRays];
+  std::copy(std::begin(stats.ms), std::end(stats.ms), record.stage_ms.begin());
+  record.status = stats.status;
+}
+
+void Simulation::advance(StepRecord& record) {
+  const auto start = std::chrono::steady_clock::now();
+  for (const dContactGeom& geom : contacts_.contacts()) {
+    dContact contact{};
+    contact.geom = geom;
+    contact.surface.mode = dContactApprox1;
+    contact.surface.mu = 0.5;
+    dJointID joint = dJointCreateContact(scene_.world(), joints_, &contact);
+    dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
+  }
+  dWorldQuickStep(scene_.world(), 1 / options_.hz);
+  dJointGroupEmpty(joints_);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  record.world_ms = took.count();
+}
+
+}  // namespace falling_objects

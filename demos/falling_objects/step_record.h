@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is kept of a step: a row of the CSV file.
+#pragma once
+
+#include <ode_ext/ode_ext.h>
+
+#include <array>
+
+namespace falling_objects {
+
+struct StepRecord {
+  int step = 0;
+  long long pairs = 0;
+  long long colliding_pairs = 0;
+  long long contacts = 0;
+  long long rays = 0;
+  unsigned status = 0;    // dBatchStatus... bits
+  double collide_ms = 0;  // the driving collider, callbacks included
+  double world_ms = 0;
+  std::array<double, dBatchStageCount> stage_ms{};
+  // Only with --compare: both colliders at the same poses.
+  double batch_ms = 0, ode_ms = 0;
+  long long batch_contacts = 0, ode_contacts = 0;
+
+  double mean_speed = 0;            // [m/s]
+  double deepest_contact = 0;       // [m], as the collider says
+  double deepest_penetration = -1;  // [m], as the oracle says; negative: not measured in this step
+};
+
+}  // namespace falling_objects

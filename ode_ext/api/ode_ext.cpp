@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The C boundary: checks arguments, catches everything, translates. No algorithms.
+#include "ode_ext/ode_ext.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "device/device.h"
+#include "ode/batch_collider.h"
+#include "ode/messages.h"
+#include "ode/override.h"
+#include "ode/registry.h"
+#include "ode/trace.h"
+
+namespace {
+
+using ode_ext::BatchCollider;
+using ode_ext::PassRoot;
+
+// Runs `body`; an exception becomes the last error, prefixed with the call, and `failure`.
+template <class Result, class Body>
+Result guarded(const char* call, Result failure, Body body) noexcept {
+  try {
+    try {
+      return body();
+    } catch (const std::bad_alloc&) {
+      ode_ext::set_last_error(std::string(call) + ": out of memory");
+    } catch (const std::exception& error) {
+      ode_ext::set_last_error(std::string(call) + ": " + error.what());
+    } catch (...) {
+      ode_ext::set_last_error(std::string(call) + ": unknown exception");
+    }
+  } catch (...) {  // no memory for the message either
+  }
+  return failure;
+}
+
+[[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument(why); }
+
+std::shared_ptr<BatchCollider> live(dBatchColliderID handle) {
+  auto collider = ode_ext::find_collider(handle);
+  if (collider == nullptr) refuse("this is not the handle of a live collider");
+  return collider;
+}
+
+// Parameters of a caller that was compiled with an older, shorter struct: its part over the defaults.
+dBatchColliderParams complete(const dBatchColliderParams* given) {
+  dBatchColliderParams params;
+  dBatchColliderParamsInit(&params);
+  if (given == nullptr) return params;
+  if (given->struct_size < offsetof(dBatchColliderParams, max_contacts) ||
+      given->struct_size > sizeof(params))
+    refuse("params->struct_size is " + std::to_string(given->struct_size) + ", expected " +
+           std::to_string(sizeof(params)) + "; fill params with dBatchColliderParamsInit first");
+  std::memcpy(&params, given, given->struct_size);
+  params.struct_size = sizeof(params);
+  return params;
+}
+
+void check(const dBatchColliderParams& p) {
+  if (p.max_contacts < 1 || p.max_contacts > static_cast<int>(ode_ext::kMaxContacts))
+    refuse("max_contacts is " + std::to_string(p.max_contacts) + ", expected 1 to " +
+           std::to_string(ode_ext::kMaxContacts));
+  if (p.workload != dBatchWorkloadPredicted && p.workload != dBatchWorkloadExact)
+    refuse("workload is " + std::to_string(p.workload) + ", expected a dBatchWorkload constant");
+  if (p.prediction != dBatchPredictionPairScaled && p.prediction != dBatchPredictionPlain)
+    refuse("prediction is " + std::to_string(p.prediction) +
+           ", expected a dBatchPrediction constant");
+  if (!(p.confidence > 0) || !std::isfinite(p.confidence))
+    refuse("confidence is " + std::to_string(p.confidence) + ", expected a number above 0");
+  if (!(p.open_thickness >= 0) || !std::isfinite(p.open_thickness))
+    refuse("open_thickness is " + std::to_string(p.open_thickness) + " m, expected 0 or more");
+  if (p.work_group_size < 0)
+    refuse("work_group_size is " + std::to_string(p.work_group_size) + ", expected 0 or more");
+  if (p.initial_capacity < 0)
+    refuse("initial_capacity is " + std::to_string(p.initial_capacity) + ", expected 0 or more");
+}
+
+std::string selection_or_environment(const char* selection) {
+  if (selection != nullptr) return selection;
+  const char* environment = std::getenv("ODE_EXT_DEVICE");
+  return environment == nullptr ? "" : environment;
+}
+
+ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
+  ode_ext::ColliderOptions options;
+  options.device = selection_or_environment(p.device);
+  options.max_contacts = static_cast<std::uint32_t>(p.max_contacts);
+  if (p.workload == dBatchWorkloadExact) options.workload = ode_ext::Workload::kExact;
+  if (p.prediction == dBatchPredictionPlain) options.prediction = ode_ext::PredictionRule::kPlain;
+  options.confidence = p.confidence;
+  if (p.work_group_size != 0)
+    options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
+  if (p.initial_capacity != 0)
+    options.initial_capacity = static_cast<std::uint64_t>(p.initial_capacity);
+  return options;
+}
+
+int collide(const char* call, dBatchColliderID handle, const PassRoot& root, void* data,
+            dNearCallback* callback) {
+  if (handle == nullptr) {
+    if (root.second == nullptr)
+      dSpaceCollide(reinterpret_cast<dSpaceID>(root.first), data, callback);
+    else
+      dSpaceCollide2(root.first, root.second, data, callback);
+    return 1;
+  }
+  // A callback of the program may throw; that is between it and its caller, so only what this library
+  // does itself is guarded.
+  std::shared_ptr<BatchCollider> collider;
+  std::optional<BatchCollider::Pass> pass;
+  const bool begun = guarded(call, false, [&] {
+    collider = live(handle);
+    ode_ext::install_override();
+    pass.emplace(*collider, root);
+    return true;
+  });
+  if (!begun) return -1;
+  pass->deliver(data, callback);
+  return 1;
+}
+
+// CollidePairs without a collider: what dCollide gives for each pair.
+int collide_one_by_one(const dGeomID* pairs, int pair_count, int flags, dContactGeom* contacts,
+                       int skip, int* counts) {
+  int total = 0;
+  auto* bytes = reinterpret_cast<unsigned char*>(contacts);
+  for (int i = 0; i < pair_count; ++i) {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(i) * (flags & 0xffff) * skip;
+    const int count = dCollide(pairs[2 * i], pairs[2 * i + 1], flags,
+                               reinterpret_cast<dContactGeom*>(bytes + first), skip);
+    if (counts != nullptr) counts[i] = count;
+    total += count;
+  }
+  return total;
+}
+
+// Applies to one collider, or to all where the handle is 0.
+template <class Visit>
+void visit_colliders(const char* call, dBatchColliderID handle, dTriMeshDataID data, Visit visit) {
+  guarded(call, 0, [&] {
+    if (data == nullptr) refuse("the mesh is NULL");
+    if (handle != nullptr)
+      visit(*live(handle));
+    else
+      ode_ext::for_each_collider(visit);
+    return 0;
+  });
+}
+
+}  // namespace
+
+extern "C" {
+
+void dBatchColliderParamsInit(dBatchColliderParams* params) {
+  if (params == nullptr) return;
+  *params = {};
+  params->struct_size = sizeof(*params);
+  params->max_contacts = 16;
+  params->workload = dBatchWorkloadPredicted;
+  params->prediction = dBatchPredictionPairScaled;
+  params->confidence = 1.2;
+}
+
+dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
+  return guarded("dBatchColliderCreate", dBatchColliderID{}, [&] {
+    const dBatchColliderParams complete_params = complete(params);
+    check(complete_params);
+    if (dCheckConfiguration("ODE_double_precision") == 0)
+      refuse("this ODE was built in single precision, ode_ext for double");
+    ode_ext::set_log_level(ode_ext::log_level_of_environment());
+    ode_ext::open_trace_of_environment();
+    auto collider = std::make_shared<BatchCollider>(
+        to_options(complete_params), static_cast<float>(complete_params.open_thickness),
+        complete_params.trust_meshes != 0);
+    ode_ext::install_override();
+    ode_ext::register_collider(collider);
+    return reinterpret_cast<dBatchColliderID>(collider.get());
+  });
+}
+
+void dBatchColliderDestroy(dBatchColliderID handle) {
+  if (handle == nullptr) return;
+  guarded("dBatchColliderDestroy", 0, [&] {
+    if (!ode_ext::unregister_collider(live(handle))) refuse("a pass of this collider is running");
+    return 0;
+  });
+}
+
+const char* dBatchColliderGetLastErrorMessage(void) { return ode_ext::last_error(); }
+
+int dBatchColliderSpaceCollide(dBatchColliderID collider, dSpaceID space, void* data,
+                               dNearCallback* callback) {
+  const char* call = "dBatchColliderSpaceCollide";
+  const bool sound = guarded(call, false, [&] {
+    if (space == nullptr) refuse("the space is NULL");
+    if (callback == nullptr) refuse("the callback is NULL");
+    return true;
+  });
+  if (!sound) return -1;
+  return collide(call, collider, {reinterpret_cast<dGeomID>(space), nullptr}, data, callback);
+}
+
+int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g1, dGeomID g2, void* data,
+                                dNearCallback* callback) {
+  const char* call = "dBatchColliderSpaceCollide2";
+  const bool sound = guarded(call, false, [&] {
+    if (g1 == nullptr || g2 == nullptr) refuse("a geom is NULL");
+    if (callback == nullptr) refuse("the callback is NULL");
+    return true;
+  });
+  if (!sound) return -1;
+  return collide(call, collider, {g1, g2}, data, callback);
+}
+
+int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, int pair_count,
+                               int flags, dContactGeom* contacts, int skip, int* contact_counts) {
+  return guarded("dBatchColliderCollidePairs", -1, [&] {
+    const auto found = collider == nullptr ? nullptr : live(collider);
+    if (pair_count < 0) refuse("pair_count is " + std::to_string(pair_count));
+    if (pair_count > 0 && (pairs == nullptr || contacts == nullptr))
+      refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
+    if ((flags & 0xffff) == 0) refuse("the low 16 bits of flags, contacts per pair, are 0");
+    if (skip < static_cast<int>(sizeof(dContactGeom)))
+      refuse("skip is " + std::to_string(skip) + ", less than sizeof(dContactGeom) = " +
+             std::to_string(sizeof(dContactGeom)));
+    for (int i = 0; i < 2 * pair_count; ++i) {
+      if (pairs[i] == nullptr) refuse("geom " + std::to_string(i) + " of pairs is NULL");
+      if (dGeomGetClass(pairs[i]) != dTriMeshClass)
+        refuse("geom " + std::to_string(i) + " of pairs is not a trimesh");
+    }
+    ode_ext::install_override();
+    if (found == nullptr)
+      return collide_one_by_one(pairs, pair_count, flags, contacts, skip, contact_counts);
+    return found->collide_pairs({pairs, 2 * static_cast<std::size_t>(pair_count)}, flags, contacts,
+                                skip, contact_counts);
+  });
+}
+
+void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data) {
+  visit_colliders("dBatchColliderTriMeshDataUpdate", collider, data,
+                  [&](BatchCollider& c) { c.announce_change(data); });
+}
+
+void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider, dTriMeshDataID data,
+                                            int deformable) {
+  visit_colliders("dBatchColliderTriMeshDataSetDeformable", collider, data,
+                  [&](BatchCollider& c) { c.set_deformable(data, deformable != 0); });
+}
+
+void dBatchColliderTriMeshDataDestroyed(dBatchColliderID collider, dTriMeshDataID data) {
+  visit_colliders("dBatchColliderTriMeshDataDestroyed", collider, data,
+                  [&](BatchCollider& c) { c.forget(data); });
+}
+
+void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats* stats) {
+  if (stats == nullptr) return;
+  guarded("dBatchColliderGetStats", 0, [&] {
+    const std::size_t size = std::min(stats->struct_size, sizeof(*stats));
+    if (size < sizeof(stats->struct_size))
+      refuse("stats->struct_size is " + std::to_string(stats->struct_size) +
+             "; set it to sizeof(dBatchColliderStats)");
+    dBatchColliderStats found{};
+    std::memcpy(static_cast<void*>(stats), &found, size);
+    stats->struct_size = size;
+    found = live(collider)->stats();
+    found.struct_size = size;
+    std::memcpy(static_cast<void*>(stats), &found, size);
+    return 0;
+  });
+}
+
+int dBatchColliderDescribeDevices(const char* selection, char* text, size_t size) {
+  return guarded("dBatchColliderDescribeDevices", 0, [&] {
+    const std::string description =
+        ode_ext::describe_devices(selection_or_environment(selection));
+    if (text != nullptr && size > 0) {
+      const std::size_t count = std::min(description.size(), size - 1);
+      std::memcpy(text, description.data(), count);
+      text[count] = '\0';
+    }
+    return static_cast<int>(description.size());
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a device is chosen from a list: no OpenCL calls, so that it can be tested with any list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+
+namespace ode_ext {
+
+struct Choice {
+  const DeviceInfo* device = nullptr;  // into the list; null if nothing can be chosen
+  std::string reason;                  // how it was chosen, or why nothing was: a sentence's middle
+};
+
+Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& selection);
+
+// Why this library cannot use the device, or "" if it can.
+std::string why_unusable(const DeviceInfo& device);
+
+// One line a device, `chosen` (may be null) marked with '*'.
+std::string device_lines(const std::vector<DeviceInfo>& devices, const DeviceInfo* chosen);
+
+}  // namespace ode_ext

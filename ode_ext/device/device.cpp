@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "device/device.h"
+
+namespace ode_ext {
+
+Device::Device(const std::string& selection)
+    : info_(choose_device(selection)),
+      label_(info_.name + " (driver " + info_.driver + ", " + info_.platform_name + ")") {
+  const cl_context_properties properties[] = {
+      CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(info_.platform), 0};
+  cl_int code = CL_SUCCESS;
+  context_.reset(clCreateContext(properties, 1, &info_.id, nullptr, nullptr, &code));
+  check(code, "clCreateContext", label_);
+  // In order: each step of the pipeline needs what the step before it wrote.
+  queue_.reset(clCreateCommandQueue(context_.get(), info_.id, CL_QUEUE_PROFILING_ENABLE, &code));
+  check(code, "clCreateCommandQueue", label_);
+}
+
+Device::~Device() { settle(); }
+
+void Device::settle() noexcept {
+  clFinish(queue_.get());  // a queue that cannot even be waited for runs nothing any more
+}
+
+void Device::flush() { check_call(clFlush(queue_.get()), "clFlush"); }
+
+void Device::finish() {
+  ++synchronizations_;
+  check_call(clFinish(queue_.get()), "clFinish");
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a triangle soup to vertices and indices.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/bvh.h"
+#include "geometry/vec.h"
+
+namespace ode_ext {
+
+struct WeldedMesh {
+  std::vector<Vec3f> vertices;      // each place once, along a Morton curve; -0 is stored as +0
+  std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
+  std::vector<std::uint32_t> source_triangle;
+};
+
+// Corners at exactly the same place become one vertex; a triangle with two equal corners collapses
+// and is dropped (a sliver with three different ones is kept: its edges hold its neighbours
+// together). The vertices do not depend on the order of the triangles. All corners must be finite.
+WeldedMesh weld(const std::vector<Vec3f>& soup);
+
+}  // namespace ode_ext

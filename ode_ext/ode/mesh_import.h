@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangles of a dTriMeshData. ODE has no call that gives them; a geom of the data at the identity
+// pose does, bit for bit as ODE itself rounds them (to float).
+#pragma once
+
+#include <ode/ode.h>
+
+#include "geometry/mesh.h"
+
+namespace ode_ext {
+
+// Overwrites `soup`. The geom lives only in here, in no space; allowed inside callbacks.
+void read_triangles(dTriMeshDataID data, TriangleSoup& soup);
+
+}  // namespace ode_ext

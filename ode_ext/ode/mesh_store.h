@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The meshes of a program: dTriMeshDataID -> what the pipeline needs of it, kept while it does not
+// change. A handle is dereferenced only when a live geom has just named it.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "geometry/mesh.h"
+
+namespace ode_ext {
+
+class MeshStore {
+ public:
+  // `open_thickness` as in build_mesh. With `trust`, a known mesh is not read again until announced.
+  MeshStore(float open_thickness, bool trust) : open_thickness_(open_thickness), trust_(trust) {}
+
+  // The mesh as it is now: read, compared by a hash of its corners, rebuilt if it changed. Looks once
+  // per mesh and value of `look`; `pass` is what prune goes by.
+  const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, std::uint64_t look,
+                                             std::uint64_t pass);
+
+  // The mesh as of the last refresh; null if it is not known, was announced to have changed, or has
+  // another number of triangles than `triangle_count`.
+  std::shared_ptr<const Mesh> known(dTriMeshDataID data, int triangle_count) const;
+
+  void announce_change(dTriMeshDataID data);
+  void set_deformable(dTriMeshDataID data, bool deformable);
+  void forget(dTriMeshDataID data);
+  // Forgets meshes that no pass has met for a long time.
+  void prune(std::uint64_t pass);
+
+  // All meshes, each once, in an order that changes only when one does; and the place of one in it.
+  const std::vector<std::shared_ptr<const Mesh>>& resident();
+  std::uint32_t index_of(const Mesh* mesh) const { return index_.at(mesh); }
+
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const Mesh> mesh;
+    std::uint64_t hash = 0;
+    int triangle_count = 0;
+    std::uint64_t last_look = 0;
+    std::uint64_t last_pass = 0;
+    std::uint64_t order = 0;
+    bool changed = false;  // announced
+    bool deformable = false;
+  };
+
+  std::shared_ptr<const Mesh> build(std::uint64_t hash, bool deformable);
+
+  float open_thickness_;
+  bool trust_;
+  std::unordered_map<dTriMeshDataID, Entry> entries_;
+  // Equal content is built once, whoever holds it.
+  std::unordered_map<std::uint64_t, std::weak_ptr<const Mesh>> by_content_;
+  std::vector<std::shared_ptr<const Mesh>> resident_;
+  std::unordered_map<const Mesh*, std::uint32_t> index_;
+  bool resident_is_stale_ = false;
+  std::uint64_t next_order_ = 0;
+  TriangleSoup soup_;
+};
+
+}  // namespace ode_ext

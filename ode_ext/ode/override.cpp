@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/override.h"
+
+#include <ode/ode.h>
+
+#include "ode/contact_export.h"
+#include "ode/registry.h"
+#include "ode/stock_collider.h"
+
+namespace ode_ext {
+namespace {
+
+// dSetColliderOverride(i, i, fn) fills its one cell twice, and the second time as reversed:
+// dCollide(A, B) calls fn(B, A) and then negates the normals and swaps g1/g2 and side1/side2. An
+// answer in the order of fn's own arguments is thus right as it is. Stock contacts are not symmetric
+// in the arguments, so they are asked for as the program did and turned round here first.
+int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
+  const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
+  if (count >= 0) return count;
+  const int stock = stock_collide(g2, g1, flags, contacts, skip);
+  auto* bytes = reinterpret_cast<unsigned char*>(contacts);
+  for (int i = 0; i < stock; ++i)
+    turn_round(*reinterpret_cast<dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * skip));
+  return stock;
+}
+
+}  // namespace
+
+void install_override() { dSetColliderOverride(dTriMeshClass, dTriMeshClass, &collide_meshes); }
+
+}  // namespace ode_ext

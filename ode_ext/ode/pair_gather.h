@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every mesh pair that a collide pass can lead to.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <span>
+#include <vector>
+
+#include "pipeline/scene.h"
+
+namespace ode_ext {
+
+// A mesh geom as dCollide will see it: where it sits in geom transforms, with the composed pose.
+struct PlacedGeom {
+  dGeomID geom;
+  Pose pose;
+};
+
+struct GatheredPair {
+  PlacedGeom first, second;
+};
+
+// What a pass starts from: a space (second is 0), or two geoms.
+struct PassRoot {
+  dGeomID first = nullptr;
+  dGeomID second = nullptr;
+  bool operator==(const PassRoot&) const = default;
+};
+
+// False if there are not two meshes below the root. Spaces that cannot be listed (ODE's quadtrees) may
+// hold any.
+bool may_hold_mesh_pair(const PassRoot& root);
+
+// Runs ODE's own broad phase, with all its filters, over the root and over everything the program
+// could recurse into: across each pair of geoms that is reported with a space among them, and inside
+// each contained space. A pair that several ways lead to comes several times. Never enters a
+// sweep-and-prune space of `traversed`: its traversal keeps scratch lists in the space.
+std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed);
+
+}  // namespace ode_ext

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/registry.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+namespace ode_ext {
+namespace {
+
+struct Registry {
+  std::mutex mutex;
+  std::vector<std::shared_ptr<BatchCollider>> colliders;  // in the order of their creation
+};
+
+// Never destroyed: a program may ask from its own static destructors.
+Registry& registry() {
+  static auto* instance = new Registry;
+  return *instance;
+}
+
+}  // namespace
+
+void register_collider(std::shared_ptr<BatchCollider> collider) {
+  const std::lock_guard lock(registry().mutex);
+  registry().colliders.push_back(std::move(collider));
+}
+
+std::shared_ptr<BatchCollider> find_collider(const void* handle) {
+  for (const auto& collider : live_colliders())
+    if (collider.get() == handle) return collider;
+  return nullptr;
+}
+
+bool unregister_collider(const std::shared_ptr<BatchCollider>& collider) {
+  const std::lock_guard lock(registry().mutex);
+  if (collider->is_passing()) return false;
+  std::erase(registry().colliders, collider);
+  return true;
+}
+
+std::vector<std::shared_ptr<BatchCollider>> live_colliders() {
+  const std::lock_guard lock(registry().mutex);
+  return registry().colliders;
+}
+
+int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
+  BatchCollider* passing = BatchCollider::passing_on_this_thread();
+  if (passing != nullptr) return passing->answer(g1, g2, limit, contacts, skip);
+  const auto colliders = live_colliders();
+  for (auto it = colliders.rbegin(); it != colliders.rend(); ++it)
+    if ((*it)->holds(g1, g2)) return (*it)->answer(g1, g2, limit, contacts, skip);
+  if (colliders.empty()) return -1;
+  return colliders.back()->answer(g1, g2, limit, contacts, skip);
+}
+
+}  // namespace ode_ext

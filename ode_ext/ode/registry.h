@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The live colliders, and which of them answers.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+
+#include "ode/batch_collider.h"
+
+namespace ode_ext {
+
+void register_collider(std::shared_ptr<BatchCollider> collider);
+// Null if the handle is not that of a live collider. A handle is only ever compared.
+std::shared_ptr<BatchCollider> find_collider(const void* handle);
+// False if a pass of it is running.
+bool unregister_collider(const std::shared_ptr<BatchCollider>& collider);
+
+// Calls `visit(BatchCollider&)` for every live collider.
+template <class Visit>
+void for_each_collider(Visit visit);
+std::vector<std::shared_ptr<BatchCollider>> live_colliders();
+template <class Visit>
+void for_each_collider(Visit visit) {
+  for (const auto& collider : live_colliders()) visit(*collider);
+}
+
+// Answers dCollide(g1, g2) for two meshes: by the collider whose pass runs on this thread, else by the
+// latest that holds the pair, else by the latest created. -1: ODE's own collider is to answer.
+int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
+
+}  // namespace ode_ext

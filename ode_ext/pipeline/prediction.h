@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Predicting how many entries an append buffer will get (GRAPP section 4.1).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace ode_ext {
+
+// The append buffers, in the order of the pipeline. The order is public (dBatchBuffer...).
+enum class Arrow : std::size_t { kChunks, kRays, kHits, kContacts };
+inline constexpr std::size_t kArrowCount = 4;
+using ArrowCounts = std::array<std::uint64_t, kArrowCount>;
+
+enum class PredictionRule { kPairScaled, kPlain };
+
+// What the last pass of the same kind (the same space) truly produced.
+struct History {
+  std::uint64_t pairs = 0;
+  ArrowCounts counts{};
+};
+
+// Eq. 1 (pair-scaled) or Eq. 2 (plain) for a pass of `pairs` pairs, rounded up; at least 1. Where the
+// last pass had no pairs Eq. 1 has no ratio to scale by, and the last counts stand as they are.
+ArrowCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
+                    double confidence);
+
+}  // namespace ode_ext

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step collides, and what it finds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "geometry/vec.h"
+
+namespace ode_ext {
+
+// Rigid placement: world = rotation * local + position; rotation row-major 3x3.
+struct Pose {
+  Vec3d position{};
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool operator==(const Pose&) const = default;
+
+  Vec3d turn(Vec3d v) const {
+    const auto& r = rotation;
+    return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
+            r[6] * v.x + r[7] * v.y + r[8] * v.z};
+  }
+  Vec3d place(Vec3d p) const { return turn(p) + position; }
+};
+
+struct Scene {
+  struct Object {
+    Pose pose;
+    std::uint32_t mesh;  // index into meshes
+  };
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<Object> objects;
+  std::vector<std::array<std::uint32_t, 2>> pairs;  // of objects
+};
+
+// World frame [m]; the normal points into the first object of the pair, and moving that object by
+// depth * normal clears the contact. Triangles are the program's indices.
+struct Contact {
+  Vec3d position;
+  Vec3d normal;
+  double depth;
+  std::array<std::uint32_t, 2> triangles;
+};
+
+struct PairContacts {
+  struct Range {
+    std::size_t first;
+    std::uint32_t count;
+  };
+  std::vector<Range> ranges;  // one per pair
+  std::vector<Contact> contacts;
+};
+
+}  // namespace ode_ext

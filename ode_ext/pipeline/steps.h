@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of the pipeline by step. Each launches with its inputs and outputs spelled out once.
+#pragma once
+
+#include "device/program.h"
+#include "pipeline/contact_step.h"
+#include "pipeline/pair_step.h"
+#include "pipeline/ray_step.h"
+#include "pipeline/vertex_step.h"
+
+namespace ode_ext {
+
+struct Steps {
+  explicit Steps(Program& program)
+      : pair(program), vertex(program), ray(program), contact(program) {}
+
+  PairStep pair;
+  VertexStep vertex;
+  RayStep ray;
+  ContactStep contact;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that no modeller should make, and that every program meets.
+#include <cmath>
+#include <limits>
+
+#include "reference/reference_hits.h"
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+class ApiBadInput : public ::testing::Test {
+ protected:
+  Contacts contacts_of(const TestMesh& a, const TestPose& pa, const TestMesh& b,
+                       const TestPose& pb) {
+    const Contacts contacts = collide(world.geom(world.mesh(a), pa), world.geom(world.mesh(b), pb));
+    for (const dContactGeom& c : contacts) {
+      EXPECT_TRUE(std::isfinite(c.depth) && c.depth >= 0);
+      EXPECT_NEAR(length(normal(c)), 1, 1e-6);
+      for (int k = 0; k < 3; ++k) EXPECT_TRUE(std::isfinite(c.pos[k]));
+      EXPECT_GE(c.side1, 0);
+      EXPECT_LT(c.side1, a.triangle_count());
+      EXPECT_GE(c.side2, 0);
+      EXPECT_LT(c.side2, b.triangle_count());
+    }
+    return contacts;
+  }
+
+  OdeWorld world;
+  BatchCollider collider;
+  const TestMesh block = make_box({6, 6, 2});
+  const TestMesh cube = make_cube(2);
+  const TestPose on_block = turned({0, 0, 1}, 0.3, {0.1, 0.2, 1.9});  // 0.1 deep, nothing aligned
+};
+
+// ODE gives such a pair nothing; here the triangle's corners below the top are contacts.
+TEST_F(ApiBadInput, OneTriangleAgainstAMeshHasContacts) {
+  const TestPose standing = turned({1, 0, 0}, 1.0, {0.1, 0.2, 1.2});
+  const auto contacts = contacts_of(make_triangle(1), standing, block, {});
+  EXPECT_FALSE(contacts.empty());
+}
+
+TEST_F(ApiBadInput, TwoSingleTrianglesDoNotCrash) {
+  contacts_of(make_triangle(1), {}, make_triangle(1), turned({1, 0, 0}, 1.2, {0.1, 0.1, 0}));
+}
+
+TEST_F(ApiBadInput, TwoSingleTrianglesApartHaveNoContacts) {
+  EXPECT_TRUE(contacts_of(make_triangle(1), {}, make_triangle(1), at(0, 0, 5)).empty());
+}
+
+// The message goes with the pass that met the mesh.
+TEST_F(ApiBadInput, VerticesThatAreNotFiniteRefuseTheMeshAndSayso) {
+  for (const float bad : {kNan, kInfinity, -kInfinity}) {
+    const dSpaceID space = world.space(SpaceKind::Simple);
+    OdeMesh& broken = world.mesh(make_cube(2, 3));
+    const dGeomID g1 = world.geom(broken, on_block, space);
+    const dGeomID g2 = world.geom(world.mesh(block), {}, space);
+    broken.edit().vertices[7] = bad;  // after ODE has sized the box
+    const Collected collected = collider.pass(space);
+    EXPECT_EQ(collected.total(), 0);
+    EXPECT_NE(collider.stats().status & dBatchStatusMeshRefused, 0u);
+    broken.edit() = make_cube(2, 3);
+    broken.rebuild(make_cube(2, 3));
+    EXPECT_GT(collider.pass(space).total(), 0);  // mended, it is welcome again
+    EXPECT_EQ(collider.stats().status & dBatchStatusMeshRefused, 0u);
+    dGeomDisable(g1);
+    dGeomDisable(g2);
+  }
+}
+
+TEST_F(ApiBadInput, ABrokenMeshDoesNotCostTheOthersTheirContacts) {
+  const dSpaceID space = world.space(SpaceKind::Simple);
+  OdeMesh& broken = world.mesh(make_cube(2, 3));
+  world.geom(broken, at(0.5, 0.25, 1.75), space);
+  const dGeomID g1 = world.geom(world.mesh(cube), on_block, space);
+  const dGeomID g2 = world.geom(world.mesh(block), {}, space);
+  broken.edit().vertices[7] = kNan;
+  collider.pass(space);
+  const Contacts contacts = collide(g1, g2);
+  EXPECT_FALSE(contacts.empty());
+  EXPECT_EQ(difference_with_geoms(contacts, fresh_answer(g1, g2)), "");
+}
+
+TEST_F(ApiBadInput, TrianglesWithoutAreaChangeNothing) {
+  TestMesh needles = cube;
+  needles.indices.insert(needles.indices.end(), {0, 0, 1, 2, 2, 2});
+  const Contacts clean = contacts_of(cube, on_block, block, {});
+  const Contacts contacts = contacts_of(needles, on_block, block, {});
+  EXPECT_FALSE(clean.empty());
+  EXPECT_EQ(difference(contacts, clean), "");
+}
+
+// Three vertices in a line: an area of zero without equal corners. The mesh is not closed by it.
+TEST_F(ApiBadInput, CollinearTrianglesDoNotCrash) {
+  TestMesh mesh = cube;
+  const auto first = static_cast<unsigned>(mesh.vertex_count());
+  mesh.vertices.insert(mesh.vertices.end(), {-1, -1, -1, 0, -1, -1, 1, -1, -1});
+  mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  EXPECT_FALSE(contacts_of(mesh, on_block, block, {}).empty());
+}
+
+TEST_F(ApiBadInput, FacesGivenTwiceStillCollide) {
+  EXPECT_FALSE(contacts_of(merged(cube, cube), on_block, block, {}).empty());
+  EXPECT_FALSE(contacts_of(cube, on_block, merged(block, block), {}).empty());
+}
+
+// A fin on an edge: three triangles share it.
+TEST_F(ApiBadInput, EdgesOfThreeTrianglesStillCollide) {
+  TestMesh fin = cube;
+  fin.vertices.insert(fin.vertices.end(), {0, 0, 2});
+  fin.indices.insert(fin.indices.end(), {fin.indices[0], fin.indices[1],
+                                         static_cast<unsigned>(fin.vertex_count() - 1)});
+  EXPECT_FALSE(contacts_of(fin, on_block, block, {}).empty());
+}
+
+TEST_F(ApiBadInput, TwoSolidsInOneMeshBothCollide) {
+  const TestMesh pair = merged(moved(cube, {-4, 0, 0}), moved(cube, {4, 0, 0}));
+  const Contacts contacts = contacts_of(pair, at(0.1, 0.2, 1.9), make_box({16, 16, 2}), {});
+  bool left = false, right = false;
+  for (const dContactGeom& c : contacts) (c.pos[0] < 0 ? left : right) = true;
+  EXPECT_TRUE(left);
+  EXPECT_TRUE(right);
+}
+
+TEST_F(ApiBadInput, AnInvertedClosedMeshHasTheContactsOfTheUprightOne) {
+  const TestMesh torus = make_torus(1, 0.4, 12, 8);
+  const TestPose pose = turned({1, 2, 3}, 1, {0.3, 0.2, 1.3});
+  const Contacts upright = contacts_of(torus, pose, block, {});
+  const Contacts turned_in = contacts_of(inverted(torus), pose, inverted(block), {});
+  ASSERT_FALSE(upright.empty());
+  EXPECT_EQ(difference(turned_in, upright), "");
+}
+
+TEST_F(ApiBadInput, AnOpenSheetCarriesACube) {
+  const Contacts contacts = contacts_of(cube, at(0.1, 0.2, 0.9), make_sheet(8, 3), {});
+  ASSERT_FALSE(contacts.empty());
+  for (const dContactGeom& c : contacts) {
+    EXPECT_LT(distance(normal(c), {0, 0, 1}), 1e-6);
+    EXPECT_LE(c.depth, 0.1 + 1e-6);
+  }
+  EXPECT_NEAR(contacts[0].depth, 0.1, 1e-6);
+}
+
+TEST_F(ApiBadInput, TwoOpenSheetsDoNotCrash) {
+  contacts_of(make_sheet(4, 3), {}, make_sheet(4, 3), turned({1, 0, 0}, 0.7, {0.1, 0.1, 0.1}));
+}
+
+// The answer scales with the scene: float has the same digits everywhere.
+TEST_F(ApiBadInput, CoordinatesOfAMillionAndAMillionthCollideAsThoseOfOne) {
+  const Contacts one = contacts_of(cube, on_block, block, {});
+  ASSERT_FALSE(one.empty());
+  for (const double scale : {0x1p20, 0x1p-20}) {  // powers of two: nothing rounds differently
+    TestPose pose = on_block;
+    pose.position = scale * pose.position;
+    const Contacts other = contacts_of(scaled(cube, scale), pose, scaled(block, scale), {});
+    ASSERT_EQ(other.size(), one.size()) << scale;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_NEAR(other[i].depth / scale, one[i].depth, 1e-6) << scale;
+      EXPECT_LT(distance(normal(other[i]), normal(one[i])), 1e-6) << scale;
+      EXPECT_LT(distance((1 / scale) * pos(other[i]), pos(one[i])), 1e-5) << scale;
+    }
+  }
+}
+
+// A grain on a boulder: the coordinates of the pair are the boulder's.
+TEST_F(ApiBadInput, ATinyMeshOnALargeOneCollides) {
+  const TestMesh grain = make_cube(0.01), boulder = make_cube(1000);
+  EXPECT_FALSE(contacts_of(grain, at(0.1, 0.2, 500.004), boulder, {}).empty());
+  EXPECT_TRUE(contacts_of(grain, at(0.1, 0.2, 500.006), boulder, {}).empty());
+}
+
+}  // namespace
+}  // namespace ode_ext::test

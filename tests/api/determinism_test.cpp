@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The same poses and meshes give the same bytes, whatever else is different.
+#include <algorithm>
+#include <cmath>
+
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+class ApiDeterminism : public ::testing::Test {
+ protected:
+  std::vector<Contacts> answers(const BatchCollider::Change& change = {}) {
+    return answers_of(BatchCollider(change).pass(space));
+  }
+
+  OdeWorld world;
+  dSpaceID space = world.space(SpaceKind::Hash);
+  Pile pile{world, space, 12, 1};
+};
+
+TEST_F(ApiDeterminism, RepeatedRunsAgree) {
+  const auto expected = answers();
+  ASSERT_GT(expected.size(), 20u);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(difference(answers(), expected), "");
+}
+
+TEST_F(ApiDeterminism, WorkGroupSizesAgree) {
+  const auto expected = answers();
+  for (const int size : {1, 32, 64, 256}) {
+    EXPECT_EQ(difference(answers([=](auto& p) { p.work_group_size = size; }), expected), "")
+        << size;
+  }
+}
+
+// 0.01 launches far too few work-groups in the second pass: each must do more, none may be lost.
+TEST_F(ApiDeterminism, ConfidencesAgree) {
+  const auto first = answers();
+  pile.shake(2);
+  const auto second = answers();
+  EXPECT_NE(difference(first, second), "");
+  for (const double confidence : {0.01, 10.0}) {
+    const BatchCollider collider([=](auto& p) { p.confidence = confidence; });
+    pile.shake(1);
+    EXPECT_EQ(difference(answers_of(collider.pass(space)), first), "") << confidence;
+    pile.shake(2);
+    EXPECT_EQ(difference(answers_of(collider.pass(space)), second), "") << confidence;
+  }
+}
+
+TEST_F(ApiDeterminism, ASmallInitialCapacityLosesNothing) {
+  const auto expected = answers();
+  EXPECT_EQ(difference(answers([](auto& p) { p.initial_capacity = 1; }), expected), "");
+}
+
+TEST_F(ApiDeterminism, ExactAndPredictedWorkloadsAgree) {
+  const auto expected = answers();
+  EXPECT_EQ(difference(answers([](auto& p) { p.workload = dBatchWorkloadExact; }), expected), "");
+}
+
+TEST_F(ApiDeterminism, BothPredictionsAgree) {
+  const auto expected = answers();
+  EXPECT_EQ(difference(answers([](auto& p) { p.prediction = dBatchPredictionPlain; }), expected),
+            "");
+}
+
+TEST_F(ApiDeterminism, APairAloneAgreesWithABatch) {
+  const Collected batch = BatchCollider().pass(space);
+  for (const auto& [pair, contacts] : batch.contacts) {
+    EXPECT_EQ(difference_with_geoms(fresh_answer(pair.first, pair.second), contacts), "");
+  }
+}
+
+TEST_F(ApiDeterminism, AnswersDoNotDependOnHowThePosesWereReached) {
+  const auto expected = answers();
+  const BatchCollider collider;
+  for (std::uint64_t seed = 2; seed < 12; ++seed) {
+    pile.shake(seed);
+    collider.pass(space);
+  }
+  pile.shake(1);
+  EXPECT_EQ(difference(answers_of(collider.pass(space)), expected), "");
+}
+
+// Small steps, as in a simulation: what is kept from the last pass may not show.
+TEST_F(ApiDeterminism, AnswersAfterSmallStepsAreThoseOfAFreshCollider) {
+  const BatchCollider collider;
+  for (int step = 0; step < 5; ++step) {
+    for (const dGeomID geom : pile.geoms) {
+      const TestPose pose = pose_of(geom);
+      set_pose(geom, composed(pose, turned({1, 2, 3}, 0.01, {0.001, 0, -0.002})));
+    }
+    EXPECT_EQ(difference(answers_of(collider.pass(space)), answers()), "") << "step " << step;
+  }
+}
+
+TEST_F(ApiDeterminism, AnswersDoNotDependOnTheOtherPairsOfTheBatch) {
+  const Contacts expected = fresh_answer(pile.geoms[0], pile.geoms[1]);
+  for (std::size_t i = 2; i < pile.geoms.size(); ++i) dGeomDisable(pile.geoms[i]);
+  BatchCollider().pass(space);
+  EXPECT_EQ(difference_with_geoms(fresh_answer(pile.geoms[0], pile.geoms[1]), expected), "");
+}
+
+// The order of creation decides ODE's pair order, and with it who is first in a pair.
+TEST_F(ApiDeterminism, AnswersDoNotDependOnWhichGeomOdeNamesFirst) {
+  const BatchCollider collider;
+  for (std::size_t i = 1; i < pile.geoms.size(); ++i) {
+    const Contacts forward = fresh_answer(pile.geoms[0], pile.geoms[i]);
+    EXPECT_EQ(difference_with_geoms(fresh_answer(pile.geoms[i], pile.geoms[0]), flipped(forward)),
+              "");
+  }
+}
+
+// Other addresses of geoms and meshes may not decide anything.
+TEST_F(ApiDeterminism, ASecondSceneOfTheSameMakeAgrees) {
+  const auto expected = answers();
+  const dSpaceID again = world.space(SpaceKind::Hash);
+  Pile twin(world, again, 12, 1);
+  EXPECT_EQ(difference(answers_of(BatchCollider().pass(again)), expected), "");
+}
+
+// Poses are subtracted in double. The pile's offsets are multiples of 2^-10, so adding 10^6 rounds
+// nothing before the library sees them; positions are 10^6 + a double's 2^-33 there.
+TEST_F(ApiDeterminism, FarFromTheOriginContactsAreTheSameToATenthOfAMillimetre) {
+  const Point far{1e6, -1e6, 1e6};
+  const dSpaceID there = world.space(SpaceKind::Simple);  // a hash space would overflow its cells
+  Pile twin(world, there, 12, 1, far);
+  const dSpaceID here = world.space(SpaceKind::Simple);
+  Pile twin_here(world, here, 12, 1);
+  const BatchCollider collider;
+  const auto expected = answers_of(collider.pass(here)), got = answers_of(collider.pass(there));
+  ASSERT_EQ(got.size(), expected.size());
+  long long compared = 0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    ASSERT_EQ(got[i].size(), expected[i].size()) << "pair " << i;
+    for (const dContactGeom& c : got[i]) {
+      EXPECT_TRUE(std::any_of(expected[i].begin(), expected[i].end(),
+                              [&](const auto& other) {
+                                return distance(pos(c) - far, pos(other)) < 1e-4 &&
+                                       distance(normal(c), normal(other)) < 1e-4 &&
+                                       std::fabs(c.depth - other.depth) < 1e-4 &&
+                                       c.side1 == other.side1 && c.side2 == other.side2;
+                              }))
+          << "pair " << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 50);
+}
+
+}  // namespace
+}  // namespace ode_ext::test

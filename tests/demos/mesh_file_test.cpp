@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/mesh_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "falling_objects/shapes.h"
+
+namespace falling_objects {
+namespace {
+
+std::string write_file(const std::string& name, const std::string& text) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string message_of(const std::string& path) {
+  try {
+    load_mesh(path);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+// A unit cube of quads, as a modeller writes it, far from the origin.
+constexpr const char* kCube =
+    "v 10 0 0\nv 11 0 0\nv 11 1 0\nv 10 1 0\nv 10 0 1\nv 11 0 1\nv 11 1 1\nv 10 1 1\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+TEST(MeshFile, ReadsAnObjAsAClosedCentredMeshOfTheRightSize) {
+  const TriangleMesh cube = load_mesh(write_file("cube.obj", kCube));
+  EXPECT_EQ(cube.vertex_count(), 8u);
+  EXPECT_EQ(cube.triangle_count(), 12u);
+  EXPECT_TRUE(is_closed(cube));
+  // A cube of bounding radius 0.5 has an edge of 1 / sqrt(3).
+  EXPECT_NEAR(signed_volume(cube), 1 / (3 * std::sqrt(3.0)), 1e-6);
+  for (const double x : centre(cube, true)) EXPECT_NEAR(x, 0, 1e-6);
+  EXPECT_NEAR(bounding_radius(cube), kShapeRadius, 1e-6);
+}
+
+TEST(MeshFile, TurnsAClosedMeshThatIsInsideOut) {
+  std::string inverted = kCube;
+  for (const auto& [from, to] : {std::pair{"f 4 3 2 1", "f 1 2 3 4"},
+                                 {"f 5 6 7 8", "f 8 7 6 5"},
+                                 {"f 1 2 6 5", "f 5 6 2 1"},
+                                 {"f 2 3 7 6", "f 6 7 3 2"},
+                                 {"f 3 4 8 7", "f 7 8 4 3"},
+                                 {"f 4 1 5 8", "f 8 5 1 4"}}) {
+    inverted.replace(inverted.find(from), 9, to);
+  }
+  EXPECT_GT(signed_volume(load_mesh(write_file("inverted.obj", inverted))), 0.1);
+}
+
+TEST(MeshFile, WeldsTheLooseTrianglesOfAnStl) {
+  const std::string stl =
+      "solid t\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 "
+      "0\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 "
+      "1\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 0 "
+      "1\nendloop\nendfacet\n"
+      "facet normal 0 0 0\nouter loop\nvertex 0 1 0\nvertex 0 0 0\nvertex 0 0 "
+      "1\nendloop\nendfacet\n"
+      "endsolid t\n";
+  const TriangleMesh mesh = load_mesh(write_file("tetrahedron.stl", stl));
+  EXPECT_EQ(mesh.vertex_count(), 4u);
+  EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(MeshFile, ReadsAPly) {
+  const TriangleMesh mesh = load_mesh(write_file(
+      "triangle.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"));
+  EXPECT_EQ(mesh.triangle_count(), 1u);
+  EXPECT_FALSE(is_closed(mesh));
+}
+
+TEST(MeshFile, NamesAFileThatCannotBeRead) {
+  const std::string message = message_of("no_such_file.obj");
+  EXPECT_NE(message.find("no_such_file.obj"), std::string::npos) << message;
+  const std::string garbage = write_file("garbage.obj", "\x01\x02 nothing\n");
+  EXPECT_NE(message_of(garbage).find("garbage.obj"), std::string::npos);
+}
+
+TEST(MeshFile, RefusesAMeshWithoutTriangles) {
+  for (const char* text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n"}) {
+    const std::string path = write_file("empty.obj", text);
+    EXPECT_NE(message_of(path).find("empty.obj"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace falling_objects

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <ode_ext/ode_ext.h>
+
+#include <sstream>
+
+namespace falling_objects {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+struct Outcome {
+  ParsedOptions parsed;
+  std::string out, err;
+};
+
+Outcome parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "falling_objects");
+  std::ostringstream out, err;
+  Outcome outcome;
+  outcome.parsed = parse_options(static_cast<int>(arguments.size()), arguments.data(), out, err);
+  outcome.out = out.str();
+  outcome.err = err.str();
+  return outcome;
+}
+
+TEST(Options, AreThePapersSceneByDefault) {
+  const Outcome outcome = parse({});
+  ASSERT_FALSE(outcome.parsed.exit_code);
+  const Options& o = outcome.parsed.options;
+  EXPECT_EQ(o.objects, 1000);
+  EXPECT_EQ(o.steps, 600);
+  EXPECT_EQ(o.hz, 60);
+  EXPECT_EQ(o.collider, Collider::kBatch);
+  EXPECT_EQ(o.max_contacts, 16);
+  EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
+  EXPECT_EQ(o.prediction, dBatchPredictionPairScaled);
+}
+
+TEST(Options, TakeEveryNameForItsValue) {
+  const Options o = parse({"--collider", "ode", "--workload", "exact", "--prediction", "plain",
+                           "--confidence", "0.5", "--device", "pocl", "--compare", "--check-rest"})
+                        .parsed.options;
+  EXPECT_EQ(o.collider, Collider::kOde);
+  EXPECT_EQ(o.workload, dBatchWorkloadExact);
+  EXPECT_EQ(o.prediction, dBatchPredictionPlain);
+  EXPECT_EQ(o.confidence, 0.5);
+  EXPECT_EQ(o.device, "pocl");
+  EXPECT_TRUE(o.compare);
+  EXPECT_TRUE(o.check_rest);
+  EXPECT_FALSE(o.check);
+}
+
+TEST(Options, CollectRepeatedMeshes) {
+  EXPECT_THAT(parse({"--mesh", "a.obj", "--mesh", "b.ply"}).parsed.options.meshes,
+              ElementsAre("a.obj", "b.ply"));
+}
+
+TEST(Options, ExplainThemselvesAndSucceed) {
+  const Outcome outcome = parse({"--help"});
+  EXPECT_EQ(outcome.parsed.exit_code, kExitOk);
+  for (const char* text : {"--objects", "--compare", "--check-rest", "Exit codes", "Examples"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(text));
+  }
+}
+
+class WrongOptions : public testing::TestWithParam<std::vector<const char*>> {};
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongOptions,
+    testing::Values(std::vector{"--unknown"}, std::vector{"--objects", "0"},
+                    std::vector{"--objects", "many"}, std::vector{"--hz", "-60"},
+                    std::vector{"--hz", "0"}, std::vector{"--max-contacts", "65"},
+                    std::vector{"--collider", "none"}, std::vector{"--scene", "soft"},
+                    std::vector{"--confidence", "-1"}, std::vector{"--steps", "-1"},
+                    std::vector{"--mesh"}, std::vector{"stray"}));
+
+TEST_P(WrongOptions, AreRefusedWithAMessageAndCode2) {
+  const Outcome outcome = parse(GetParam());
+  EXPECT_EQ(outcome.parsed.exit_code, kExitUsage);
+  EXPECT_FALSE(outcome.err.empty());
+}
+
+}  // namespace
+}  // namespace falling_objects

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The pipeline as a whole: what decides how long a step takes must not decide what it gives.
+#include "pipeline/collider.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "pipeline/test_scene.h"
+#include "support/points.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Bits = std::vector<std::vector<ContactBits>>;
+
+Bits collide(const TestScene& scene, const ColliderOptions& options = {}) {
+  Collider collider(options);
+  return bits_of(collider.collide(scene.scene, nullptr));
+}
+
+std::size_t contact_count(const Bits& bits) {
+  return std::accumulate(bits.begin(), bits.end(), std::size_t{0},
+                         [](std::size_t sum, const auto& pair) { return sum + pair.size(); });
+}
+
+// 300 pairs, and some with thousands of vertices.
+TestScene scene_with_large_meshes() {
+  TestScene scene = random_scene(300, 51);
+  const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.6, 4));
+  const std::uint32_t cube = scene.add_mesh(make_cube(1, 12));
+  Random random(52);
+  for (int i = 0; i < 10; ++i) {
+    const TestPose a = random.pose(0.5);
+    scene.add_pair(i % 2 == 0 ? sphere : cube, a, i % 3 == 0 ? sphere : cube, random.pose(0.5));
+  }
+  return scene;
+}
+
+// The same objects and pairs, in the order that `order` names.
+TestScene reordered(const TestScene& scene, const std::vector<std::size_t>& order) {
+  TestScene result;
+  result.scene.meshes = scene.scene.meshes;
+  for (const std::size_t i : order)
+    result.add_pair(scene.objects[scene.pairs[i][0]].mesh, scene.pose_of(i, 0),
+                    scene.objects[scene.pairs[i][1]].mesh, scene.pose_of(i, 1));
+  return result;
+}
+
+std::vector<std::size_t> shuffled_order(std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  Random random(seed);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  return order;
+}
+
+TEST(Collider, AnswersNothingForNoPairs) {
+  Collider collider({});
+  TestScene scene = random_scene(3, 1);
+  scene.scene.pairs.clear();
+  History history{5, {9, 9, 9, 9}};
+  const PairContacts& result = collider.collide(scene.scene, &history);
+  EXPECT_TRUE(result.ranges.empty());
+  EXPECT_TRUE(result.contacts.empty());
+  EXPECT_TRUE(collider.collide(Scene{}, nullptr).ranges.empty());
+  EXPECT_EQ(collider.report().synchronizations, 0);
+}
+
+TEST(Collider, AnswersEveryPairInItsPlace) {
+  Collider collider({});
+  for (const int count : {1, 63, 64, 65, 1234}) {
+    const TestScene scene = random_scene(count, 53);
+    const PairContacts& result = collider.collide(scene.scene, nullptr);
+    ASSERT_EQ(result.ranges.size(), static_cast<std::size_t>(count));
+    std::size_t next = 0;
+    for (const PairContacts::Range& range : result.ranges) {
+      EXPECT_EQ(range.first, next);
+      EXPECT_LE(range.count, 16u);
+      next += range.count;
+    }
+    EXPECT_EQ(next, result.contacts.size());
+    for (std::size_t i = 0; i < result.ranges.size(); ++i) {
+      for (std::uint32_t k = 0; k < result.ranges[i].count; ++k) {
+        const Contact& c = result.contacts[result.ranges[i].first + k];
+        EXPECT_NEAR(length(c.normal), 1, 1e-12);
+        EXPECT_GE(c.depth, 0);
+        EXPECT_LT(distance(point_of(c.position), scene.pose_of(i, 0).position), 2);
+        for (std::size_t side = 0; side < 2; ++side)
+          EXPECT_LT(c.triangles[side],
+                    static_cast<std::uint32_t>(scene.mesh_of(i, side).triangle_count()));
+      }
+    }
+  }
+}
+
+TEST(Collider, HandsOutTheTrianglesOfBothMeshesAtTheContact) {
+  const TestScene scene = scene_with_large_meshes();
+  Collider collider({});
+  const PairContacts& result = collider.collide(scene.scene, nullptr);
+  std::size_t of_vertices = 0;
+  for (std::size_t i = 0; i < result.ranges.size(); ++i) {
+    for (std::uint32_t k = 0; k < result.ranges[i].count; ++k) {
+      const Contact& c = result.contacts[result.ranges[i].first + k];
+      // One of the triangles has the position as a corner, the other the normal.
+      bool found = false;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const TestPose &ps = scene.pose_of(i, side), &pt = scene.pose_of(i, 1 - side);
+        double nearest = INFINITY;
+        for (std::size_t corner = 0; corner < 3; ++corner)
+          nearest = std::min(
+              nearest, distance(to_world(ps, scene.mesh_of(i, side).corner(c.triangles[side], corner)),
+                                point_of(c.position)));
+        const TestMesh& target = scene.mesh_of(i, 1 - side);
+        const std::size_t t = c.triangles[1 - side];
+        const Point normal = rotate(pt, unit(cross(target.corner(t, 1) - target.corner(t, 0),
+                                                   target.corner(t, 2) - target.corner(t, 0))));
+        // Of inverted meshes the normal is turned outwards.
+        found = found ||
+                (nearest < 1e-9 && std::fabs(dot(normal, point_of(c.normal))) > 1 - 1e-9);
+      }
+      of_vertices += found;
+    }
+  }
+  EXPECT_EQ(of_vertices, result.contacts.size());
+}
+
+TEST(Collider, GivesTheSameBytesAgain) {
+  const TestScene scene = scene_with_large_meshes();
+  Collider collider({});
+  History history;
+  const Bits first = bits_of(collider.collide(scene.scene, &history));
+  ASSERT_GT(contact_count(first), 1000u);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(bits_of(collider.collide(scene.scene, &history)), first);
+  EXPECT_EQ(collide(scene), first);
+}
+
+TEST(Collider, GivesTheSameBytesWhateverItComputedBefore) {
+  const TestScene scene = scene_with_large_meshes();
+  const Bits expected = collide(scene);
+  Collider collider({});
+  History history;
+  for (std::uint64_t seed = 1; seed < 4; ++seed) {
+    collider.collide(random_scene(50 * static_cast<int>(seed), seed).scene, &history);
+    EXPECT_EQ(bits_of(collider.collide(scene.scene, &history)), expected);
+  }
+}
+
+TEST(Collider, GivesTheSameBytesForEveryWorkGroupSize) {
+  const TestScene scene = scene_with_large_meshes();
+  const Bits expected = collide(scene);
+  for (const std::uint32_t size : {1u, 32u, 256u}) {
+    ColliderOptions options;
+    options.work_group_size = size;
+    EXPECT_EQ(collide(scene, options), expected) << size;
+  }
+}
+
+TEST(Collider, GivesTheSameBytesForEveryPrediction) {
+  const TestScene scene = scene_with_large_meshes();
+  const TestScene other = random_scene(7, 54);
+  const Bits expected = collide(scene);
+  for (const PredictionRule rule : {PredictionRule::kPairScaled, PredictionRule::kPlain}) {
+    for (const double confidence : {0.01, 1.0, 10.0}) {
+      ColliderOptions options;
+      options.prediction = rule;
+      options.confidence = confidence;
+      options.initial_capacity = 16;
+      Collider collider(options);
+      History history;
+      collider.collide(other.scene, &history);  // far too little to go by
+      EXPECT_EQ(bits_of(collider.collide(scene.scene, &history)), expected);
+      EXPECT_EQ(bits_of(collider.collide(scene.scene, &history)), expected);
+    }
+  }
+}
+
+TEST(Collider, GivesTheSameBytesForTheExactWorkload) {
+  const TestScene scene = scene_with_large_meshes();
+  ColliderOptions options;
+  options.workload = Workload::kExact;
+  EXPECT_EQ(collide(scene, options), collide(scene));
+}
+
+TEST(Collider, RedoesAStepWhoseBuffersOverflowAndLosesNothing) {
+  const TestScene scene = scene_with_large_meshes();
+  ColliderOptions roomy, tight;
+  roomy.initial_capacity = 1 << 20;
+  tight.initial_capacity = 1;
+  Collider with_room(roomy), without(tight);
+  const Bits expected = bits_of(with_room.collide(scene.scene, nullptr));
+  EXPECT_EQ(with_room.report().redone, 0);
+  EXPECT_EQ(bits_of(without.collide(scene.scene, nullptr)), expected);
+  // Tasks, rays, hits and contacts one after the other at most.
+  EXPECT_GE(without.report().redone, 1);
+  EXPECT_LE(without.report().redone, 4);
+  EXPECT_EQ(without.report().actual, with_room.report().actual);
+  EXPECT_EQ(without.report().pairs_bounded, with_room.report().pairs_bounded);
+  EXPECT_EQ(bits_of(without.collide(scene.scene, nullptr)), expected);
+  EXPECT_EQ(without.report().redone, 0) << "what has grown stays";
+}
+
+TEST(Collider, GivesTheSameBytesInManyTiles) {
+  const TestScene scene = scene_with_large_meshes();
+  const Bits expected = collide(scene);
+  Collider whole({});
+  whole.collide(scene.scene, nullptr);
+  for (const std::uint64_t vertices : {1, 100, 5000}) {
+    ColliderOptions options;
+    options.tile_vertices = vertices;
+    Collider collider(options);
+    EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected) << vertices;
+    EXPECT_GT(collider.report().synchronizations, 1);
+    EXPECT_EQ(collider.report().actual, whole.report().actual);
+    EXPECT_EQ(collider.report().pairs_bounded, whole.report().pairs_bounded);
+  }
+}
+
+TEST(Collider, GivesAPairTheSameBytesAloneAndAmongOthers) {
+  const TestScene scene = scene_with_large_meshes();
+  Collider collider({});
+  const Bits all = bits_of(collider.collide(scene.scene, nullptr));
+  for (std::size_t i = 0; i < scene.pairs.size(); i += 7) {
+    const Bits alone = bits_of(collider.collide(reordered(scene, {i}).scene, nullptr));
+    EXPECT_EQ(alone, Bits{all[i]}) << "pair " << i;
+  }
+}
+
+TEST(Collider, GivesTheSameBytesInEveryOrderOfPairs) {
+  const TestScene scene = scene_with_large_meshes();
+  Collider collider({});
+  const Bits bits = bits_of(collider.collide(scene.scene, nullptr));
+  const auto order = shuffled_order(scene.pairs.size(), 55);
+  const Bits shuffled = bits_of(collider.collide(reordered(scene, order).scene, nullptr));
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shuffled[i], bits[order[i]]);
+}
+
+TEST(Collider, GivesTheSameBytesInEveryOrderOfMeshes) {
+  const TestScene scene = scene_with_large_meshes();
+  const auto order = shuffled_order(scene.meshes.size(), 56);
+  Scene moved = scene.scene;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    moved.meshes[i] = scene.scene.meshes[order[i]];
+    for (std::size_t k = 0; k < moved.objects.size(); ++k)
+      if (scene.objects[k].mesh == order[i]) moved.objects[k].mesh = static_cast<std::uint32_t>(i);
+  }
+  Collider collider({});
+  const Bits bits = bits_of(collider.collide(scene.scene, nullptr));
+  EXPECT_EQ(bits_of(collider.collide(moved, nullptr)), bits);
+}
+
+// Poses whose differences are exact wherever they are: then the whole step must be the same.
+TEST(Collider, GivesTheSameDepthsAMillionMetresFromTheOrigin) {
+  TestScene near = scene_with_large_meshes();
+  const Point place{1e6, -1e6, 1e6 + 0.5};
+  TestScene far;
+  far.scene.meshes = near.scene.meshes;
+  for (std::size_t i = 0; i < near.pairs.size(); ++i) {
+    TestPose poses[2];
+    for (std::size_t side = 0; side < 2; ++side) {
+      poses[side] = near.pose_of(i, side);
+      for (double& x : poses[side].position) x = std::round(x * 0x1p20) / 0x1p20;
+      const std::uint32_t object = near.pairs[i][side];
+      near.scene.objects[object].pose = collider_pose(poses[side]);
+      poses[side].position = poses[side].position + place;
+    }
+    far.add_pair(near.objects[near.pairs[i][0]].mesh, poses[0],
+                 near.objects[near.pairs[i][1]].mesh, poses[1]);
+  }
+  Collider collider({});
+  const PairContacts at_origin = collider.collide(near.scene, nullptr);
+  const PairContacts& far_away = collider.collide(far.scene, nullptr);
+  ASSERT_EQ(far_away.contacts.size(), at_origin.contacts.size());
+  for (std::size_t i = 0; i < at_origin.contacts.size(); ++i) {
+    const Contact &a = at_origin.contacts[i], &b = far_away.contacts[i];
+    EXPECT_EQ(a.depth, b.depth);
+    EXPECT_EQ(a.normal, b.normal);
+    EXPECT_EQ(a.triangles, b.triangles);
+    // A double at 1e6 m has steps of 2^-33 m.
+    EXPECT_LT(distance(point_of(b.position) - place, point_of(a.position)), 0x1p-31);
+  }
+}
+
+TEST(Collider, WaitsForTheDeviceOnceInAStepLikeTheLast) {
+  for (const int pairs : {20, 300, 1234}) {
+    const TestScene scene = random_scene(pairs, 57);
+    Collider collider({});
+    History history;
+    collider.collide(scene.scene, &history);
+    collider.collide(scene.scene, &history);
+    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, second step";
+    collider.collide(scene.scene, &history);
+    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, third step";
+  }
+}
+
+TEST(Collider, WaitsForEveryCountWhereTheExactWorkloadIsAskedFor) {
+  const TestScene scene = random_scene(100, 58);
+  ColliderOptions options;
+  options.workload = Workload::kExact;
+  Collider collider(options);
+  History history;
+  for (int i = 0; i < 3; ++i) collider.collide(scene.scene, &history);
+  EXPECT_EQ(collider.report().synchronizations, 4);  // chunks, rays, hits, and the answer
+}
+
+TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
+  const TestScene scene = random_scene(100, 59);
+  Collider collider({});
+  History history;
+  collider.collide(scene.scene, &history);
+  const StepReport first = collider.report();
+  EXPECT_EQ(first.pairs, 100u);
+  EXPECT_EQ(history.pairs, 100u);
+  EXPECT_EQ(history.counts, first.actual);
+  EXPECT_EQ(first.predicted, (ArrowCounts{1, 1, 1, 1}));
+  collider.collide(scene.scene, &history);
+  const StepReport& second = collider.report();
+  EXPECT_EQ(second.actual, first.actual);
+  for (std::size_t i = 0; i < kArrowCount; ++i) {
+    EXPECT_GT(first.actual[i], 0u);
+    EXPECT_EQ(second.predicted[i],
+              static_cast<std::uint64_t>(std::ceil(1.2 * static_cast<double>(first.actual[i]))));
+    EXPECT_GE(second.capacity[i], second.predicted[i]);
+  }
+  EXPECT_GT(second.ms_ray_step, 0);
+  EXPECT_GE(second.ms_total, second.ms_ray_step);
+}
+
+TEST(Collider, LeavesTheHistoryOfAPassAloneInSingleCalls) {
+  const TestScene scene = random_scene(100, 60);
+  Collider collider({});
+  History history;
+  collider.collide(scene.scene, &history);
+  const History before = history;
+  collider.collide(random_scene(3, 61).scene, nullptr);
+  EXPECT_EQ(history.pairs, before.pairs);
+  collider.collide(scene.scene, &history);
+  EXPECT_EQ(collider.report().redone, 0);
+}
+
+TEST(Collider, AnswersNothingForMeshesWithoutTriangles) {
+  TestScene scene;
+  const std::uint32_t empty = scene.add_mesh(TestMesh{});
+  const std::uint32_t cube = scene.add_mesh(make_cube(1));
+  TestMesh not_finite = make_cube(1);
+  not_finite.vertices[4] = std::numeric_limits<float>::quiet_NaN();
+  const std::uint32_t broken = scene.add_mesh(not_finite);
+  scene.add_pair(empty, at(0, 0, 0), cube, at(0, 0, 0));
+  scene.add_pair(cube, at(0, 0, 0), broken, at(0, 0, 0));
+  scene.add_pair(cube, at(0, 0, 0.9), cube, at(0.1, 0.2, 0));
+  const Bits bits = collide(scene);
+  EXPECT_TRUE(bits[0].empty());
+  EXPECT_TRUE(bits[1].empty());
+  EXPECT_FALSE(bits[2].empty());
+}
+
+}  // namespace
+}  // namespace ode_ext::test

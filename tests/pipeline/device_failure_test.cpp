@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A device that fails in any of its calls: the step throws, and the next one is whole again.
+#include <gtest/gtest.h>
+
+#include "pipeline/collider.h"
+#include "pipeline/test_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Bits = std::vector<std::vector<ContactBits>>;
+
+class DeviceFailure : public ::testing::Test {
+ protected:
+  ~DeviceFailure() override { fault_injector::disarm(); }
+};
+
+constexpr int kCode = CL_INVALID_OPERATION;  // says nothing of memory: there is no second try
+
+// Makes the nth call of a step fail, for n = 1 until the step has no more calls; `prepare` comes
+// before each. Returns how many calls failed.
+template <class Prepare>
+int fail_every_call(Collider& collider, const Scene& scene, const Bits& expected, int code,
+                    const Prepare& prepare) {
+  for (int n = 1;; ++n) {
+    prepare();
+    fault_injector::arm(n, code);
+    bool failed = false;
+    try {
+      const Bits bits = bits_of(collider.collide(scene, nullptr));
+      EXPECT_EQ(bits, expected) << "call " << n;
+    } catch (const DeviceError& error) {
+      failed = true;
+      EXPECT_EQ(error.code(), code);
+    }
+    const bool fired = fault_injector::calls_checked() >= n;
+    fault_injector::disarm();
+    EXPECT_EQ(bits_of(collider.collide(scene, nullptr)), expected) << "after call " << n;
+    if (!fired) return n - 1;
+    EXPECT_TRUE(failed || code != kCode) << "call " << n << " went unnoticed";
+    if (::testing::Test::HasFailure()) return n;
+  }
+}
+
+TEST_F(DeviceFailure, IsReportedFromEveryCallOfAStepAndThenForgotten) {
+  const TestScene scene = random_scene(20, 71);
+  Collider collider({});
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);
+}
+
+TEST_F(DeviceFailure, IsReportedWhileMeshesAreUploaded) {
+  const TestScene scene = random_scene(20, 72), other = random_scene(5, 73);
+  Collider collider({});
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode,
+                            [&] { collider.collide(other.scene, nullptr); }),
+            26);
+}
+
+TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) {
+  const TestScene scene = random_scene(20, 74);
+  ColliderOptions options;
+  options.initial_capacity = 1;
+  Collider reference(options);
+  const Bits expected = bits_of(reference.collide(scene.scene, nullptr));
+  ASSERT_GT(reference.report().redone, 0);
+  // Every third call, since each needs a collider of its own; the rounds of the redone step repeat
+  // their calls, and not in threes.
+  for (int n = 1;; n += 3) {
+    Collider collider(options);
+    fault_injector::arm(n, kCode);
+    bool failed = false;
+    try {
+      collider.collide(scene.scene, nullptr);
+    } catch (const DeviceError&) {
+      failed = true;
+    }
+    const bool fired = fault_injector::calls_checked() >= n;
+    fault_injector::disarm();
+    ASSERT_EQ(failed, fired) << "call " << n;
+    ASSERT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected) << "after call " << n;
+    if (!fired) break;
+    ASSERT_LT(n, 500);
+  }
+}
+
+TEST_F(DeviceFailure, IsReportedWhereEveryCountIsWaitedFor) {
+  const TestScene scene = random_scene(20, 75);
+  ColliderOptions options;
+  options.workload = Workload::kExact;
+  Collider collider(options);
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);
+}
+
+// Memory that runs out in the middle of a step: halves of it may fit.
+TEST_F(DeviceFailure, OfMemoryIsMetWithSmallerTilesOrReported) {
+  const TestScene scene = random_scene(20, 76), other = random_scene(5, 77);
+  for (const int code : {CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_RESOURCES}) {
+    Collider collider({});
+    const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+    EXPECT_GT(fail_every_call(collider, scene.scene, expected, code,
+                              [&] { collider.collide(other.scene, nullptr); }),
+              20);
+  }
+  Collider collider({});
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  fault_injector::arm(10, CL_OUT_OF_RESOURCES);
+  EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+  EXPECT_GT(collider.report().redone, 0);
+}
+
+TEST_F(DeviceFailure, OfASinglePairIsReportedWhateverTheCode) {
+  const TestScene scene = one_pair(make_cube(1), at(0.1, 0.2, 0.9), make_cube(1), at(0, 0, 0));
+  Collider collider({});
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  fault_injector::arm(10, CL_OUT_OF_RESOURCES);
+  EXPECT_THROW(collider.collide(scene.scene, nullptr), DeviceError);
+  fault_injector::disarm();
+  EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+}
+
+}  // namespace
+}  // namespace ode_ext::test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Host and device lay out what they share alike.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "device/program.h"
+#include "shared/types.h"
+
+namespace ode_ext {
+namespace {
+
+struct Member {
+  std::string type, name;
+  std::size_t host;
+};
+
+#define SIZE_OF(type) \
+  { #type, "", sizeof(type) }
+#define OFFSET_OF(type, member) \
+  { #type, #member, offsetof(type, member) }
+
+const std::vector<Member> kMembers = {
+    SIZE_OF(ox_object),
+    OFFSET_OF(ox_object, rotation),
+    OFFSET_OF(ox_object, hi),
+    OFFSET_OF(ox_object, lo),
+    OFFSET_OF(ox_object, mesh),
+    SIZE_OF(ox_mesh),
+    OFFSET_OF(ox_mesh, chunk_first),
+    OFFSET_OF(ox_mesh, chunk_count),
+    OFFSET_OF(ox_mesh, node_first),
+    OFFSET_OF(ox_mesh, node_count),
+    OFFSET_OF(ox_mesh, triangle_first),
+    OFFSET_OF(ox_mesh, grid_first),
+    OFFSET_OF(ox_mesh, clearance_first),
+    OFFSET_OF(ox_mesh, grid_cells),
+    OFFSET_OF(ox_mesh, flags),
+    OFFSET_OF(ox_mesh, box_centre),
+    OFFSET_OF(ox_mesh, box_half),
+    OFFSET_OF(ox_mesh, grid_origin),
+    OFFSET_OF(ox_mesh, grid_scale),
+    OFFSET_OF(ox_mesh, extent),
+    OFFSET_OF(ox_mesh, radius),
+    OFFSET_OF(ox_mesh, block_side),
+    SIZE_OF(ox_vertex),
+    OFFSET_OF(ox_vertex, position),
+    OFFSET_OF(ox_vertex, exit),
+    OFFSET_OF(ox_vertex, direction),
+    SIZE_OF(ox_chunk),
+    OFFSET_OF(ox_chunk, first),
+    OFFSET_OF(ox_chunk, count),
+    OFFSET_OF(ox_chunk, centre),
+    OFFSET_OF(ox_chunk, half_size),
+    OFFSET_OF(ox_chunk, radius),
+    OFFSET_OF(ox_chunk, reach),
+    SIZE_OF(ox_node),
+    OFFSET_OF(ox_node, lo),
+    OFFSET_OF(ox_node, skip),
+    OFFSET_OF(ox_node, hi),
+    OFFSET_OF(ox_node, leaf),
+    SIZE_OF(ox_triangle),
+    OFFSET_OF(ox_triangle, a),
+    OFFSET_OF(ox_triangle, id),
+    OFFSET_OF(ox_triangle, b),
+    OFFSET_OF(ox_triangle, c),
+    OFFSET_OF(ox_triangle, normal),
+    SIZE_OF(ox_pair),
+    OFFSET_OF(ox_pair, rotation),
+    OFFSET_OF(ox_pair, offset),
+    OFFSET_OF(ox_pair, epsilon),
+    OFFSET_OF(ox_pair, mesh),
+    SIZE_OF(ox_chunk_task),
+    OFFSET_OF(ox_chunk_task, pair_side),
+    OFFSET_OF(ox_chunk_task, chunk),
+    SIZE_OF(ox_ray),
+    OFFSET_OF(ox_ray, pair_side),
+    OFFSET_OF(ox_ray, vertex),
+    SIZE_OF(ox_hit),
+    OFFSET_OF(ox_hit, pair_side),
+    OFFSET_OF(ox_hit, vertex),
+    OFFSET_OF(ox_hit, triangle),
+    OFFSET_OF(ox_hit, kind),
+    OFFSET_OF(ox_hit, depth),
+    OFFSET_OF(ox_hit, t),
+    OFFSET_OF(ox_hit, slot),
+    SIZE_OF(ox_candidate),
+    OFFSET_OF(ox_candidate, position),
+    OFFSET_OF(ox_candidate, depth),
+    OFFSET_OF(ox_candidate, normal),
+    OFFSET_OF(ox_candidate, t),
+    OFFSET_OF(ox_candidate, side_kind),
+    OFFSET_OF(ox_candidate, vertex),
+    OFFSET_OF(ox_candidate, triangle),
+    OFFSET_OF(ox_candidate, patch),
+    OFFSET_OF(ox_candidate, distance2),
+    SIZE_OF(ox_contact),
+    OFFSET_OF(ox_contact, side),
+    OFFSET_OF(ox_contact, vertex),
+    OFFSET_OF(ox_contact, triangle),
+    OFFSET_OF(ox_contact, depth),
+    SIZE_OF(ox_range),
+    OFFSET_OF(ox_range, first),
+    OFFSET_OF(ox_range, count),
+};
+
+// OpenCL C has no offsetof, but addresses.
+std::string layout_kernel() {
+  std::ostringstream source;
+  source << embedded_source() << "\n__kernel void layout(__global uint* out) {\n";
+  for (std::size_t i = 0; i < kMembers.size(); ++i) {
+    const Member& m = kMembers[i];
+    source << "  out[" << i << "] = ";
+    if (m.name.empty())
+      source << "(uint)sizeof(" << m.type << ");\n";
+    else
+      source << "(uint)((size_t)&((__global " << m.type << "*)out)->" << m.name
+             << " - (size_t)out);\n";
+  }
+  source << "}\n";
+  return source.str();
+}
+
+TEST(SharedTypes, AreLaidOutAlikeByHostAndDevice) {
+  Device device("");
+  Program program(device, layout_kernel(), "");
+  Kernel kernel(program, "layout");
+  Buffer out(device);
+  out.reserve(kMembers.size() * sizeof(cl_uint));
+  kernel.launch(1, 1, out);
+  std::vector<cl_uint> device_layout(kMembers.size());
+  out.read(device_layout.data(), device_layout.size() * sizeof(cl_uint));
+  device.finish();
+  for (std::size_t i = 0; i < kMembers.size(); ++i)
+    EXPECT_EQ(device_layout[i], kMembers[i].host) << kMembers[i].type << "::" << kMembers[i].name;
+}
+
+}  // namespace
+}  // namespace ode_ext
