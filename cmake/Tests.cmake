@@ -9,7 +9,8 @@ find_package(ccd REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
-     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp)
+     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp
+     tests/audit/scene_audit.cpp)
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
@@ -22,6 +23,13 @@ if(test_sources)
     NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 120 ENVIRONMENT "RC_PARAMS=seed=1")
 endif()
+
+# The contacts of a whole run against FCL; too long for the tests, which audit a small scene.
+add_executable(rigid_audit EXCLUDE_FROM_ALL tests/audit/rigid_audit.cpp tests/audit/scene_audit.cpp
+               tests/support/fcl_oracle.cpp)
+ode_ext_compile_options(rigid_audit)
+target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+                      CLI11::CLI11 fcl Eigen3::Eigen)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)

@@ -4,7 +4,8 @@
 // spread the patches widest.
 //
 // Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
-// with (side, vertex), so the result is the one that hits sorted by (pair, side, vertex) would give.
+// with (side, vertex), so the result is the one that hits sorted by (pair, side, vertex) would
+// give.
 #include "shared/transform.h"
 
 #define OX_NO_PATCH 0xffffffffu
@@ -80,8 +81,7 @@ static void ox_take(__global ox_candidate* candidates, uint count, uint taken) {
   const uint patch = candidates[taken].patch;
   for (uint i = 0u; i < count; ++i) {
     __global ox_candidate* c = candidates + i;
-    if (c->patch == patch)
-      c->distance2 = ox_min(c->distance2, ox_distance2(c, candidates + taken));
+    if (c->patch == patch) c->distance2 = ox_min(c->distance2, ox_distance2(c, candidates + taken));
   }
   candidates[taken].patch = OX_TAKEN;
 }
@@ -97,8 +97,8 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
 
 static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
                       uint max_contacts, uint* taken) {
-  // Contacts within the source's exit say most; those beyond it speak only where there are none, and
-  // touches only where a pair has nothing else.
+  // Contacts within the source's exit say most; those beyond it speak only where there are none,
+  // and touches only where a pair has nothing else.
   uint kind = OX_HIT_TOUCHING;
   for (uint i = 0u; i < count; ++i) kind = min(kind, ox_kind(candidates + i));
 
@@ -124,7 +124,8 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
-  while (kind == OX_HIT_INSIDE && n < max_contacts) {  // deep vertices in a region with none of those
+  while (kind == OX_HIT_INSIDE &&
+         n < max_contacts) {  // deep vertices in a region with none of those
     uint best = count;
     for (uint i = 0u; i < count; ++i) {
       __global const ox_candidate* c = candidates + i;

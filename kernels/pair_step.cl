@@ -10,8 +10,8 @@
 #include "shared/transform.h"
 
 // Separating axes of two oriented boxes (Gottschalk 1996) in the frame of B. Rounding is covered by
-// epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike and
-// epsilon still errs towards overlap.
+// epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike
+// and epsilon still errs towards overlap.
 static bool ox_boxes_overlap(__global const ox_pair* pair, __global const ox_mesh* a,
                              __global const ox_mesh* b, float epsilon) {
   const float3 ha = vload3(0, a->box_half);
@@ -51,9 +51,9 @@ static float ox_clearance(__global const ox_mesh* mesh, __global const uint* gri
   const float3 scale = vload3(0, mesh->grid_scale);
   const float3 cell = (p - vload3(0, mesh->grid_origin)) * scale;
   const float3 last = convert_float3(vload3(0, mesh->grid_cells)) - 1.0f;
-  const float3 nearest = (float3)(ox_min(ox_max(cell.x, 0.0f), last.x),
-                                  ox_min(ox_max(cell.y, 0.0f), last.y),
-                                  ox_min(ox_max(cell.z, 0.0f), last.z));
+  const float3 nearest =
+      (float3)(ox_min(ox_max(cell.x, 0.0f), last.x), ox_min(ox_max(cell.y, 0.0f), last.y),
+               ox_min(ox_max(cell.z, 0.0f), last.z));
   const float3 moved = fabs(cell - nearest) / scale;
   const uint3 block = convert_uint3_rtz(nearest) / OX_BLOCK_CELLS;
   const uint3 blocks = (vload3(0, mesh->grid_cells) + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
@@ -88,8 +88,8 @@ static void ox_relate(__global const ox_object* a, __global const ox_object* b,
 
 __kernel void pair_step(__global volatile uint* counters, __global const ox_object* objects,
                         __global const ox_mesh* meshes, __global const ox_chunk* chunks,
-                        __global const uint* grids, __global const uint* pair_objects, uint pair_count,
-                        __global ox_pair* pairs, __global uint* pair_hits,
+                        __global const uint* grids, __global const uint* pair_objects,
+                        uint pair_count, __global ox_pair* pairs, __global uint* pair_hits,
                         __global ox_range* pair_ranges, __global ox_chunk_task* tasks,
                         uint capacity) {
   const uint stride = (uint)get_global_size(0);
@@ -127,8 +127,10 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_obje
         __global const ox_chunk* chunk = chunks + source->chunk_first + k;
         const float3 middle = ox_place(pair, side, vload3(0, chunk->centre));
         const float3 d = fabs(middle - centre);
-        float3 limit = ox_turn_extents(pair, side, vload3(0, chunk->half_size)) + half_size + epsilon;
-        // Inside a closed target is inside its box; under an open one is not: the ray has to reach it.
+        float3 limit =
+            ox_turn_extents(pair, side, vload3(0, chunk->half_size)) + half_size + epsilon;
+        // Inside a closed target is inside its box; under an open one is not: the ray has to reach
+        // it.
         if (open) limit += chunk->reach;
         if (d.x > limit.x || d.y > limit.y || d.z > limit.z) continue;
         if ((target->flags & OX_MESH_GRID) != 0u &&

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray step, BVH algorithm (GRAPP section 3.3): where does the ray from this vertex leave the target?
+// Ray step, BVH algorithm (GRAPP section 3.3): where does the ray from this vertex leave the
+// target?
 //
 // in    rays (counter OX_COUNTER_RAYS), pairs, meshes, vertices, nodes, triangles
 // out   hits, and per pair their number
 // item  1 ray (grid-stride); no barrier, no stack: skip links
 // may overflow: OX_COUNTER_HITS
 //
-// A vertex of the source is in contact where its ray, cast along -normal, first meets a back face of
-// the target after leaving the surface it may lie on (Hermann 2008).
+// A vertex of the source is in contact where its ray, cast along -normal, first meets a back face
+// of the target after leaving the surface it may lie on (Hermann 2008).
 #include "shared/ray_triangle.h"
 
 typedef struct {
@@ -47,14 +48,15 @@ static ox_nearest ox_trace(__global const ox_mesh* mesh, __global const ox_node*
       __global const ox_triangle* triangle = triangles + k;
       float t;
       bool back;
-      if (!ox_meets(&cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c), &t,
-                    &back))
+      if (!ox_meets(&cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c),
+                    &t, &back))
         continue;
-      if (t < -epsilon) continue;
+      // epsilon is the worst that rounding can do, a quarter of it already rare: a vertex that is
+      // farther outside than that does not touch.
+      if (t < -0.25f * epsilon) continue;
       if (t <= epsilon) {
         // The vertex lies on this face: an entry does not count, an exit is a touch.
-        if (back && (nearest.touching == OX_NONE ||
-                     triangle->id < triangles[nearest.touching].id))
+        if (back && (nearest.touching == OX_NONE || triangle->id < triangles[nearest.touching].id))
           nearest.touching = k;
       } else if (!back) {
         nearest.front_t = ox_min(nearest.front_t, t);
@@ -71,14 +73,14 @@ static ox_nearest ox_trace(__global const ox_mesh* mesh, __global const ox_node*
   return nearest;
 }
 
-// A front and a back face at one distance: the ray grazes a ridge from outside, or leaves and enters
-// again in a valley from inside.
+// A front and a back face at one distance: the ray grazes a ridge from outside, or leaves and
+// enters again in a valley from inside.
 static bool ox_grazes(const ox_nearest* nearest, float epsilon) {
   return nearest->back != OX_NONE && fabs(nearest->back_t - nearest->front_t) <= epsilon;
 }
 
-// Whether a vertex whose ray grazes is inside a closed target, by rays in other directions, no two of
-// which graze but by a coincidence. Undecided after three: outside.
+// Whether a vertex whose ray grazes is inside a closed target, by rays in other directions, no two
+// of which graze but by a coincidence. Undecided after three: outside.
 static bool ox_is_inside(__global const ox_mesh* mesh, __global const ox_node* nodes,
                          __global const ox_triangle* triangles, float3 origin, float epsilon) {
   for (uint k = 0u; k < 3u; ++k) {

@@ -9,7 +9,7 @@
  * near callback the program already has: its dCollide(mesh, mesh, ...) reads the batch.
  *
  *     dBatchColliderID collider = dBatchColliderCreate(NULL);       // after dInitODE2
- *     dBatchColliderSpaceCollide(collider, space, data, &near);     // was: dSpaceCollide(space, ...)
+ *     dBatchColliderSpaceCollide(collider, space, data, &near);  // was: dSpaceCollide(space, ...)
  *     dBatchColliderDestroy(collider);                              // before dCloseODE
  *
  * Contacts follow ODE: `pos` in world coordinates [m], `normal` a unit vector into g1, moving g1 by
@@ -40,8 +40,9 @@ typedef struct dxBatchCollider *dBatchColliderID;
 
 /** How many work-groups a kernel is launched with (GRAPP section 4.2). Never changes a result. */
 enum {
-  dBatchWorkloadPredicted = 0, /**< predicted from the last pass; one read-back per pass (default) */
-  dBatchWorkloadExact = 1      /**< the counter is read back before every launch */
+  dBatchWorkloadPredicted =
+      0,                  /**< predicted from the last pass; one read-back per pass (default) */
+  dBatchWorkloadExact = 1 /**< the counter is read back before every launch */
 };
 
 /** How workloads and buffer sizes are predicted (GRAPP section 4.1). Never changes a result. */
@@ -52,20 +53,20 @@ enum {
 
 /** Creation parameters. Fill with dBatchColliderParamsInit, then change what you need. */
 typedef struct dBatchColliderParams {
-  size_t struct_size;      /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
-  const char *device;      /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
+  size_t struct_size;   /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
+  const char *device;   /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
                                 Read during dBatchColliderCreate only. */
-  int max_contacts;        /**< contacts kept per pair, 1..64 (default 16) */
-  int workload;            /**< dBatchWorkload... */
-  int prediction;          /**< dBatchPrediction... */
-  int trust_meshes;        /**< nonzero: meshes change only where the program says so through
+  int max_contacts;     /**< contacts kept per pair, 1..64 (default 16) */
+  int workload;         /**< dBatchWorkload... */
+  int prediction;       /**< dBatchPrediction... */
+  int trust_meshes;     /**< nonzero: meshes change only where the program says so through
                                 dBatchColliderTriMeshDataUpdate / ...Destroyed; saves hashing every
                                 mesh in every pass (default 0) */
-  dReal confidence;        /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only */
-  dReal open_thickness;    /**< [m] how far below an open surface it is solid; 0 (default): the mean
+  dReal confidence;     /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only */
+  dReal open_thickness; /**< [m] how far below an open surface it is solid; 0 (default): the mean
                                 edge length of the mesh */
-  int work_group_size;     /**< work-items per work-group, 1..device limit; 0 (default): 64 */
-  int initial_capacity;    /**< entries of each append buffer at the start; 0: default (16384).
+  int work_group_size;  /**< work-items per work-group, 1..device limit; 0 (default): 64 */
+  int initial_capacity; /**< entries of each append buffer at the start; 0: default (16384).
                                 Buffers grow by themselves */
 } dBatchColliderParams;
 
@@ -109,7 +110,7 @@ ODE_EXT_API int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g
  * Collides given mesh pairs without any space. Each geom must be a trimesh.
  * @param pairs           2 * pair_count geoms: pair i is (pairs[2i], pairs[2i+1])
  * @param flags           as dCollide: low 16 bits = contacts per pair at most (>= 1)
- * @param contacts        pair i starts at index i * (flags & 0xffff); only returned ones are written
+ * @param contacts        pair i starts at index i * (flags & 0xffff); only these are written
  * @param skip            byte stride of `contacts`, >= sizeof(dContactGeom)
  * @param contact_counts  pair_count counts, written; may be NULL
  * @return the total number of contacts, or -1
@@ -125,8 +126,8 @@ ODE_EXT_API int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeo
  */
 ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data);
 
-/** Announces that a mesh will change in most steps (nonzero) or rarely (0, the default). Contacts do
-    not depend on it. */
+/** Announces that a mesh will change in most steps (nonzero) or rarely (0, the default): what pays
+    off only over many steps is then not prepared. Contacts do not depend on it. */
 ODE_EXT_API void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider,
                                                         dTriMeshDataID data, int deformable);
 
@@ -136,12 +137,12 @@ ODE_EXT_API void dBatchColliderTriMeshDataDestroyed(dBatchColliderID collider, d
 
 /** Status bits of the last pass. 0: all went well. */
 enum {
-  dBatchStatusRedone = 1 << 0,        /**< an append buffer was too small; it was grown and the pass
+  dBatchStatusRedone = 1 << 0,       /**< an append buffer was too small; it was grown and the pass
                                            redone: nothing was lost */
-  dBatchStatusDeviceFailed = 1 << 1,  /**< the device failed; ODE's own collider answers this pass */
-  dBatchStatusMeshRefused = 1 << 2,   /**< a mesh has vertices that are not finite; its pairs get no
+  dBatchStatusDeviceFailed = 1 << 1, /**< the device failed; ODE's own collider answers this pass */
+  dBatchStatusMeshRefused = 1 << 2,  /**< a mesh has vertices that are not finite; its pairs get no
                                            contacts */
-  dBatchStatusGatherSkipped = 1 << 3  /**< the space was known to hold no mesh pair */
+  dBatchStatusGatherSkipped = 1 << 3 /**< the space was known to hold no mesh pair */
 };
 
 /** The append buffers, in the order of the pipeline (DESIGN: every arrow is one). */
@@ -155,15 +156,15 @@ enum {
 
 /** The timed stages of a pass. */
 enum {
-  dBatchStageGather = 0,    /**< finding the pairs (ODE's broad phase) and their poses, host */
-  dBatchStageMeshes = 1,    /**< hashing, and rebuilding the meshes that changed, host */
-  dBatchStagePairStep = 2,  /**< kernel, from device events, as are the next three */
+  dBatchStageGather = 0,   /**< finding the pairs (ODE's broad phase) and their poses, host */
+  dBatchStageMeshes = 1,   /**< hashing, and rebuilding the meshes that changed, host */
+  dBatchStagePairStep = 2, /**< kernel, from device events, as are the next three */
   dBatchStageVertexStep = 3,
   dBatchStageRayStep = 4,
   dBatchStageContactStep = 5,
-  dBatchStageDevice = 6,    /**< first upload to last read-back, host clock */
-  dBatchStageExport = 7,    /**< storing the answers, host */
-  dBatchStagePass = 8,      /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageDevice = 6, /**< first upload to last read-back, host clock */
+  dBatchStageExport = 7, /**< storing the answers, host */
+  dBatchStagePass = 8,   /**< the whole batch, without ODE's own pass and the callbacks */
   dBatchStageCount = 9
 };
 
@@ -181,11 +182,11 @@ typedef struct dBatchColliderStats {
   long long actual[dBatchBufferCount];    /**< entries produced */
   long long capacity[dBatchBufferCount];  /**< entries there was room for */
   double ms[dBatchStageCount];            /**< [ms] */
-  long long passes;          /**< passes since creation */
-  long long pairs_alone;     /**< since creation: pairs asked for that no pass had computed */
-  long long pairs_stock;     /**< since creation: pairs answered by ODE's own collider */
-  int meshes;                /**< meshes known */
-  char device[128];          /**< device name, null-terminated */
+  long long passes;                       /**< passes since creation */
+  long long pairs_alone; /**< since creation: pairs asked for that no pass had computed */
+  long long pairs_stock; /**< since creation: pairs answered by ODE's own collider */
+  int meshes;            /**< meshes known */
+  char device[128];      /**< device name, null-terminated */
 } dBatchColliderStats;
 
 /** Fills stats (up to stats->struct_size bytes). Refuses an unknown collider with a message and

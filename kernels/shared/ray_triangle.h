@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Watertight ray/triangle test after Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection",
-// JCGT 2(1), 2013, with exact edge signs in place of their fallback to double precision. Device only.
+// JCGT 2(1), 2013, with exact edge signs in place of their fallback to double precision. Device
+// only.
 //
 // The triangle is moved so that the ray starts at the origin and sheared so that it runs along +z;
 // then the ray passes on one side of an edge or the other by the sign of a 2x2 determinant. Both
@@ -61,8 +62,8 @@ static inline float ox_det2(float a, float b, float c, float d) {
   return fma(a, b, -p) - fma(c, d, -q);
 }
 
-// Whether the line of the ray meets the triangle; then *t is the distance (may be negative) and *back
-// whether the ray leaves through it (direction . normal > 0).
+// Whether the line of the ray meets the triangle; then *t is the distance (may be negative) and
+// *back whether the ray leaves through it (direction . normal > 0).
 static inline bool ox_meets(const ox_cast* cast, float3 a, float3 b, float3 c, float* t,
                             bool* back) {
   const float3 oa = a - cast->origin;

@@ -6,7 +6,8 @@
 
 #ifdef __OPENCL_C_VERSION__
 // A fused multiply-subtract is not antisymmetric: two triangles would disagree about the side of
-// their shared edge on which a ray passes, and it would slip through. Holds to the end of the program.
+// their shared edge on which a ray passes, and it would slip through. Holds to the end of the
+// program.
 #pragma OPENCL FP_CONTRACT OFF
 typedef uint ox_u32;
 typedef float ox_f32;
@@ -105,9 +106,9 @@ typedef struct {
 } ox_triangle;
 OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
 
-// What the pair step finds for a pair of objects A = object[0], B = object[1]. Side 0 takes points of A
-// into the frame of B, side 1 points of B into the frame of A:
-// target = rotation[side] * source + offset[side]. rotation[1] is the transpose of rotation[0].
+// What the pair step finds for a pair of objects A = object[0], B = object[1]. Side 0 takes points
+// of A into the frame of B, side 1 points of B into the frame of A: target = rotation[side] *
+// source + offset[side]. rotation[1] is the transpose of rotation[0].
 typedef struct {
   ox_f32 rotation[2][9];
   ox_f32 offset[2][3];

@@ -50,7 +50,8 @@ std::shared_ptr<BatchCollider> live(dBatchColliderID handle) {
   return collider;
 }
 
-// Parameters of a caller that was compiled with an older, shorter struct: its part over the defaults.
+// Parameters of a caller that was compiled with an older, shorter struct: its part over the
+// defaults.
 dBatchColliderParams complete(const dBatchColliderParams* given) {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
@@ -112,8 +113,8 @@ int collide(const char* call, dBatchColliderID handle, const PassRoot& root, voi
       dSpaceCollide2(root.first, root.second, data, callback);
     return 1;
   }
-  // A callback of the program may throw; that is between it and its caller, so only what this library
-  // does itself is guarded.
+  // A callback of the program may throw; that is between it and its caller, so only what this
+  // library does itself is guarded.
   std::shared_ptr<BatchCollider> collider;
   std::optional<BatchCollider::Pass> pass;
   const bool begun = guarded(call, false, [&] {
@@ -229,8 +230,8 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
     if ((flags & 0xffff) == 0) refuse("the low 16 bits of flags, contacts per pair, are 0");
     if (skip < static_cast<int>(sizeof(dContactGeom)))
-      refuse("skip is " + std::to_string(skip) + ", less than sizeof(dContactGeom) = " +
-             std::to_string(sizeof(dContactGeom)));
+      refuse("skip is " + std::to_string(skip) +
+             ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)));
     for (int i = 0; i < 2 * pair_count; ++i) {
       if (pairs[i] == nullptr) refuse("geom " + std::to_string(i) + " of pairs is NULL");
       if (dGeomGetClass(pairs[i]) != dTriMeshClass)
@@ -245,8 +246,10 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
 }
 
 void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data) {
-  visit_colliders("dBatchColliderTriMeshDataUpdate", collider, data,
-                  [&](BatchCollider& c) { c.announce_change(data); });
+  visit_colliders("dBatchColliderTriMeshDataUpdate", collider, data, [&](BatchCollider& c) {
+    ode_ext::install_override();
+    c.announce_change(data);
+  });
 }
 
 void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider, dTriMeshDataID data,
@@ -279,8 +282,7 @@ void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats* stat
 
 int dBatchColliderDescribeDevices(const char* selection, char* text, size_t size) {
   return guarded("dBatchColliderDescribeDevices", 0, [&] {
-    const std::string description =
-        ode_ext::describe_devices(selection_or_environment(selection));
+    const std::string description = ode_ext::describe_devices(selection_or_environment(selection));
     if (text != nullptr && size > 0) {
       const std::size_t count = std::min(description.size(), size - 1);
       std::memcpy(text, description.data(), count);

@@ -3,6 +3,8 @@
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl_ext.h>
 
+#include <mutex>
+
 #include "device/choice.h"
 #include "device/device.h"
 #include "device/error.h"
@@ -87,7 +89,11 @@ struct Survey {
   std::string problems;  // a sentence for each platform left out
 };
 
+// One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or shows
+// no device where several threads make it at once.
 Survey survey() {
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
   Survey result;
   for (cl_platform_id platform : list_platforms()) {
     try {

@@ -50,8 +50,7 @@ ClearanceGrid build_clearance_grid(const OccupancyGrid& grid) {
   }
   // Down by more than the rounding of a cell index (occupancy_grid.cpp: 2^-20 of the side).
   result.block_side = static_cast<float>(kBlockCells) * shortest * (1 - 0x1p-10f);
-  result.steps.assign(
-      std::size_t{result.blocks[0]} * result.blocks[1] * result.blocks[2], 255);
+  result.steps.assign(std::size_t{result.blocks[0]} * result.blocks[1] * result.blocks[2], 255);
   std::size_t cell = 0;
   for (std::uint32_t z = 0; z < grid.cells[2]; ++z)
     for (std::uint32_t y = 0; y < grid.cells[1]; ++y)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far it is at least from a point to a cell of the occupancy grid that is not outside: a whole run
-// of vertices is dismissed by one look. Blocks of 4 x 4 x 4 cells, one distance each.
+// How far it is at least from a point to a cell of the occupancy grid that is not outside: a whole
+// run of vertices is dismissed by one look. Blocks of 4 x 4 x 4 cells, one distance each.
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@ struct ClearanceGrid {
 
 ClearanceGrid build_clearance_grid(const OccupancyGrid& grid);
 
-// No point within the returned distance [m] of `point` may be inside the mesh; negative or 0: nothing
-// is known. 0 if there is no grid.
+// No point within the returned distance [m] of `point` may be inside the mesh; negative or 0:
+// nothing is known. 0 if there is no grid.
 float clearance(const ClearanceGrid& clearance, const OccupancyGrid& grid, Vec3f point);
 
 }  // namespace ode_ext

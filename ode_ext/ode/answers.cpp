@@ -27,9 +27,8 @@ Answer* Answers::find(dGeomID a, dGeomID b) {
 }
 
 void Answers::prune(std::uint64_t pass) {
-  std::erase_if(map_, [&](const auto& item) {
-    return item.second.last_pass + kPassesRemembered < pass;
-  });
+  std::erase_if(map_,
+                [&](const auto& item) { return item.second.last_pass + kPassesRemembered < pass; });
 }
 
 Answers::Key Answers::key(dGeomID a, dGeomID b) {

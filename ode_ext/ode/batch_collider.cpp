@@ -245,8 +245,7 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const std::lock_guard lock(mutex_);
   const Answer* known = answers_.find(g1, g2);
-  return known != nullptr &&
-         known->holds(known_member(meshes_, g1), known_member(meshes_, g2));
+  return known != nullptr && known->holds(known_member(meshes_, g1), known_member(meshes_, g2));
 }
 
 int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,
@@ -269,8 +268,8 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i];
     const dGeomID g2 = geoms[2 * i + 1];
-    auto* target = reinterpret_cast<dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * limit *
-                                                               skip);
+    auto* target =
+        reinterpret_cast<dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * limit * skip);
     int count = 0;
     if (can_collide(g1, g2)) {
       const Answer& answer = answers_.entry(g1, g2);
@@ -313,7 +312,7 @@ void BatchCollider::fail(const std::exception& error) {
   stats_.status |= dBatchStatusDeviceFailed;
   set_last_error(error.what());
   if (!failure_said_)
-    log(LogLevel::kError, std::string(error.what()) + "; ODE's own collider answers meanwhile");
+    log(LogLevel::kError, std::string(error.what()) + " Meanwhile ODE's own collider answers.");
   failure_said_ = true;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is behind a dBatchColliderID: gathers the mesh pairs of a pass, has the pipeline collide those
-// that have no valid answer yet, keeps the answers, and gives them out when dCollide asks.
+// What is behind a dBatchColliderID: gathers the mesh pairs of a pass, has the pipeline collide
+// those that have no valid answer yet, keeps the answers, and gives them out when dCollide asks.
 #pragma once
 
 #include <ode/ode.h>
@@ -27,8 +27,8 @@ class BatchCollider {
  public:
   BatchCollider(const ColliderOptions& options, float open_thickness, bool trust_meshes);
 
-  // A collide pass: the batch is computed where it begins, and while it lives dCollide on this thread
-  // asks this collider first. Nests. The collider must outlive it.
+  // A collide pass: the batch is computed where it begins, and while it lives dCollide on this
+  // thread asks this collider first. Nests. The collider must outlive it.
   class Pass {
    public:
     // Throws std::runtime_error if another thread runs a pass of this collider. A failing device is
@@ -45,11 +45,13 @@ class BatchCollider {
     PassRoot root_;
   };
 
-  // One batch over given mesh pairs; contacts of pair i from index i * (flags & 0xffff) on. Returns the total.
+  // One batch over given mesh pairs; contacts of pair i from index i * (flags & 0xffff) on. Returns
+  // the total.
   int collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts, int skip,
                     int* counts);
 
-  // An answer to dCollide(g1, g2), computed now if there is none. -1: ODE's own collider is to answer.
+  // An answer to dCollide(g1, g2), computed now if there is none. -1: ODE's own collider is to
+  // answer.
   int answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
   bool holds(dGeomID g1, dGeomID g2);
 
@@ -81,7 +83,8 @@ class BatchCollider {
   void note_report();
   void fail(const std::exception& error);
 
-  std::recursive_mutex mutex_;  // ODE's broad phase may call a program's user classes, which may ask
+  std::recursive_mutex
+      mutex_;  // ODE's broad phase may call a program's user classes, which may ask
   Collider collider_;
   MeshStore meshes_;
   Answers answers_;
@@ -92,8 +95,8 @@ class BatchCollider {
   std::uint64_t pass_ = 0;  // outermost passes
   std::uint64_t look_ = 0;  // meshes are read anew when it changes
   std::uint64_t asked_outside_ = 0;
-  bool failed_ = false;         // the pass that runs is answered by ODE's own collider
-  bool failure_said_ = false;   // one message per run of failures
+  bool failed_ = false;        // the pass that runs is answered by ODE's own collider
+  bool failure_said_ = false;  // one message per run of failures
 
   // The scene being built. Member i is object i.
   Scene scene_;

@@ -10,7 +10,8 @@
 namespace ode_ext {
 namespace {
 
-// A mesh that nothing has come near for ten seconds at 60 Hz is worth rebuilding when it comes back.
+// A mesh that nothing has come near for ten seconds at 60 Hz is worth rebuilding when it comes
+// back.
 constexpr std::uint64_t kPassesKept = 600;
 
 }  // namespace

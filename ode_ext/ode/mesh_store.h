@@ -17,11 +17,12 @@ namespace ode_ext {
 
 class MeshStore {
  public:
-  // `open_thickness` as in build_mesh. With `trust`, a known mesh is not read again until announced.
+  // `open_thickness` as in build_mesh. With `trust`, a known mesh is not read again until
+  // announced.
   MeshStore(float open_thickness, bool trust) : open_thickness_(open_thickness), trust_(trust) {}
 
-  // The mesh as it is now: read, compared by a hash of its corners, rebuilt if it changed. Looks once
-  // per mesh and value of `look`; `pass` is what prune goes by.
+  // The mesh as it is now: read, compared by a hash of its corners, rebuilt if it changed. Looks
+  // once per mesh and value of `look`; `pass` is what prune goes by.
   const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, std::uint64_t look,
                                              std::uint64_t pass);
 

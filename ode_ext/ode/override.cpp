@@ -12,8 +12,8 @@ namespace {
 
 // dSetColliderOverride(i, i, fn) fills its one cell twice, and the second time as reversed:
 // dCollide(A, B) calls fn(B, A) and then negates the normals and swaps g1/g2 and side1/side2. An
-// answer in the order of fn's own arguments is thus right as it is. Stock contacts are not symmetric
-// in the arguments, so they are asked for as the program did and turned round here first.
+// answer in the order of fn's own arguments is thus right as it is. Stock contacts are not
+// symmetric in the arguments, so they are asked for as the program did and turned round here first.
 int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
   if (count >= 0) return count;

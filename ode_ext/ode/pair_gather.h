@@ -28,13 +28,13 @@ struct PassRoot {
   bool operator==(const PassRoot&) const = default;
 };
 
-// False if there are not two meshes below the root. Spaces that cannot be listed (ODE's quadtrees) may
-// hold any.
+// False if there are not two meshes below the root. Spaces that cannot be listed (ODE's quadtrees)
+// may hold any.
 bool may_hold_mesh_pair(const PassRoot& root);
 
 // Runs ODE's own broad phase, with all its filters, over the root and over everything the program
-// could recurse into: across each pair of geoms that is reported with a space among them, and inside
-// each contained space. A pair that several ways lead to comes several times. Never enters a
+// could recurse into: across each pair of geoms that is reported with a space among them, and
+// inside each contained space. A pair that several ways lead to comes several times. Never enters a
 // sweep-and-prune space of `traversed`: its traversal keeps scratch lists in the space.
 std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed);
 

@@ -7,9 +7,9 @@
 
 // ODE registers this function for trimesh-trimesh and exports it under its C++ name; there is no
 // public name for it. Weak: an ODE built without it leaves a null pointer here.
-extern "C" int ode_ext_stock_trimesh_trimesh(dGeomID g1, dGeomID g2, int flags,
-                                             dContactGeom* contacts, int skip)
-    __asm__("_Z11dCollideTTLP6dxGeomS0_iP12dContactGeomi") __attribute__((weak));
+extern "C" int ode_ext_stock_trimesh_trimesh(
+    dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts,
+    int skip) __asm__("_Z11dCollideTTLP6dxGeomS0_iP12dContactGeomi") __attribute__((weak));
 
 namespace ode_ext {
 
@@ -19,7 +19,8 @@ int stock_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int
     static std::once_flag said;
     std::call_once(said, [] {
       log(LogLevel::kError,
-          "this ODE does not export its own trimesh-trimesh collider; without a working device mesh "
+          "this ODE does not export its own trimesh-trimesh collider; without a working device "
+          "mesh "
           "pairs get no contacts");
     });
     return 0;

@@ -62,8 +62,7 @@ void open_trace_of_environment() {
 void trace_pass(std::chrono::steady_clock::time_point start, const dBatchColliderStats& stats) {
   const std::lock_guard lock(mutex);
   if (trace == nullptr) return;
-  const double begin =
-      std::chrono::duration<double, std::micro>(start.time_since_epoch()).count();
+  const double begin = std::chrono::duration<double, std::micro>(start.time_since_epoch()).count();
   write_event("pass", 1, begin, 1e3 * stats.ms[dBatchStagePass],
               ",\"args\":{\"pairs\":" + std::to_string(stats.pairs) +
                   ",\"rays\":" + std::to_string(stats.actual[dBatchBufferRays]) +

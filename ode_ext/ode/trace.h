@@ -12,8 +12,8 @@ namespace ode_ext {
 // std::runtime_error with a sentence if it cannot be written.
 void open_trace_of_environment();
 
-// Appends a pass that began at `start`: its host stages one after another on one track, the kernels on
-// another. Does nothing without a trace.
+// Appends a pass that began at `start`: its host stages one after another on one track, the kernels
+// on another. Does nothing without a trace.
 void trace_pass(std::chrono::steady_clock::time_point start, const dBatchColliderStats& stats);
 
 }  // namespace ode_ext

@@ -12,14 +12,15 @@
 namespace ode_ext {
 namespace {
 
-constexpr std::size_t kCounterBytes =
-    OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
+constexpr std::size_t kCounterBytes = OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
 
 // The counter behind each append buffer.
 constexpr std::array<std::size_t, kArrowCount> kCounters = {OX_COUNTER_CHUNKS, OX_COUNTER_RAYS,
                                                             OX_COUNTER_HITS, OX_COUNTER_CONTACTS};
 
-std::uint64_t& at(ArrowCounts& counts, Arrow arrow) { return counts[static_cast<std::size_t>(arrow)]; }
+std::uint64_t& at(ArrowCounts& counts, Arrow arrow) {
+  return counts[static_cast<std::size_t>(arrow)];
+}
 std::uint64_t at(const ArrowCounts& counts, Arrow arrow) {
   return counts[static_cast<std::size_t>(arrow)];
 }
@@ -68,9 +69,8 @@ bool is_out_of_memory(int code) {
 ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {
   ArrowCounts result{};
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    result[i] = static_cast<std::uint64_t>(
-        std::ceil(static_cast<double>(counts[i]) * static_cast<double>(part) /
-                  static_cast<double>(whole)));
+    result[i] = static_cast<std::uint64_t>(std::ceil(
+        static_cast<double>(counts[i]) * static_cast<double>(part) / static_cast<double>(whole)));
   return result;
 }
 
@@ -117,8 +117,9 @@ const PairContacts& Collider::collide(const Scene& scene, History* history) {
   result_.contacts.clear();
   if (scene.pairs.empty()) return result_;
 
-  const ArrowCounts predicted = predict(history != nullptr ? *history : History{},
-                                        scene.pairs.size(), options_.prediction, options_.confidence);
+  const ArrowCounts predicted =
+      predict(history != nullptr ? *history : History{}, scene.pairs.size(), options_.prediction,
+              options_.confidence);
   try {
     meshes_.set(scene.meshes);
     host_objects_.clear();
@@ -139,8 +140,7 @@ const PairContacts& Collider::collide(const Scene& scene, History* history) {
 
   report_.predicted = predicted;
   report_.capacity = {tasks_.capacity(), rays_.capacity(), hits_.capacity(), contacts_.capacity()};
-  report_.synchronizations =
-      static_cast<int>(device_.synchronizations() - synchronizations_before);
+  report_.synchronizations = static_cast<int>(device_.synchronizations() - synchronizations_before);
   take_kernel_times();
   report_.ms_total =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -192,8 +192,8 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& pr
   for (std::size_t i = 0; i < kArrowCount; ++i) report_.actual[i] += actual[i];
 }
 
-// GRAPP figure 1, top to bottom. Between the first launch and the last read-back nobody waits, unless
-// the exact workload is asked for.
+// GRAPP figure 1, top to bottom. Between the first launch and the last read-back nobody waits,
+// unless the exact workload is asked for.
 ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted) {
   upload(scene, tile);
   counters_.fill_zero(kCounterBytes);
@@ -212,8 +212,8 @@ ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts&
                      pair_segments_, pair_count, candidates_, options_.max_contacts, pair_ranges_,
                      contacts_);
 
-  const std::uint64_t expected = std::min<std::uint64_t>(at(predicted, Arrow::kContacts),
-                                                         contacts_.capacity());
+  const std::uint64_t expected =
+      std::min<std::uint64_t>(at(predicted, Arrow::kContacts), contacts_.capacity());
   counters_.read(read_counters_.data(), kCounterBytes);
   pair_ranges_.read(read_ranges_.data(), tile.count * sizeof(ox_range));
   contacts_.records().read(read_contacts_.data(), expected * sizeof(ox_contact));
@@ -279,8 +279,8 @@ std::size_t Collider::launch_size(Arrow arrow, const ArrowCounts& predicted) {
   const std::uint64_t local = options_.work_group_size;
   const std::uint64_t groups = (items + local - 1) / local;
   if (options_.workload == Workload::kExact) return groups;
-  // A few groups for every compute unit cost nothing where there is no history yet; 2^20 groups keep
-  // the grid within 32 bits, the loops in the kernels do the rest.
+  // A few groups for every compute unit cost nothing where there is no history yet; 2^20 groups
+  // keep the grid within 32 bits, the loops in the kernels do the rest.
   const std::uint64_t floor = std::uint64_t{8} * device_.info().compute_units;
   return std::clamp<std::uint64_t>(groups, floor, std::uint64_t{1} << 20);
 }
@@ -328,7 +328,8 @@ void Collider::take_kernel_times() {
 }
 
 template <class T>
-static std::vector<T> read_records(Device& device, const AppendBuffer& buffer, std::uint64_t count) {
+static std::vector<T> read_records(Device& device, const AppendBuffer& buffer,
+                                   std::uint64_t count) {
   std::vector<T> records(std::min<std::uint64_t>(count, buffer.capacity()));
   buffer.records().read(records.data(), records.size() * sizeof(T));
   device.finish();

@@ -24,9 +24,9 @@ class Collider {
   // Chooses the device, builds the kernels, tests and warms them up. Throws DeviceError.
   explicit Collider(const ColliderOptions& options);
 
-  // Collides all pairs of the scene. `history` is read for the prediction and updated; nullptr: a call
-  // outside of any pass. Throws DeviceError; the next call then starts afresh.
-  // Result and scene index alike: contacts of pair i are result.ranges[i] into result.contacts.
+  // Collides all pairs of the scene. `history` is read for the prediction and updated; nullptr: a
+  // call outside of any pass. Throws DeviceError; the next call then starts afresh. Result and
+  // scene index alike: contacts of pair i are result.ranges[i] into result.contacts.
   const PairContacts& collide(const Scene& scene, History* history);
 
   const StepReport& report() const { return report_; }

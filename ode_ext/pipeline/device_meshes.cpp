@@ -119,8 +119,7 @@ void DeviceMeshes::append(const Mesh& mesh) {
   record.node_count = static_cast<ox_u32>(mesh.bvh.nodes.size());
   record.triangle_first = static_cast<ox_u32>(host_triangles_.size());
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
-  record.clearance_first =
-      static_cast<ox_u32>(host_grids_.size() + mesh.grid.bits.size());
+  record.clearance_first = static_cast<ox_u32>(host_grids_.size() + mesh.grid.bits.size());
   record.block_side = mesh.clearance.block_side;
   std::copy(mesh.grid.cells.begin(), mesh.grid.cells.end(), record.grid_cells);
   record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) | (mesh.grid.bits.empty() ? 0u : OX_MESH_GRID);

@@ -17,8 +17,8 @@ class PairStep {
            const Buffer& pair_objects, cl_uint pair_count, const Buffer& pairs,
            const Buffer& pair_hits, const Buffer& pair_ranges, const AppendBuffer& tasks) {
     kernel_.launch(launch.groups, launch.local, counters, objects, meshes.records(),
-                   meshes.chunks(), meshes.grids(), pair_objects, pair_count, pairs, pair_hits, pair_ranges,
-                   tasks.records(), tasks.capacity());
+                   meshes.chunks(), meshes.grids(), pair_objects, pair_count, pairs, pair_hits,
+                   pair_ranges, tasks.records(), tasks.capacity());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -21,8 +21,8 @@ struct History {
   ArrowCounts counts{};
 };
 
-// Eq. 1 (pair-scaled) or Eq. 2 (plain) for a pass of `pairs` pairs, rounded up; at least 1. Where the
-// last pass had no pairs Eq. 1 has no ratio to scale by, and the last counts stand as they are.
+// Eq. 1 (pair-scaled) or Eq. 2 (plain) for a pass of `pairs` pairs, rounded up; at least 1. Where
+// the last pass had no pairs Eq. 1 has no ratio to scale by, and the last counts stand as they are.
 ArrowCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
                     double confidence);
 

@@ -10,7 +10,7 @@ namespace ode_ext {
 // What the last step did.
 struct StepReport {
   std::uint64_t pairs = 0;
-  std::uint64_t pairs_bounded = 0;  // whose bounding volumes overlap
+  std::uint64_t pairs_bounded = 0;                // whose bounding volumes overlap
   ArrowCounts predicted{}, actual{}, capacity{};  // [records], all tiles together
   int redone = 0;
   int synchronizations = 0;

@@ -24,6 +24,18 @@ TEST_F(OdeDeathTest, AbortsWhereAMeshOfNoTrianglesIsBuilt) {
       "");
 }
 
+// ODE reads the vertex that the index names: far enough out there is no memory.
+TEST_F(OdeDeathTest, CrashesWhereAnIndexIsOutOfRange) {
+  EXPECT_DEATH(
+      {
+        OdeWorld world;
+        TestMesh mesh = make_cube(1);
+        mesh.indices[5] = 0x7fffffff;
+        world.geom(world.mesh(mesh), {});
+      },
+      "");
+}
+
 TEST_F(OdeDeathTest, AbortsWhereAnInfiniteVertexMeetsAHashSpace) {
   EXPECT_DEATH(
       {

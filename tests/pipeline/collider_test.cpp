@@ -111,15 +111,15 @@ TEST(Collider, HandsOutTheTrianglesOfBothMeshesAtTheContact) {
         double nearest = INFINITY;
         for (std::size_t corner = 0; corner < 3; ++corner)
           nearest = std::min(
-              nearest, distance(to_world(ps, scene.mesh_of(i, side).corner(c.triangles[side], corner)),
-                                point_of(c.position)));
+              nearest,
+              distance(to_world(ps, scene.mesh_of(i, side).corner(c.triangles[side], corner)),
+                       point_of(c.position)));
         const TestMesh& target = scene.mesh_of(i, 1 - side);
         const std::size_t t = c.triangles[1 - side];
         const Point normal = rotate(pt, unit(cross(target.corner(t, 1) - target.corner(t, 0),
                                                    target.corner(t, 2) - target.corner(t, 0))));
         // Of inverted meshes the normal is turned outwards.
-        found = found ||
-                (nearest < 1e-9 && std::fabs(dot(normal, point_of(c.normal))) > 1 - 1e-9);
+        found = found || (nearest < 1e-9 && std::fabs(dot(normal, point_of(c.normal))) > 1 - 1e-9);
       }
       of_vertices += found;
     }
@@ -266,8 +266,8 @@ TEST(Collider, GivesTheSameDepthsAMillionMetresFromTheOrigin) {
       near.scene.objects[object].pose = collider_pose(poses[side]);
       poses[side].position = poses[side].position + place;
     }
-    far.add_pair(near.objects[near.pairs[i][0]].mesh, poses[0],
-                 near.objects[near.pairs[i][1]].mesh, poses[1]);
+    far.add_pair(near.objects[near.pairs[i][0]].mesh, poses[0], near.objects[near.pairs[i][1]].mesh,
+                 poses[1]);
   }
   Collider collider({});
   const PairContacts at_origin = collider.collide(near.scene, nullptr);

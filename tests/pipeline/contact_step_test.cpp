@@ -89,8 +89,7 @@ TEST(ContactStep, GathersEveryHitAmongThoseOfItsPairInTheFrameOfB) {
       const std::uint32_t target = scene.objects[scene.pairs[i][1 - side]].mesh;
       const Mesh &source_mesh = *scene.scene.meshes[source],
                  &target_mesh = *scene.scene.meshes[target];
-      Point position =
-          point_of(source_mesh.vertices[Rig::shared().local_vertex(source, c.vertex)]);
+      Point position = point_of(source_mesh.vertices[Rig::shared().local_vertex(source, c.vertex)]);
       Point normal =
           point_of(target_mesh.face_normals[Rig::shared().local_triangle(target, c.triangle)]);
       if (side == 0) {
@@ -154,8 +153,8 @@ TEST(ContactStep, PutsTheDeepestFirstAndThenTheDeepestOfEveryOtherPatch) {
     for (const ox_candidate& c : candidates) {
       if ((c.side_kind & 3) != kind) continue;
       const bool covered = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-        const auto other = std::find_if(
-            candidates.begin(), candidates.end(), [&](const ox_candidate& candidate) {
+        const auto other =
+            std::find_if(candidates.begin(), candidates.end(), [&](const ox_candidate& candidate) {
               return std::tuple(candidate.side_kind >> 2, candidate.vertex) ==
                      std::tuple(std::get<0>(contact), std::get<1>(contact));
             });

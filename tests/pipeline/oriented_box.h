@@ -34,8 +34,8 @@ inline OrientedBox oriented_box(const Box& box, const TestPose& pose, const Poin
 inline double gap_along(const OrientedBox& a, const OrientedBox& b, const Point& axis) {
   double gap = std::fabs(dot(axis, a.centre - b.centre));
   for (std::size_t k = 0; k < 3; ++k)
-    gap -= a.half[k] * std::fabs(dot(axis, a.axes[k])) +
-           b.half[k] * std::fabs(dot(axis, b.axes[k]));
+    gap -=
+        a.half[k] * std::fabs(dot(axis, a.axes[k])) + b.half[k] * std::fabs(dot(axis, b.axes[k]));
   return gap;
 }
 

@@ -108,7 +108,8 @@ TEST(PairStep, KeepsBoxesThatTouchWhereverTheyAre) {
 }
 
 // What must be tasks, and what may be.
-using Task = std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // pair, side, chunk of the mesh
+using Task =
+    std::tuple<std::size_t, std::uint32_t, std::uint32_t>;  // pair, side, chunk of the mesh
 
 struct Tasks {
   std::set<Task> certain, possible;
@@ -183,8 +184,8 @@ TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {
     ASSERT_LT(task.chunk, chunk_first[mesh + 1]);
     EXPECT_TRUE(tasks.insert({pair, side, task.chunk - chunk_first[mesh]}).second) << "twice";
   }
-  EXPECT_TRUE(std::includes(tasks.begin(), tasks.end(), expected.certain.begin(),
-                            expected.certain.end()));
+  EXPECT_TRUE(
+      std::includes(tasks.begin(), tasks.end(), expected.certain.begin(), expected.certain.end()));
   EXPECT_TRUE(std::includes(expected.possible.begin(), expected.possible.end(), tasks.begin(),
                             tasks.end()));
   EXPECT_GT(expected.certain.size(), 300u);

@@ -30,8 +30,7 @@ std::map<Key, FoundHit> found_hits(const TestScene& scene, const StepRecords& re
     const std::uint32_t source = scene.objects[scene.pairs[pair][side]].mesh;
     const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
     const Mesh& mesh = *scene.scene.meshes[source];
-    const Point vertex =
-        point_of(mesh.vertices.at(Rig::shared().local_vertex(source, hit.vertex)));
+    const Point vertex = point_of(mesh.vertices.at(Rig::shared().local_vertex(source, hit.vertex)));
     const std::uint32_t triangle = scene.scene.meshes[target]->source_triangle.at(
         Rig::shared().local_triangle(target, hit.triangle));
     const FoundHit entry{hit.kind, static_cast<int>(triangle), static_cast<double>(hit.t),
@@ -90,8 +89,7 @@ Comparison compare(const TestScene& scene, const StepRecords& records) {
       const TestMesh& target = expected.side == 0 ? b : a;
       const Facet met = facet(target, actual.triangle), should = facet(target, expected.triangle);
       // A neighbour in the same plane will do.
-      EXPECT_TRUE(actual.triangle == expected.triangle ||
-                  dot(met.normal, should.normal) > 1 - 1e-6)
+      EXPECT_TRUE(actual.triangle == expected.triangle || dot(met.normal, should.normal) > 1 - 1e-6)
           << "pair " << i;
       const double slack = tolerance + met.blur;
       EXPECT_NEAR(actual.depth, expected.depth, slack) << "pair " << i;
@@ -167,16 +165,15 @@ TEST(RayStep, MeetsAnOpenSheetFromItsBackOnly) {
   const TestMesh cube = make_cube(0.5, 2);
   // Facing up: what hangs down through the sheet's front is inside; turned over it is not.
   for (const bool turned_over : {false, true}) {
-    const TestPose pose = turned_over ? turned({1, 0, 0}, 3.14159265358979, {0.03, 0.04, 0})
-                                      : at(0.03, 0.04, 0);
+    const TestPose pose =
+        turned_over ? turned({1, 0, 0}, 3.14159265358979, {0.03, 0.04, 0}) : at(0.03, 0.04, 0);
     const TestScene scene = one_pair(cube, at(0, 0, 0.2), make_sheet(2, 1), pose);
     const StepRecords records = Rig::shared().run(scene.scene);
     ASSERT_FALSE(records.hits.empty());
     for (const ox_hit& hit : records.hits) {
       EXPECT_EQ(hit.kind, OX_HIT_INSIDE);
-      const float z = scene.built_mesh_of(0, 0)
-                          .vertices[Rig::shared().local_vertex(0, hit.vertex)]
-                          .z;
+      const float z =
+          scene.built_mesh_of(0, 0).vertices[Rig::shared().local_vertex(0, hit.vertex)].z;
       // Under the sheet (z = -0.25 in the cube), or over it if the sheet faces down.
       EXPECT_EQ(z > -0.2f, turned_over);
     }

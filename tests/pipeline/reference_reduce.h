@@ -34,8 +34,7 @@ class ReferenceReduce {
 
   Reduction run(std::size_t limit) {
     std::uint32_t best_kind = OX_HIT_TOUCHING;
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      best_kind = std::min(best_kind, kind(i));
+    for (std::size_t i = 0; i < candidates_.size(); ++i) best_kind = std::min(best_kind, kind(i));
     deepest_of_each_patch(best_kind, limit);
     farthest_apart(best_kind, limit);
     if (best_kind == OX_HIT_INSIDE) deep_ones_on_their_own(limit);
@@ -101,9 +100,9 @@ class ReferenceReduce {
       // Of the farthest the deepest, of these the first.
       const std::size_t farthest = greatest(may, [&](std::size_t i) { return nearest2_[i]; });
       if (farthest == candidates_.size()) return;
-      const std::size_t best = greatest(
-          [&](std::size_t i) { return may(i) && nearest2_[i] == nearest2_[farthest]; },
-          [&](std::size_t i) { return depth(i); });
+      const std::size_t best =
+          greatest([&](std::size_t i) { return may(i) && nearest2_[i] == nearest2_[farthest]; },
+                   [&](std::size_t i) { return depth(i); });
       const auto distance = [&](std::size_t i) {
         return std::sqrt(static_cast<double>(nearest2_[i]));
       };

@@ -16,8 +16,8 @@ namespace ode_ext::test {
 inline TriangleSoup soup_of(const TestMesh& mesh) {
   TriangleSoup soup;
   for (const unsigned index : mesh.indices)
-    soup.push_back({mesh.vertices[3 * index], mesh.vertices[3 * index + 1],
-                    mesh.vertices[3 * index + 2]});
+    soup.push_back(
+        {mesh.vertices[3 * index], mesh.vertices[3 * index + 1], mesh.vertices[3 * index + 2]});
   return soup;
 }
 
@@ -81,10 +81,11 @@ inline TestMesh jittered(TestMesh mesh, double amount, std::uint64_t seed) {
 
 // Sharp and round, convex and not, thin and thick; the last two are open.
 inline std::vector<TestMesh> small_meshes() {
-  return {make_tetrahedron(1.2),      make_cube(1, 2),          make_icosphere(0.6, 1),
-          make_torus(0.5, 0.2, 9, 6), make_rod(2, 0.2),         jittered(make_l(1), 0.03, 1),
-          make_plate(1.4, 0.1, 3),    inverted(make_cube(0.8)), make_sheet(1.5, 3),
-          make_triangle(1)};
+  return {make_tetrahedron(1.2),   make_cube(1, 2),
+          make_icosphere(0.6, 1),  make_torus(0.5, 0.2, 9, 6),
+          make_rod(2, 0.2),        jittered(make_l(1), 0.03, 1),
+          make_plate(1.4, 0.1, 3), inverted(make_cube(0.8)),
+          make_sheet(1.5, 3),      make_triangle(1)};
 }
 inline constexpr int kSmallMeshCount = 10;
 inline constexpr int kSmallClosedMeshCount = 8;

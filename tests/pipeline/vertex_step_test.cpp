@@ -112,9 +112,8 @@ TEST(VertexStep, CastsNoRayFromFartherOutsideAClosedMeshThanACellOfItsGrid) {
     Point cell;
     for (std::size_t k = 0; k < 3; ++k)
       cell[k] = 1 / static_cast<double>(target.grid.cells_per_meter[k]);
-    const double outside =
-        oracles[scene.objects[scene.pairs[pair][1 - side]].mesh].signed_distance(
-            {p[0], p[1], p[2]});
+    const double outside = oracles[scene.objects[scene.pairs[pair][1 - side]].mesh].signed_distance(
+        {p[0], p[1], p[2]});
     EXPECT_LT(outside, 1.01 * length(cell));  // 1 %: the grid's margin, and rounding
   }
   EXPECT_LT(records.rays.size(), in_box * 3 / 4) << "the grid saves too little to be of use";
@@ -127,16 +126,18 @@ double distance_to_box(const Box& box, const Point& p, const Point& d, double re
     Point apart{};
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = p[k] + t * d[k];
-      apart[k] = std::fmax(0, std::fmax(x - static_cast<double>(box.hi[k]),
-                                        static_cast<double>(box.lo[k]) - x));
+      apart[k] = std::fmax(
+          0, std::fmax(x - static_cast<double>(box.hi[k]), static_cast<double>(box.lo[k]) - x));
     }
     return length(apart);
   };
   double lo = 0, hi = reach;
   for (int i = 0; i < 200; ++i) {
     const double third = (hi - lo) / 3;
-    if (at(lo + third) < at(hi - third)) hi -= third;
-    else lo += third;
+    if (at(lo + third) < at(hi - third))
+      hi -= third;
+    else
+      lo += third;
   }
   return at(lo);
 }
@@ -169,8 +170,7 @@ TEST(VertexStep, CastsARayAtAnOpenMeshExactlyWhereItReachesTheBox) {
     for (std::size_t v = 0; v < source.vertices.size(); ++v) {
       const Point p = in_target(scene, i, 0, point_of(source.vertices[v]));
       const Point d = rotate_back(pt, rotate(ps, -1 * point_of(source.normals[v])));
-      const double apart =
-          distance_to_box(target.box, p, d, static_cast<double>(source.exits[v]));
+      const double apart = distance_to_box(target.box, p, d, static_cast<double>(source.exits[v]));
       const bool has_ray = rays.contains({i, 0, point_of(source.vertices[v])});
       if (apart == 0) {
         ++near;

@@ -68,9 +68,9 @@ TEST(Watertight, KeepsRaysInLongThinTriangles) {
     EXPECT_EQ(escaped(one_pair(make_box({90, 0.05, 0.05}, 64, 2, 2), frame,
                                make_box({100, 0.1, 0.1}, 3, 1, 1), frame)),
               0u);
-    EXPECT_EQ(escaped(one_pair(make_cube(0.04, 4), frame, make_box({100, 0.1, 0.1}, 1, 64, 64),
-                               frame)),
-              0u);
+    EXPECT_EQ(
+        escaped(one_pair(make_cube(0.04, 4), frame, make_box({100, 0.1, 0.1}, 1, 64, 64), frame)),
+        0u);
   }
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pairs of meshes for the properties, and what the collider says of them.
+#pragma once
+
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+#include "pipeline/collider.h"
+#include "pipeline/reference_reduce.h"
+#include "pipeline/rig.h"
+#include "pipeline/test_scene.h"
+
+namespace ode_ext::test {
+
+inline Random random_numbers() { return Random(*rc::gen::arbitrary<std::uint64_t>()); }
+
+// Closed, with no symmetry left: no two distances, depths or rays through edges are equal by design.
+inline TestMesh random_closed_mesh(Random& random) {
+  const TestMesh meshes[] = {make_tetrahedron(1.2),      make_cube(1, 2),  make_icosphere(0.6, 1),
+                             make_torus(0.5, 0.2, 9, 6), make_rod(2, 0.2), make_l(1)};
+  return jittered(meshes[random.below(6)], 0.02, random.next());
+}
+
+inline TestScene random_pair(Random& random) {
+  const TestMesh a = random_closed_mesh(random), b = random_closed_mesh(random);
+  const TestPose pa = random.pose(0.35);
+  return one_pair(a, pa, b, random.pose(0.35));
+}
+
+inline Collider& shared_collider() {
+  static auto* const collider = new Collider({});  // as Rig::shared()
+  return *collider;
+}
+
+inline std::vector<Contact> collide(const TestScene& scene) {
+  return shared_collider().collide(scene.scene, nullptr).contacts;
+}
+
+// The candidates of the only pair, sorted.
+inline std::vector<ox_candidate> candidates_of(const TestScene& scene) {
+  std::vector<ox_candidate> candidates = Rig::shared().run(scene.scene).candidates;
+  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a.side_kind >> 2, a.vertex) < std::tuple(b.side_kind >> 2, b.vertex);
+  });
+  return candidates;
+}
+
+// By how much (in multiples of the smaller mesh's radius) the choice of contacts was clear.
+inline double reduction_margin(const TestScene& scene,
+                               const std::vector<ox_candidate>& candidates) {
+  const float radius = std::min(scene.built_mesh_of(0, 0).radius, scene.built_mesh_of(0, 1).radius);
+  ReferenceReduce reduce(candidates, 0.02f * radius, static_cast<double>(radius));
+  return reduce.run(16).margin;
+}
+
+}  // namespace ode_ext::test
