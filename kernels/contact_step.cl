@@ -32,12 +32,12 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_hi
   const uint hit_count = min(counters[OX_COUNTER_HITS * OX_COUNTER_STRIDE], hit_capacity);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < hit_count; i += stride) {
-    const ox_hit hit = hits[i];
-    const uint p = hit.pair_side >> 1;
-    const uint side = hit.pair_side & 1u;
-    __global ox_candidate* candidate = candidates + pair_segments[p] + hit.slot;
-    float3 position = vload3(0, vertices[hit.vertex].position);
-    float3 normal = vload3(0, triangles[hit.triangle].normal);
+    __global const ox_hit* hit = hits + i;
+    const uint p = hit->pair_side >> 1;
+    const uint side = hit->pair_side & 1u;
+    __global ox_candidate* candidate = candidates + pair_segments[p] + hit->slot;
+    float3 position = vload3(0, vertices[hit->vertex].position);
+    float3 normal = vload3(0, triangles[hit->triangle].normal);
     if (side == 0u) {
       position = ox_place(pairs + p, 0u, position);
     } else {
@@ -45,11 +45,11 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_hi
     }
     vstore3(position, 0, candidate->position);
     vstore3(normal, 0, candidate->normal);
-    candidate->depth = hit.depth;
-    candidate->t = hit.t;
-    candidate->side_kind = side << 2 | hit.kind;
-    candidate->vertex = hit.vertex;
-    candidate->triangle = hit.triangle;
+    candidate->depth = hit->depth;
+    candidate->t = hit->t;
+    candidate->side_kind = side << 2 | hit->kind;
+    candidate->vertex = hit->vertex;
+    candidate->triangle = hit->triangle;
     candidate->patch = OX_NO_PATCH;
     candidate->distance2 = INFINITY;
   }

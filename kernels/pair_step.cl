@@ -48,18 +48,20 @@ static bool ox_boxes_overlap(__global const ox_pair* pair, __global const ox_mes
 
 // No point within this distance [m] of p may be inside the mesh (geometry/clearance_grid.h).
 static float ox_clearance(__global const ox_mesh* mesh, __global const uint* grids, float3 p) {
-  const float3 scale = vload3(0, mesh->grid_scale);
-  const float3 cell = (p - vload3(0, mesh->grid_origin)) * scale;
-  const float3 last = convert_float3(vload3(0, mesh->grid_cells)) - 1.0f;
-  const float3 nearest =
-      (float3)(ox_min(ox_max(cell.x, 0.0f), last.x), ox_min(ox_max(cell.y, 0.0f), last.y),
-               ox_min(ox_max(cell.z, 0.0f), last.z));
-  const float3 moved = fabs(cell - nearest) / scale;
-  const uint3 block = convert_uint3_rtz(nearest) / OX_BLOCK_CELLS;
-  const uint3 blocks = (vload3(0, mesh->grid_cells) + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
-  const uint i = (block.z * blocks.y + block.y) * blocks.x + block.x;
-  const uint steps = grids[mesh->clearance_first + (i >> 2)] >> 8u * (i & 3u) & 255u;
-  return ((float)steps - 1.0f) * mesh->block_side - (moved.x + moved.y + moved.z);
+  const float point[3] = {p.x, p.y, p.z};
+  float moved = 0.0f;
+  uint index = 0u;
+  for (uint axis = 3u; axis-- > 0u;) {
+    const uint cells = mesh->grid_cells[axis];
+    const float scale = mesh->grid_scale[axis];
+    const float cell = (point[axis] - mesh->grid_origin[axis]) * scale;
+    const float nearest = ox_min(ox_max(cell, 0.0f), (float)cells - 1.0f);
+    moved += fabs(cell - nearest) / scale;
+    const uint blocks = (cells + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
+    index = index * blocks + (uint)nearest / OX_BLOCK_CELLS;
+  }
+  const uint steps = grids[mesh->clearance_first + (index >> 2)] >> 8u * (index & 3u) & 255u;
+  return ((float)steps - 1.0f) * mesh->block_side - moved;
 }
 
 static void ox_relate(__global const ox_object* a, __global const ox_object* b,

@@ -14,6 +14,7 @@
 typedef struct {
   float back_t, front_t;  // nearest beyond epsilon; INFINITY: none
   uint back, touching;    // triangles; OX_NONE: none
+  bool entered;           // it starts on a front face: on the surface, going in
 } ox_nearest;
 
 #define OX_NONE 0xffffffffu
@@ -26,6 +27,7 @@ static ox_nearest ox_trace(__global const ox_mesh* mesh, __global const ox_node*
   nearest.front_t = INFINITY;
   nearest.back = OX_NONE;
   nearest.touching = OX_NONE;
+  nearest.entered = false;
   const ox_cast cast = ox_cast_from(origin, direction);
   __global const ox_node* nodes = all_nodes + mesh->node_first;
   float limit = t_max;
@@ -51,12 +53,15 @@ static ox_nearest ox_trace(__global const ox_mesh* mesh, __global const ox_node*
       if (!ox_meets(&cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c),
                     &t, &back))
         continue;
-      // epsilon is the worst that rounding can do, a quarter of it already rare: a vertex that is
-      // farther outside than that does not touch.
-      if (t < -0.25f * epsilon) continue;
+      if (t < -epsilon) continue;
       if (t <= epsilon) {
-        // The vertex lies on this face: an entry does not count, an exit is a touch.
-        if (back && (nearest.touching == OX_NONE || triangle->id < triangles[nearest.touching].id))
+        // The vertex lies on this face: an entry does not count, an exit is a touch. epsilon is the
+        // worst that rounding can do, a quarter of it already rare: what is farther outside than
+        // that does not touch.
+        if (!back)
+          nearest.entered = true;
+        else if (t >= -0.25f * epsilon &&
+                 (nearest.touching == OX_NONE || triangle->id < triangles[nearest.touching].id))
           nearest.touching = k;
       } else if (!back) {
         nearest.front_t = ox_min(nearest.front_t, t);
@@ -102,11 +107,11 @@ __kernel void ray_step(__global volatile uint* counters, __global const ox_ray* 
   const uint ray_count = min(counters[OX_COUNTER_RAYS * OX_COUNTER_STRIDE], ray_capacity);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < ray_count; i += stride) {
-    const ox_ray ray = rays[i];
-    __global const ox_pair* pair = pairs + (ray.pair_side >> 1);
-    const uint side = ray.pair_side & 1u;
+    const uint pair_side = rays[i].pair_side;
+    __global const ox_pair* pair = pairs + (pair_side >> 1);
+    const uint side = pair_side & 1u;
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-    __global const ox_vertex* vertex = vertices + ray.vertex;
+    __global const ox_vertex* vertex = vertices + rays[i].vertex;
     const float epsilon = pair->epsilon;
     const float3 origin = ox_place(pair, side, vload3(0, vertex->position));
     const float3 direction = ox_turn(pair, side, vload3(0, vertex->direction));
@@ -119,28 +124,33 @@ __kernel void ray_step(__global volatile uint* counters, __global const ox_ray* 
     bool inside = nearest.back_t < nearest.front_t;
     if (ox_grazes(&nearest, epsilon))
       inside = closed && ox_is_inside(target, nodes, triangles, origin, epsilon);
+    // A hit beyond the source's exit counts for proving the vertex inside. On the surface it is
+    // not: it may be the far side of a plate thinner than epsilon.
+    const bool within_exit = nearest.back_t <= vertex->exit + epsilon;
+    if (nearest.entered && !within_exit) inside = false;
 
-    ox_hit hit;
+    uint triangle = nearest.back;
+    uint kind = OX_HIT_TOUCHING;
+    float t = 0.0f;
+    float depth = 0.0f;
     if (inside) {
-      hit.triangle = nearest.back;
-      hit.t = nearest.back_t;
-      hit.kind = hit.t <= vertex->exit + epsilon ? OX_HIT_INSIDE : OX_HIT_FALLBACK;
-      const float slope = ox_dot(direction, vload3(0, triangles[hit.triangle].normal));
-      hit.depth = hit.t * ox_max(slope, 0.0f);
+      t = nearest.back_t;
+      kind = within_exit ? OX_HIT_INSIDE : OX_HIT_FALLBACK;
+      depth = t * ox_max(ox_dot(direction, vload3(0, triangles[triangle].normal)), 0.0f);
     } else if (nearest.touching != OX_NONE) {
-      hit.triangle = nearest.touching;
-      hit.t = 0.0f;
-      hit.kind = OX_HIT_TOUCHING;
-      hit.depth = 0.0f;
+      triangle = nearest.touching;
     } else {
       continue;
     }
-    hit.pair_side = ray.pair_side;
-    hit.vertex = ray.vertex;
-    hit.padding = 0u;
     const uint slot = atomic_inc(counters + OX_COUNTER_HITS * OX_COUNTER_STRIDE);
     if (slot >= capacity) continue;
-    hit.slot = atomic_inc(pair_hits + (ray.pair_side >> 1));
-    hits[slot] = hit;
+    __global ox_hit* hit = hits + slot;
+    hit->pair_side = pair_side;
+    hit->vertex = rays[i].vertex;
+    hit->triangle = triangle;
+    hit->kind = kind;
+    hit->depth = depth;
+    hit->t = t;
+    hit->slot = atomic_inc(pair_hits + (pair_side >> 1));
   }
 }

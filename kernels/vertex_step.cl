@@ -14,14 +14,14 @@ static bool ox_may_be_inside(__global const ox_mesh* mesh, __global const uint* 
   const float3 limit = vload3(0, mesh->box_half) + epsilon;
   if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
   if ((mesh->flags & OX_MESH_GRID) == 0u) return true;
-  const float3 cell = (p - vload3(0, mesh->grid_origin)) * vload3(0, mesh->grid_scale);
-  const int x = convert_int_rtn(cell.x);
-  const int y = convert_int_rtn(cell.y);
-  const int z = convert_int_rtn(cell.z);
-  const int nx = (int)mesh->grid_cells[0];
-  const int ny = (int)mesh->grid_cells[1];
-  if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= (int)mesh->grid_cells[2]) return false;
-  const uint bit = (uint)((z * ny + y) * nx + x);
+  // As may_be_inside on the host: compared before it is converted.
+  const float point[3] = {p.x, p.y, p.z};
+  uint bit = 0u;
+  for (uint axis = 3u; axis-- > 0u;) {
+    const float cell = (point[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
+    if (!(cell >= 0.0f && cell < (float)mesh->grid_cells[axis])) return false;
+    bit = bit * mesh->grid_cells[axis] + (uint)cell;
+  }
   return (grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) != 0u;
 }
 
@@ -56,16 +56,16 @@ __kernel void vertex_step(__global volatile uint* counters, __global const ox_ch
   const uint task_count = min(counters[OX_COUNTER_CHUNKS * OX_COUNTER_STRIDE], task_capacity);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < task_count * OX_CHUNK_VERTICES; i += stride) {
-    const ox_chunk_task task = tasks[i / OX_CHUNK_VERTICES];
-    __global const ox_chunk* chunk = chunks + task.chunk;
+    __global const ox_chunk_task* task = tasks + i / OX_CHUNK_VERTICES;
+    __global const ox_chunk* chunk = chunks + task->chunk;
     const uint lane = i % OX_CHUNK_VERTICES;
     if (lane >= chunk->count) continue;
 
     __global const ox_vertex* vertex = vertices + chunk->first + lane;
     const float3 direction = vload3(0, vertex->direction);
     if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) continue;
-    __global const ox_pair* pair = pairs + (task.pair_side >> 1);
-    const uint side = task.pair_side & 1u;
+    __global const ox_pair* pair = pairs + (task->pair_side >> 1);
+    const uint side = task->pair_side & 1u;
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     const float3 p = ox_place(pair, side, vload3(0, vertex->position));
     if ((target->flags & OX_MESH_CLOSED) != 0u) {
@@ -77,7 +77,7 @@ __kernel void vertex_step(__global volatile uint* counters, __global const ox_ch
     }
     const uint slot = atomic_inc(counters + OX_COUNTER_RAYS * OX_COUNTER_STRIDE);
     if (slot >= capacity) continue;
-    rays[slot].pair_side = task.pair_side;
+    rays[slot].pair_side = task->pair_side;
     rays[slot].vertex = chunk->first + lane;
   }
 }

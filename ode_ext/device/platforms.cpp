@@ -89,8 +89,8 @@ struct Survey {
   std::string problems;  // a sentence for each platform left out
 };
 
-// One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or shows
-// no device where several threads make it at once.
+// One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or
+// shows no device where several threads make it at once.
 Survey survey() {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drops the demo's objects with the batch collider driving and, once they have settled, compares what
-// it says of every pair with what FCL says. Exit code 1 if a pair with a vertex inside was overlooked
-// or a contact is false.
+// Drops the demo's objects with the batch collider driving and, once they have settled, compares
+// what it says of every pair with what FCL says. Exit code 1 if a pair with a vertex inside was
+// overlooked or a contact is false.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <stdexcept>

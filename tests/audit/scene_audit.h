@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Is what the collider says of a scene true? Every pair of the broad phase is put to FCL, which tells
-// whether the surfaces intersect, and to the penetration oracle, which tells whether a vertex of one
-// mesh is inside the other.
+// Is what the collider says of a scene true? Every pair of the broad phase is put to FCL, which
+// tells whether the surfaces intersect, and to the penetration oracle, which tells whether a
+// vertex of one mesh is inside the other.
 #pragma once
 
 #include <ode/ode.h>

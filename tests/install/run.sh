@@ -23,7 +23,9 @@ if grep -r -l -I -F -e "$(cd "$here/../.." && pwd)/include" -e "$(cd "$build" &&
 fi
 
 echo "find_package:"
-cmake -S "$here" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" > "$work/configure.log"
+# The generator of the build: CMake's default may not be installed.
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+cmake -S "$here" -B "$work/cmake" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" > "$work/configure.log"
 cmake --build "$work/cmake" > "$work/build.log" || { cat "$work/build.log"; fail "build"; }
 "$work/cmake/consumer_c"
 "$work/cmake/consumer_cpp"

@@ -357,5 +357,24 @@ TEST(Collider, AnswersNothingForMeshesWithoutTriangles) {
   EXPECT_FALSE(bits[2].empty());
 }
 
+// ODE scenes blow up; the collider must neither hang nor spoil the other pairs.
+TEST(Collider, AnswersNothingForPosesThatAreNotFinite) {
+  constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(), 1e300};
+  const TestScene good = one_pair(make_cube(1), at(0, 0, 0), make_cube(1), at(0.1, 0.1, 0.9));
+  const Bits expected = collide(good);
+  ASSERT_FALSE(expected[0].empty());
+  for (const double bad : kBad) {
+    TestScene scene;
+    const std::uint32_t cube = scene.add_mesh(make_cube(1));
+    TestPose skewed;
+    skewed.rotation[4] = bad;
+    scene.add_pair(cube, at(bad, 0, 0), cube, at(0, 0, 0));
+    scene.add_pair(cube, skewed, cube, at(0.1, 0.1, 0.9));
+    scene.add_pair(cube, at(0, 0, 0), cube, at(0.1, 0.1, 0.9));
+    EXPECT_EQ(collide(scene), (Bits{{}, {}, expected[0]})) << bad;
+  }
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes so small that Oclgrind, which interprets the kernels and watches every access, gets through
-// them in a minute or two; together they reach every branch of every kernel:
-//   oclgrind --build-options -cl-opt-disable --data-races --uninitialized --log LOG ode_ext_tests ...
+// Scenes so small that Oclgrind, which interprets the kernels and watches every access, gets
+// through them in a minute or two; together they reach every branch of every kernel:
+//   oclgrind --build-options -cl-opt-disable --data-races --uninitialized ode_ext_tests ...
 // with --gtest_filter='*Oclgrind*' (optimised kernels have shuffles with undefined lanes, at which
 // --uninitialized of Oclgrind 21.10 crashes).
 // Here their answers are looked at too.

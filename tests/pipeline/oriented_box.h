@@ -39,8 +39,8 @@ inline double gap_along(const OrientedBox& a, const OrientedBox& b, const Point&
   return gap;
 }
 
-// The largest gap along the 15 axes of the separating axis theorem; edge axes are not normalised, as
-// in the kernel, so that near-parallel edges say little.
+// The largest gap along the 15 axes of the separating axis theorem; edge axes are not normalised,
+// as in the kernel, so that near-parallel edges say little.
 inline double gap_between(const OrientedBox& a, const OrientedBox& b) {
   double gap = -INFINITY;
   for (std::size_t i = 0; i < 3; ++i) {

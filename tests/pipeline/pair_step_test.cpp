@@ -59,8 +59,9 @@ TEST(PairStep, RelatesTheFramesToWithinItsEpsilon) {
           double exact = 0;
           for (std::size_t k = 0; k < 3; ++k)
             exact += b.rotation[3 * k + row] * a.rotation[3 * k + column];
-          // Two rounded factors, a product and two sums of numbers below 1: five roundings of 2^-24,
-          // of which the sums apply to at most three terms that together stay below sqrt(3).
+          // Two rounded factors, a product and two sums of numbers below 1: five roundings of
+          // 2^-24, of which the sums apply to at most three terms that together stay below
+          // sqrt(3).
           EXPECT_NEAR(pair.rotation[0][3 * row + column], exact, 9 * 0x1p-24);
           EXPECT_EQ(pair.rotation[1][3 * column + row], pair.rotation[0][3 * row + column]);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reduction of contact_step.cl, plainly: on a sorted list, one candidate after the other. And how
-// near each decision was to going the other way.
+// The reduction of contact_step.cl, plainly: on a sorted list, one candidate after the other. And
+// how near each decision was to going the other way.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Against FCL and winding numbers: no contact between meshes that are apart, and one wherever a vertex
-// is inside. (Two meshes of which only edges cross have no vertex inside; vertex rays say nothing of
-// them, and nothing is said of them here.)
+// Against FCL and winding numbers: no contact between meshes that are apart, and one wherever a
+// vertex is inside. (Two meshes of which only edges cross have no vertex inside; vertex rays say
+// nothing of them, and nothing is said of them here.)
 #include <gtest/gtest.h>
 
 #include "property/random_pair.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths and normals where they are known otherwise: of a corner pressed into a face, of spheres, and
-// as far as convex bodies say.
+// Depths and normals where they are known otherwise: of a corner pressed into a face, of spheres,
+// and as far as convex bodies say.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ const Contact* deepest_of(const std::vector<Contact>& contacts) {
   return contacts.empty() ? nullptr : &contacts.front();
 }
 
-// A convex body over a slab, its lowest corner `depth` under the slab's face and no other; everything
-// in a frame of its own.
+// A convex body over a slab, its lowest corner `depth` under the slab's face and no other;
+// everything in a frame of its own.
 struct Pressed {
   TestScene scene;
   TestPose frame;
@@ -67,8 +67,8 @@ RC_GTEST_PROP(DepthProperty, OfACornerInAFaceIsThatOfLibccd, ()) {
   const ConvexPenetration ccd = convex_penetration(scene.mesh_of(0, 0), scene.pose_of(0, 0),
                                                    scene.mesh_of(0, 1), scene.pose_of(0, 1));
   RC_ASSERT(ccd.overlap);
-  // One time in hundreds libccd stops early, with a depth a tenth of the true one. A depth that does
-  // not part the two is no oracle.
+  // One time in hundreds libccd stops early, with a depth a tenth of the true one. A depth that
+  // does not part the two is no oracle.
   const double slack = tolerance + 6 * kEpaTolerance;
   TestPose parted = scene.pose_of(0, 0);
   parted.position = parted.position + (ccd.depth + slack) * ccd.direction;
@@ -98,8 +98,8 @@ RC_GTEST_PROP(DepthProperty, AlongTheNormalClearsACornerFromAFace, ()) {
   RC_ASSERT(!intersect_after(contact.depth + tolerance));
 }
 
-// Of a closed mesh with many triangles: what is inside is so, and no plane of a convex mesh is nearer
-// than its surface.
+// Of a closed mesh with many triangles: what is inside is so, and no plane of a convex mesh is
+// nearer than its surface.
 RC_GTEST_PROP(DepthProperty, IsAtLeastTheDistanceToTheSurfaceOfAConvexTarget, ()) {
   Random random = random_numbers();
   const TestMesh convex[] = {make_tetrahedron(1.2), make_cube(1, 2), make_icosphere(0.6, 2),
@@ -127,11 +127,12 @@ RC_GTEST_PROP(DepthProperty, IsAtLeastTheDistanceToTheSurfaceOfAConvexTarget, ()
   if (deepest > 0) RC_ASSERT(deepest_of(contacts)->depth >= farthest_in - 2 * tolerance);
 }
 
-// Facets of a sphere lie within s = r(1 - cos a) of it, a being the angle from a facet's middle to its
-// corners. Let h be the overlap. A vertex inside is at most h deep under the other sphere and its
-// ray, along the radius, leaves through a facet below that sphere: at most h deep, and the facet's
-// plane, tilted by at most a against the radius there, adds 1 / cos a at most; the deepest vertex is
-// within a of the line of centres, so at least h - 2s deep under the sphere and h - 3s under a facet.
+// Facets of a sphere lie within s = r(1 - cos a) of it, a being the angle from a facet's middle
+// to its corners. Let h be the overlap. A vertex inside is at most h deep under the other sphere
+// and its ray, along the radius, leaves through a facet below that sphere: at most h deep, and
+// the facet's plane, tilted by at most a against the radius there, adds 1 / cos a at most; the
+// deepest vertex is within a of the line of centres, so at least h - 2s deep under the sphere and
+// h - 3s under a facet.
 RC_GTEST_PROP(DepthProperty, OfSpheresIsTheAnalyticOneWithinAFacet, ()) {
   Random random = random_numbers();
   const double ra = random.uniform(0.4, 1), rb = random.uniform(0.4, 1);

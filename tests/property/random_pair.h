@@ -17,7 +17,8 @@ namespace ode_ext::test {
 
 inline Random random_numbers() { return Random(*rc::gen::arbitrary<std::uint64_t>()); }
 
-// Closed, with no symmetry left: no two distances, depths or rays through edges are equal by design.
+// Closed, with no symmetry left: no two distances or depths are equal by design, and no ray runs
+// through an edge.
 inline TestMesh random_closed_mesh(Random& random) {
   const TestMesh meshes[] = {make_tetrahedron(1.2),      make_cube(1, 2),  make_icosphere(0.6, 1),
                              make_torus(0.5, 0.2, 9, 6), make_rod(2, 0.2), make_l(1)};

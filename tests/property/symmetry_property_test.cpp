@@ -10,7 +10,8 @@
 namespace ode_ext::test {
 namespace {
 
-// Whether single precision may decide about a ray of this pair either way; true of one in thousands.
+// Whether single precision may decide about a ray of this pair either way: true of one in
+// thousands.
 bool has_ambiguous_rays(const TestScene& scene) {
   const auto rays = reference_rays(scene.mesh_of(0, 0), scene.pose_of(0, 0), scene.mesh_of(0, 1),
                                    scene.pose_of(0, 1));
