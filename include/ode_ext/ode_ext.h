@@ -20,7 +20,8 @@
  * cache, so no two threads may be inside ODE's own mesh colliders at once).
  *
  * Errors: creators return 0, int functions -1; the sentence is in
- * dBatchColliderGetLastErrorMessage(). No function throws and none aborts.
+ * dBatchColliderGetLastErrorMessage(). No function throws. ODE itself aborts where it is used
+ * before dInitODE2 or after dCloseODE, and these functions then with it.
  */
 #ifndef ODE_EXT_ODE_EXT_H
 #define ODE_EXT_ODE_EXT_H
@@ -145,7 +146,7 @@ enum {
   dBatchStatusGatherSkipped = 1 << 3 /**< the space was known to hold no mesh pair */
 };
 
-/** The append buffers, in the order of the pipeline (DESIGN: every arrow is one). */
+/** The append buffers, in the order of the pipeline (one between each two steps). */
 enum {
   dBatchBufferChunks = 0,   /**< pair step -> vertex step: runs of up to 16 vertices */
   dBatchBufferRays = 1,     /**< vertex step -> ray step */

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
 #include "device/error.h"
 #include "device/program.h"
 
@@ -62,10 +64,14 @@ void Kernel::add_up_finished() {
 }
 
 double Kernel::take_milliseconds() {
-  double sum = milliseconds_;
-  for (const EventHandle& event : events_) sum += duration(event, *device_);
+  double sum = std::exchange(milliseconds_, 0);
+  try {
+    for (const EventHandle& event : events_) sum += duration(event, *device_);
+  } catch (...) {  // an event without times must not stay to spoil the next call
+    events_.clear();
+    throw;
+  }
   events_.clear();  // keeps its memory: a step like the last one allocates nothing here
-  milliseconds_ = 0;
   return sum;
 }
 

@@ -30,7 +30,7 @@ inline constexpr std::uint32_t kChunkVertices = 16;
 struct Mesh {
   // Vertices welded by exact equality, sorted along a space-filling curve [m], local frame.
   std::vector<Vec3f> vertices;
-  // Unit, outward, angle-weighted; rays are cast along their negatives (DESIGN 4.1).
+  // Unit, outward, angle-weighted; rays are cast along their negatives.
   std::vector<Vec3f> normals;
   // Where a ray from the vertex along -normal leaves this mesh [m]; infinity if it never does.
   std::vector<float> exits;

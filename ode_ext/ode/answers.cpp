@@ -47,7 +47,9 @@ std::size_t Answers::Hash::operator()(const Key& key) const {
 bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (a.mesh->content_hash != b.mesh->content_hash)
     return a.mesh->content_hash < b.mesh->content_hash;
-  return std::memcmp(&a.pose, &b.pose, sizeof(Pose)) <= 0;
+  const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
+  // Copies at one pose: nothing of theirs tells them apart, so their handles have to.
+  return poses != 0 ? poses < 0 : std::less<>()(a.geom, b.geom);
 }
 
 }  // namespace ode_ext

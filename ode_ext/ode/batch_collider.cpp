@@ -63,6 +63,7 @@ PairMember known_member(const MeshStore& meshes, dGeomID geom) {
 BatchCollider::Pass::Pass(BatchCollider& collider, const PassRoot& root)
     : collider_(collider), root_(root) {
   const std::lock_guard lock(collider_.mutex_);
+  outer_failed_ = collider_.failed_;
   if (collider_.depth_ != 0 && collider_.pass_thread_ != std::this_thread::get_id())
     throw std::runtime_error(
         "another thread runs a pass of this collider; give each thread a collider of its own");
@@ -75,6 +76,7 @@ BatchCollider::Pass::Pass(BatchCollider& collider, const PassRoot& root)
 BatchCollider::Pass::~Pass() {
   running.pop_back();
   --collider_.depth_;
+  collider_.failed_ = outer_failed_;
 }
 
 void BatchCollider::Pass::deliver(void* data, dNearCallback* callback) {
@@ -121,7 +123,7 @@ void BatchCollider::run_batch(const PassRoot& root) {
     if (histories_.size() > 4096) histories_.clear();  // spaces come and go; this is only a hint
     try {
       compute_ahead(pairs, histories_[root]);
-      failure_said_ = false;
+      if (stats_.pairs_computed != 0) failure_said_ = false;  // the device works
     } catch (const std::exception& error) {
       failed_ = true;
       fail(error);
@@ -155,6 +157,15 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, History& 
   stats_.pairs_colliding = std::count_if(
       gathered.begin(), gathered.end(),
       [](const Answer* answer) { return answer->valid && !answer->contacts.empty(); });
+}
+
+// Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
+void BatchCollider::count_outside(std::size_t pairs) {
+  asked_outside_ += pairs;
+  if (asked_outside_ <= kAnswersOutside) return;
+  answers_.clear();
+  meshes_.clear();
+  asked_outside_ = 0;
 }
 
 void BatchCollider::compute_alone(Answer& answer, const GatheredPair& pair) {
@@ -212,33 +223,34 @@ void BatchCollider::collide_scene(History* history) {
     pending_[i]->contacts.assign(first, first + range.count);
     pending_[i]->valid = true;
   }
-  stats_.ms[dBatchStageExport] = storing.milliseconds();
+  if (history != nullptr) stats_.ms[dBatchStageExport] = storing.milliseconds();
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
   const std::lock_guard lock(mutex_);
   Answer* known = answers_.find(g1, g2);
+  if (known != nullptr) {
+    known->last_pass = pass_;
+    known->passes_unasked = 0;
+  }
   if (known == nullptr || !known->holds(known_member(meshes_, g1), known_member(meshes_, g2))) {
     if (depth_ != 0 && failed_) {
       ++stats_.pairs_stock;
       return -1;
     }
-    if (known == nullptr && ++asked_outside_ > kAnswersOutside) {
-      answers_.clear();
-      asked_outside_ = 0;
-    }
+    count_outside(1);
     known = &answers_.entry(g1, g2);
+    known->last_pass = pass_;
     try {
       compute_alone(*known, {placed(g1), placed(g2)});
     } catch (const std::exception& error) {
+      if (depth_ != 0) failed_ = true;  // one attempt is enough for this pass
       fail(error);
       ++stats_.pairs_stock;
       return -1;
     }
     ++stats_.pairs_alone;
   }
-  known->last_pass = pass_;
-  known->passes_unasked = 0;
   return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts, skip);
 }
 
@@ -256,7 +268,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   bool stock = false;
   try {
     compute_pairs(geoms);
-    failure_said_ = false;
+    if (stats_.pairs_computed != 0) failure_said_ = false;
   } catch (const std::exception& error) {
     fail(error);
     stock = true;
@@ -289,10 +301,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
 
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
   if (depth_ == 0) ++look_;
-  if (++asked_outside_ > kAnswersOutside) {
-    answers_.clear();
-    asked_outside_ = 0;
-  }
+  count_outside(geoms.size() / 2);
   begin_scene();
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i];
@@ -318,6 +327,7 @@ void BatchCollider::fail(const std::exception& error) {
 
 void BatchCollider::begin_stats() {
   dBatchColliderStats fresh{};
+  if (depth_ != 0) fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped};
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;
   fresh.pairs_stock = stats_.pairs_stock;

@@ -43,6 +43,7 @@ class BatchCollider {
    private:
     BatchCollider& collider_;
     PassRoot root_;
+    bool outer_failed_ = false;  // what failed_ was in the pass around this one
   };
 
   // One batch over given mesh pairs; contacts of pair i from index i * (flags & 0xffff) on. Returns
@@ -71,6 +72,7 @@ class BatchCollider {
   void run_batch(const PassRoot& root);
   void compute_ahead(std::span<const GatheredPair> pairs, History& history);
   void compute_pairs(std::span<const dGeomID> geoms);
+  void count_outside(std::size_t pairs);
   void compute_alone(Answer& answer, const GatheredPair& pair);
 
   // A scene of what has no valid answer: begin, add, then collide and keep the answers.

@@ -76,6 +76,12 @@ void MeshStore::forget(dTriMeshDataID data) {
   if (entries_.erase(data) != 0) resident_is_stale_ = true;
 }
 
+void MeshStore::clear() {
+  std::erase_if(entries_, [](const auto& item) { return !item.second.deformable; });
+  for (auto& [data, entry] : entries_) entry.mesh = nullptr;
+  resident_is_stale_ = true;
+}
+
 void MeshStore::prune(std::uint64_t pass) {
   const std::size_t removed = std::erase_if(entries_, [&](const auto& item) {
     return item.second.mesh != nullptr && item.second.last_pass + kPassesKept < pass;

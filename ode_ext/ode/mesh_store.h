@@ -33,6 +33,7 @@ class MeshStore {
   void announce_change(dTriMeshDataID data);
   void set_deformable(dTriMeshDataID data, bool deformable);
   void forget(dTriMeshDataID data);
+  void clear();  // forgets all, but for which are deformable
   // Forgets meshes that no pass has met for a long time.
   void prune(std::uint64_t pass);
 

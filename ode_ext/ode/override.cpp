@@ -15,8 +15,11 @@ namespace {
 // answer in the order of fn's own arguments is thus right as it is. Stock contacts are not
 // symmetric in the arguments, so they are asked for as the program did and turned round here first.
 int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
-  const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
-  if (count >= 0) return count;
+  try {
+    const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
+    if (count >= 0) return count;
+  } catch (...) {  // out of memory: nothing may pass through ODE, and there still is an answer
+  }
   const int stock = stock_collide(g2, g1, flags, contacts, skip);
   auto* bytes = reinterpret_cast<unsigned char*>(contacts);
   for (int i = 0; i < stock; ++i)

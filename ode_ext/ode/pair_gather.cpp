@@ -2,6 +2,7 @@
 #include "ode/pair_gather.h"
 
 #include <algorithm>
+#include <exception>
 #include <unordered_set>
 
 #include "ode/pose_of.h"
@@ -88,13 +89,20 @@ class Gatherer {
         dSpaceCollide(reinterpret_cast<dSpaceID>(next.first), this, &near);
       else
         dSpaceCollide2(next.first, next.second, this, &near);
+      if (failure_) std::rethrow_exception(failure_);
     }
     return std::move(pairs_);
   }
 
  private:
   static void near(void* self, dGeomID g1, dGeomID g2) {
-    static_cast<Gatherer*>(self)->meet(g1, g2);
+    auto& gatherer = *static_cast<Gatherer*>(self);
+    if (gatherer.failure_) return;
+    try {
+      gatherer.meet(g1, g2);
+    } catch (...) {  // ODE would be left with a locked space
+      gatherer.failure_ = std::current_exception();
+    }
   }
 
   void meet(dGeomID g1, dGeomID g2) {
@@ -130,6 +138,7 @@ class Gatherer {
   std::vector<PassRoot> pending_;
   std::unordered_set<dGeomID> entered_;
   std::vector<GatheredPair> pairs_;
+  std::exception_ptr failure_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // An append buffer: records in device memory behind a counter that runs on past the capacity.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "device/buffer.h"
@@ -17,7 +18,8 @@ class AppendBuffer {
   void reserve(std::uint64_t records) {
     if (records <= capacity_) return;
     capacity_ = 0;
-    const std::uint64_t wanted = records + records / 4;
+    // Counters and capacities have 32 bits; tiles are cut so that nothing needs more.
+    const std::uint64_t wanted = std::min<std::uint64_t>(records + records / 4, UINT32_MAX);
     records_.reserve(wanted * record_bytes_);
     capacity_ = static_cast<std::uint32_t>(wanted);
   }

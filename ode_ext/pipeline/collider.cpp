@@ -134,6 +134,7 @@ const PairContacts& Collider::collide(const Scene& scene, History* history) {
       device_.finish();
     } catch (const DeviceError&) {
     }
+    take_kernel_times();  // of what ran; the next step starts afresh
     meshes_.forget();
     throw;
   }
@@ -154,7 +155,7 @@ std::vector<Collider::Tile> Collider::cut_into_tiles(const Scene& scene) const {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     std::uint64_t of_pair = 0;
     for (const std::uint32_t object : scene.pairs[i])
-      of_pair += scene.meshes[scene.objects[object].mesh]->vertices.size();
+      of_pair += kChunkVertices * scene.meshes[scene.objects[object].mesh]->chunks.size();
     if (tiles.empty() || vertices + of_pair > options_.tile_vertices) {
       tiles.push_back({i, 0});
       vertices = 0;
@@ -165,8 +166,23 @@ std::vector<Collider::Tile> Collider::cut_into_tiles(const Scene& scene) const {
   return tiles;
 }
 
-void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted) {
+ArrowCounts Collider::bounds(const Scene& scene, Tile tile) const {
+  std::uint64_t chunks = 0, vertices = 0;
+  for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
+    for (const std::uint32_t object : scene.pairs[i]) {
+      const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
+      chunks += mesh.chunks.size();
+      vertices += mesh.vertices.size();
+    }
+  return {chunks, vertices, vertices, std::uint64_t{tile.count} * options_.max_contacts};
+}
+
+void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& expected) {
   ArrowCounts actual;
+  // A prediction may be as far off as it likes: it costs no more than the worst case would.
+  const ArrowCounts most = bounds(scene, tile);
+  ArrowCounts predicted{};
+  for (std::size_t i = 0; i < kArrowCount; ++i) predicted[i] = std::min(expected[i], most[i]);
   try {
     ArrowCounts needed = predicted;
     for (;;) {
@@ -278,11 +294,12 @@ std::size_t Collider::launch_size(Arrow arrow, const ArrowCounts& predicted) {
   if (arrow == Arrow::kChunks) items *= OX_CHUNK_VERTICES;
   const std::uint64_t local = options_.work_group_size;
   const std::uint64_t groups = (items + local - 1) / local;
-  if (options_.workload == Workload::kExact) return groups;
-  // A few groups for every compute unit cost nothing where there is no history yet; 2^20 groups
-  // keep the grid within 32 bits, the loops in the kernels do the rest.
+  const std::uint64_t most = (std::uint64_t{1} << 30) / local;
+  if (options_.workload == Workload::kExact) return std::min(groups, most);
+  // A few groups for every compute unit cost nothing where there is no history yet; a grid of 2^30
+  // keeps every index within 32 bits, the loops in the kernels do the rest.
   const std::uint64_t floor = std::uint64_t{8} * device_.info().compute_units;
-  return std::clamp<std::uint64_t>(groups, floor, std::uint64_t{1} << 20);
+  return std::min(std::max(groups, floor), most);
 }
 
 void Collider::append_contacts(const Scene& scene, Tile tile, const ArrowCounts& actual) {
@@ -299,17 +316,19 @@ void Collider::append_contacts(const Scene& scene, Tile tile, const ArrowCounts&
   }
 }
 
-// PoCL compiles a kernel at its first launch, and again at the first one of 65,536 items or more,
-// wherever that falls in a simulation. Launching that many on empty input now settles both.
+// Launches every kernel on empty input, so that one that cannot run in groups of this size is known
+// now. PoCL compiles a kernel at its first launch, and again at the first one of 65,536 items or
+// more, wherever that falls in a simulation; launching that many settles both.
 void Collider::warm_up() {
-  if (device_.info().platform_name.find("Portable Computing Language") == std::string::npos) return;
   reserve({});
   upload(Scene{}, {0, 0});
   meshes_.set({});
   objects_.reserve(sizeof(ox_object));
   counters_.fill_zero(kCounterBytes);
   const std::size_t local = options_.work_group_size;
-  const Launch wide{(std::size_t{1} << 16) / local + 1, local};
+  const bool is_pocl =
+      device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
+  const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
   steps_.pair.run(wide, counters_, objects_, meshes_, pair_objects_, 0, pairs_, pair_hits_,
                   pair_ranges_, tasks_);
   steps_.vertex.run(wide, counters_, tasks_, pairs_, meshes_, rays_);
@@ -320,11 +339,19 @@ void Collider::warm_up() {
   take_kernel_times();
 }
 
+// A clock that cannot be read is no reason to lose contacts: that time is 0 then.
 void Collider::take_kernel_times() {
-  report_.ms_pair_step = steps_.pair.take_milliseconds();
-  report_.ms_vertex_step = steps_.vertex.take_milliseconds();
-  report_.ms_ray_step = steps_.ray.take_milliseconds();
-  report_.ms_contact_step = steps_.contact.take_milliseconds();
+  const auto take = [](auto& step) {
+    try {
+      return step.take_milliseconds();
+    } catch (const DeviceError&) {
+      return 0.0;
+    }
+  };
+  report_.ms_pair_step = take(steps_.pair);
+  report_.ms_vertex_step = take(steps_.vertex);
+  report_.ms_ray_step = take(steps_.ray);
+  report_.ms_contact_step = take(steps_.contact);
 }
 
 template <class T>

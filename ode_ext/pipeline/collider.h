@@ -43,6 +43,8 @@ class Collider {
   };
 
   std::vector<Tile> cut_into_tiles(const Scene& scene) const;
+  // What a tile can append at the very most.
+  ArrowCounts bounds(const Scene& scene, Tile tile) const;
   void collide_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted);
   ArrowCounts run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted);
   void reserve(const ArrowCounts& counts);

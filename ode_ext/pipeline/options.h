@@ -18,7 +18,8 @@ struct ColliderOptions {
   double confidence = 1.2;
   std::uint32_t work_group_size = 64;
   std::uint64_t initial_capacity = 16384;  // [records] of each append buffer
-  // Pairs are collided in tiles of at most this many vertices, so that no counter passes 2^32.
+  // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that no
+  // counter and no index passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 31;
 };
 
