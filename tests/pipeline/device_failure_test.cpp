@@ -19,7 +19,7 @@ constexpr int kCode = CL_INVALID_OPERATION;  // says nothing of memory: there is
 
 // Makes the nth call of a step fail, for n = 1 until the step has no more calls; `prepare` comes
 // before each. Returns how many calls were made to fail. The last calls of a step only read the
-// kernels' clocks, after the contacts: those, and no others, may fail without taking the step along.
+// kernels' clocks, after the contacts: only those may fail without taking the step along.
 template <class Prepare>
 int fail_every_call(Collider& collider, const Scene& scene, const Bits& expected, int code,
                     const Prepare& prepare) {
