@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs a build into an empty prefix and builds the programs of this folder against it, through
-# CMake and through pkg-config, from C and from C++, and runs all four. Also checks what the installed
-# library needs and what it exports.
+# CMake and through pkg-config, from C and from C++, and runs all four. Also checks what the
+# installed library needs and what it exports.
 set -euo pipefail
 
 build=${1:?usage: tests/install/run.sh <build directory>}
@@ -18,14 +18,16 @@ fail() {
 
 cmake --install "$build" --prefix "$prefix" > "$work/install.log"
 # What works only because the sources are still there would fail everywhere else.
-if grep -r -l -I -F -e "$(cd "$here/../.." && pwd)/include" -e "$(cd "$build" && pwd)" "$prefix"; then
+source_headers=$(cd "$here/../../include" && pwd)
+if grep -r -l -I -F -e "$source_headers" -e "$(cd "$build" && pwd)" "$prefix"; then
   fail "the files above name the source or the build tree"
 fi
 
 echo "find_package:"
 # The generator of the build: CMake's default may not be installed.
 generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
-cmake -S "$here" -B "$work/cmake" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" > "$work/configure.log"
+cmake -S "$here" -B "$work/cmake" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+  > "$work/configure.log"
 cmake --build "$work/cmake" > "$work/build.log" || { cat "$work/build.log"; fail "build"; }
 "$work/cmake/consumer_c"
 "$work/cmake/consumer_cpp"
@@ -37,16 +39,17 @@ static=()
 [[ -e $libraries/libode_ext.so ]] || static=(--static)
 flags() { PKG_CONFIG_PATH=$pc pkg-config "${static[@]}" "$@" ode_ext; }
 # Unquoted on purpose: flags are words.
-cc -Wall -Wextra -Wpedantic -Werror -std=c11 "$here/consumer.c" -o "$work/pc_c" $(flags --cflags --libs)
-c++ -Wall -Wextra -Wpedantic -Werror "$here/consumer.cpp" -o "$work/pc_cpp" $(flags --cflags --libs)
+warnings="-Wall -Wextra -Wpedantic -Werror"
+cc $warnings -std=c11 "$here/consumer.c" -o "$work/pc_c" $(flags --cflags --libs)
+c++ $warnings "$here/consumer.cpp" -o "$work/pc_cpp" $(flags --cflags --libs)
 LD_LIBRARY_PATH=$libraries "$work/pc_c"
 LD_LIBRARY_PATH=$libraries "$work/pc_cpp"
 
 if [[ ${#static[@]} -eq 0 ]]; then
   library=$libraries/libode_ext.so
   needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
-  others=$(grep -v -E '^(libode|libOpenCL|libstdc\+\+|libgcc_s|libm|libc|ld-linux.*)\.so' <<< "$needed" ||
-    true)
+  allowed='^(libode|libOpenCL|libstdc\+\+|libgcc_s|libm|libc|ld-linux.*)\.so'
+  others=$(grep -v -E "$allowed" <<< "$needed" || true)
   [[ -z $others ]] || fail "the library needs more than ODE and OpenCL: $others"
   exported=$(nm -D --defined-only "$library" | awk '{print $NF}')
   grep -q '^dBatchColliderCreate$' <<< "$exported" || fail "the C API is not exported"

@@ -39,7 +39,9 @@ int fail_every_call(Collider& collider, const Scene& scene, const Bits& expected
     fault_injector::disarm();
     EXPECT_EQ(bits_of(collider.collide(scene, nullptr)), expected) << "after call " << n;
     if (!fired) return n - 1;
-    if (failed && code == kCode) EXPECT_EQ(++failures, n) << "a call before went unnoticed";
+    if (failed && code == kCode) {
+      EXPECT_EQ(++failures, n) << "a call before went unnoticed";
+    }
     if (::testing::Test::HasFailure()) return n;
   }
 }
@@ -83,7 +85,9 @@ TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) {
     const bool fired = fault_injector::calls_checked() >= n;
     fault_injector::disarm();
     ASSERT_TRUE(fired || !failed) << "call " << n;
-    if (!failed) ASSERT_EQ(bits, expected) << "call " << n;
+    if (!failed) {
+      ASSERT_EQ(bits, expected) << "call " << n;
+    }
     failures += failed;
     ASSERT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected) << "after call " << n;
     if (!fired) break;
