@@ -42,6 +42,12 @@ add_test(NAME checks_fail_on_violations COMMAND ${PROJECT_SOURCE_DIR}/tests/supp
 set_tests_properties(house_rules kernels_compile format checks_fail_on_violations PROPERTIES
                      TIMEOUT 120)
 
+if(TARGET falling_objects)
+  add_test(NAME same_contacts_in_every_run
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/same_hash_test.sh $<TARGET_FILE:falling_objects>)
+  set_tests_properties(same_contacts_in_every_run PROPERTIES TIMEOUT 120)
+endif()
+
 # The consumer is not built with sanitizers, so it cannot link a library that is.
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer
