@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ODE_EXT_TRACE is read once a process and the file is closed when it ends, so each test has one.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+class ApiTraceDeathTest : public testing::Test {
+ protected:
+  ApiTraceDeathTest() { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+};
+
+void trace_two_passes(const std::string& path) {
+  setenv("ODE_EXT_TRACE", path.c_str(), 1);
+  {
+    OdeWorld world;
+    const dSpaceID space = world.space(SpaceKind::Simple);
+    const Pile pile(world, space, 5, 1);
+    const BatchCollider collider;
+    collider.pass(space);
+    collider.pass(space);
+  }
+  std::exit(0);
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
+  const std::string path = testing::TempDir() + "ode_ext_trace_test.json";
+  EXPECT_EXIT(trace_two_passes(path), testing::ExitedWithCode(0), "");
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  for (const char* name : {"pass", "gather", "meshes", "device", "export", "pair_step",
+                           "vertex_step", "ray_step", "contact_step"})
+    EXPECT_EQ(count(text.str(), std::string("\"name\":\"") + name + "\""), 2) << name;
+  EXPECT_EQ(text.str().substr(0, 2), "[\n");
+  EXPECT_EQ(text.str().substr(text.str().size() - 3), "\n]\n");
+  EXPECT_EQ(count(text.str(), "{\"name\""), count(text.str(), ",\n") + 1);
+}
+
+TEST_F(ApiTraceDeathTest, ThatCannotBeWrittenIsAMessageAndNoCollider) {
+  EXPECT_EXIT(
+      {
+        setenv("ODE_EXT_TRACE", "/nonexistent/trace.json", 1);
+        dInitODE2(0);
+        if (dBatchColliderCreate(nullptr) != nullptr) std::exit(1);
+        std::fputs(dBatchColliderGetLastErrorMessage(), stderr);
+        dCloseODE();
+        std::exit(0);
+      },
+      testing::ExitedWithCode(0), "ODE_EXT_TRACE names '/nonexistent/trace.json'");
+}
+
+}  // namespace
+}  // namespace ode_ext::test
