@@ -59,8 +59,9 @@ class Answers {
   std::unordered_map<Key, Answer, Hash> map_;
 };
 
-// The order in which a pair is computed: it depends on the meshes and the poses alone, so that a
-// pair gives the same bytes whichever way round, whenever and in whatever company it is asked for.
+// The order in which a pair is computed. It depends on the meshes and the poses alone, so that a
+// pair gives the same bytes whichever way round, whenever and in whatever company it is asked for;
+// only copies at one pose are told apart by their handles.
 bool in_canonical_order(const PairMember& a, const PairMember& b);
 
 }  // namespace ode_ext
