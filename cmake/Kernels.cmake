@@ -8,7 +8,9 @@ file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/share
 file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl)
 
 set(ODE_EXT_KERNEL_FILES)
-foreach(header shared/types.h shared/transform.h shared/ray_triangle.h)
+foreach(header types transform append cull ray_triangle nearest full_ray iterative_ray choose cast
+               deform)
+  set(header shared/${header}.h)
   if(header IN_LIST headers)
     list(APPEND ODE_EXT_KERNEL_FILES ${header})
     list(REMOVE_ITEM headers ${header})

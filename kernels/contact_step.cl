@@ -4,9 +4,8 @@
 // spread the patches widest.
 //
 // Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
-// with (side, vertex), so the result is the one that hits sorted by (pair, side, vertex) would
-// give.
-#include "shared/transform.h"
+// with (side, position, vertex), so the result is what hits sorted in that order would give.
+#include "shared/append.h"
 
 #define OX_NO_PATCH 0xffffffffu
 #define OX_TAKEN 0xfffffffeu
@@ -22,14 +21,14 @@ __kernel void contact_place(__global volatile uint* counters, __global const uin
           atomic_add(counters + OX_COUNTER_SEGMENTS * OX_COUNTER_STRIDE, pair_hits[p]);
 }
 
-// in: hits (counter OX_COUNTER_HITS). out: candidates, by pair, in the frame of B. item: 1 hit.
-__kernel void contact_gather(__global const uint* counters, __global const ox_hit* hits,
-                             uint hit_capacity, __global const ox_pair* pairs,
+// in: hits. out: candidates, by pair, in the frame of B. item: 1 hit.
+__kernel void contact_gather(__global const uint* counters, __global const ox_list* lists,
+                             __global const ox_hit* hits, __global const ox_pair* pairs,
                              __global const ox_vertex* vertices,
                              __global const ox_triangle* triangles,
                              __global const uint* pair_segments,
                              __global ox_candidate* candidates) {
-  const uint hit_count = min(counters[OX_COUNTER_HITS * OX_COUNTER_STRIDE], hit_capacity);
+  const uint hit_count = ox_length(counters, lists, OX_LIST_HITS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < hit_count; i += stride) {
     __global const ox_hit* hit = hits + i;
@@ -38,6 +37,7 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_hi
     __global ox_candidate* candidate = candidates + pair_segments[p] + hit->slot;
     float3 position = vload3(0, vertices[hit->vertex].position);
     float3 normal = vload3(0, triangles[hit->triangle].normal);
+    if ((hit->kind & OX_HIT_REVERSED) != 0u) normal = -normal;
     if (side == 0u) {
       position = ox_place(pairs + p, 0u, position);
     } else {
@@ -47,7 +47,7 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_hi
     vstore3(normal, 0, candidate->normal);
     candidate->depth = hit->depth;
     candidate->t = hit->t;
-    candidate->side_kind = side << 2 | hit->kind;
+    candidate->side_kind = side << 3 | hit->kind;
     candidate->vertex = hit->vertex;
     candidate->triangle = hit->triangle;
     candidate->patch = OX_NO_PATCH;
@@ -55,12 +55,17 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_hi
   }
 }
 
-static uint ox_kind(__global const ox_candidate* c) { return c->side_kind & 3u; }
+static uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_HIT_KIND; }
 
+// By side and place; by the order of the vertices, which for a deformed mesh tells of the shape it
+// was built in, only where rounding has put two in one place.
 static bool ox_key_less(__global const ox_candidate* a, __global const ox_candidate* b) {
-  const uint side_a = a->side_kind >> 2;
-  const uint side_b = b->side_kind >> 2;
-  return side_a != side_b ? side_a < side_b : a->vertex < b->vertex;
+  const uint side_a = a->side_kind >> 3;
+  const uint side_b = b->side_kind >> 3;
+  if (side_a != side_b) return side_a < side_b;
+  for (uint k = 0u; k < 3u; ++k)
+    if (a->position[k] != b->position[k]) return a->position[k] < b->position[k];
+  return a->vertex < b->vertex;
 }
 
 static bool ox_deeper(__global const ox_candidate* a, __global const ox_candidate* b) {
@@ -147,34 +152,60 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
 
 #define OX_MAX_CONTACTS 64u
 
-// in: candidates. out: contacts, pair_ranges. item: 1 pair. May overflow: OX_COUNTER_CONTACTS
-__kernel void contact_reduce(__global volatile uint* counters, __global const ox_pair* pairs,
-                             __global const ox_mesh* meshes, __global const uint* pair_hits,
-                             __global const uint* pair_segments, uint pair_count,
-                             __global ox_candidate* candidates, uint hit_capacity,
-                             uint max_contacts, __global ox_range* pair_ranges,
-                             __global ox_contact* contacts, uint capacity) {
-  // With hits lost the segments are not whole; the host redoes the step.
-  if (counters[OX_COUNTER_HITS * OX_COUNTER_STRIDE] > hit_capacity) return;
+static void ox_store_contact(__global const ox_candidate* candidate, __global ox_contact* contact) {
+  contact->side_kind = candidate->side_kind;
+  contact->vertex = candidate->vertex;
+  contact->triangle = candidate->triangle;
+  contact->depth = candidate->depth;
+}
+
+// Room for `count` contacts of pair p; less where the list is full.
+static uint ox_place_contacts(__global volatile uint* counters, __global const ox_list* lists,
+                              uint count, __global ox_range* range) {
+  const uint first = atomic_add(counters + OX_LIST_CONTACTS * OX_COUNTER_STRIDE, count);
+  const uint capacity = lists[OX_LIST_CONTACTS].capacity;
+  range->first = first;
+  range->count = min(count, first < capacity ? capacity - first : 0u);
+  return range->count;
+}
+
+// in: candidates. out: contacts, pair_ranges. item: 1 pair. max_deformable: of a pair with a
+// deformable mesh; 0: all, in no order (the host sorts them). May overflow: OX_LIST_CONTACTS
+__kernel void contact_reduce(__global volatile uint* counters, __global const ox_list* lists,
+                             __global const ox_pair* pairs, __global const ox_mesh* meshes,
+                             __global const uint* pair_hits, __global const uint* pair_segments,
+                             uint pair_count, __global ox_candidate* candidates, uint max_contacts,
+                             uint max_deformable, __global ox_range* pair_ranges,
+                             __global ox_contact* contacts) {
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     const uint count = pair_hits[p];
     if (count == 0u) continue;
     __global const ox_mesh* a = meshes + pairs[p].mesh[0];
     __global const ox_mesh* b = meshes + pairs[p].mesh[1];
+    __global ox_candidate* mine = candidates + pair_segments[p];
+    const bool deformable = ((a->flags | b->flags) & OX_MESH_DEFORMABLE) != 0u;
+    if (deformable && max_deformable == 0u) {  // all that say most
+      uint kind = OX_HIT_TOUCHING;
+      for (uint i = 0u; i < count; ++i) kind = min(kind, ox_kind(mine + i));
+      uint wanted = 0u;
+      for (uint i = 0u; i < count; ++i) wanted += ox_kind(mine + i) == kind ? 1u : 0u;
+      uint room = ox_place_contacts(counters, lists, wanted, pair_ranges + p);
+      __global ox_contact* contact = contacts + pair_ranges[p].first;
+      for (uint i = 0u; i < count && room != 0u; ++i) {
+        if (ox_kind(mine + i) != kind) continue;
+        ox_store_contact(mine + i, contact++);
+        --room;
+      }
+      continue;
+    }
     // Contacts closer than 2 % of the smaller mesh's radius hold it up no better than one.
     const float merge = 0.02f * ox_min(a->radius, b->radius);
-    __global ox_candidate* mine = candidates + pair_segments[p];
     uint taken[OX_MAX_CONTACTS];
-    const uint n = ox_reduce(mine, count, merge * merge, max_contacts, taken);
-    const uint first = atomic_add(counters + OX_COUNTER_CONTACTS * OX_COUNTER_STRIDE, n);
-    pair_ranges[p].first = first;
-    pair_ranges[p].count = n;
-    for (uint k = 0u; k < n && first + k < capacity; ++k) {
-      contacts[first + k].side = mine[taken[k]].side_kind >> 2;
-      contacts[first + k].vertex = mine[taken[k]].vertex;
-      contacts[first + k].triangle = mine[taken[k]].triangle;
-      contacts[first + k].depth = mine[taken[k]].depth;
-    }
+    const uint n =
+        ox_reduce(mine, count, merge * merge, deformable ? max_deformable : max_contacts, taken);
+    const uint room = ox_place_contacts(counters, lists, n, pair_ranges + p);
+    for (uint k = 0u; k < room; ++k)
+      ox_store_contact(mine + taken[k], contacts + pair_ranges[p].first + k);
   }
 }

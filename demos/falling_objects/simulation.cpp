@@ -58,25 +58,31 @@ void Simulation::collide(StepRecord& record) {
   }
   hash_ = hash_contacts(contacts_.contacts(), hash_);
   const dBatchColliderStats stats = collision_.stats();
-  record.rays = stats.actual[dBatchBufferRays];
+  record.rays = stats.actual[dBatchBufferRaysIterative] + stats.actual[dBatchBufferRaysBvh] +
+                stats.actual[dBatchBufferRaysBasic] - stats.iterative_unproven;
   std::copy(std::begin(stats.ms), std::end(stats.ms), record.stage_ms.begin());
   record.status = stats.status;
 }
 
 void Simulation::advance(StepRecord& record) {
   const auto start = std::chrono::steady_clock::now();
-  for (const dContactGeom& geom : contacts_.contacts()) {
+  advance_world(scene_, joints_, contacts_.contacts(), options_.hz);
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  record.world_ms = took.count();
+}
+
+void advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactGeom> contacts,
+                   double hz) {
+  for (const dContactGeom& geom : contacts) {
     dContact contact{};
     contact.geom = geom;
     contact.surface.mode = dContactApprox1;
     contact.surface.mu = 0.5;
-    dJointID joint = dJointCreateContact(scene_.world(), joints_, &contact);
+    dJointID joint = dJointCreateContact(scene.world(), joints, &contact);
     dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
   }
-  dWorldQuickStep(scene_.world(), 1 / options_.hz);
-  dJointGroupEmpty(joints_);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  record.world_ms = took.count();
+  dWorldQuickStep(scene.world(), 1 / hz);
+  dJointGroupEmpty(joints);
 }
 
 }  // namespace falling_objects

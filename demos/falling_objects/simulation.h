@@ -12,6 +12,10 @@
 
 namespace falling_objects {
 
+// Makes contact joints of these contacts, and a step of the world.
+void advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactGeom> contacts,
+                   double hz);
+
 class Simulation {
  public:
   Simulation(const Options& options, Scene& scene, Collision& collision);

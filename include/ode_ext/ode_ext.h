@@ -52,23 +52,69 @@ enum {
   dBatchPredictionPlain = 1       /**< Eq. 2: last count * confidence */
 };
 
+/** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes. */
+enum {
+  dBatchRaysIterative = 0, /**< where a pair moved little, from the triangle met in the last pass;
+                                  what cannot be proven that way is cast in full (default) */
+  dBatchRaysFull = 1,      /**< every ray in full */
+  dBatchRaysIterativePaper = 2 /**< as the paper: where a pair moved little, a vertex without
+                                  temporal data is dropped and what the walk finds is believed.
+                                  Misses contacts */
+};
+
+/** How rays at a deformable mesh are cast. Both give the same bytes. */
+enum {
+  dBatchDeformableRefit = 0, /**< through a BVH refitted on the device in every pass (default) */
+  dBatchDeformableBasic = 1  /**< against every triangle, as the paper */
+};
+
+/** How the work is cut into kernels. Both give the same bytes. */
+enum {
+  dBatchOrganisationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
+                                      between (default) */
+  dBatchOrganisationMonolithic = 1 /**< one kernel with a switch, a work-item per vertex of every
+                                      pair: what the paper compares itself with */
+};
+
+/** What happens when an append buffer was predicted too small (GRAPP section 4.1). */
+enum {
+  dBatchMispredictionRedo = 0,     /**< it grows and the pass is computed again; nothing is lost
+                                      (default) */
+  dBatchMispredictionIgnore = 1,   /**< as the paper: what exceeds the prediction is lost, and
+                                      counted in dBatchColliderStats.missed */
+  dBatchMispredictionBacktrack = 2 /**< the pass delivers nothing, returns 0 and makes no callback;
+                                      the statistics say what was short, and the next pass of that
+                                      space has room for it */
+};
+
 /** Creation parameters. Fill with dBatchColliderParamsInit, then change what you need. */
 typedef struct dBatchColliderParams {
-  size_t struct_size;   /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
-  const char *device;   /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
+  size_t struct_size;    /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
+  const char *device;    /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
                                 Read during dBatchColliderCreate only. */
-  int max_contacts;     /**< contacts kept per pair, 1..64 (default 16) */
-  int workload;         /**< dBatchWorkload... */
-  int prediction;       /**< dBatchPrediction... */
-  int trust_meshes;     /**< nonzero: meshes change only where the program says so through
+  int max_contacts;      /**< contacts kept per pair, 1..64 (default 16) */
+  int workload;          /**< dBatchWorkload... */
+  int prediction;        /**< dBatchPrediction... */
+  int trust_meshes;      /**< nonzero: meshes change only where the program says so through
                                 dBatchColliderTriMeshDataUpdate / ...Destroyed; saves hashing every
                                 mesh in every pass (default 0) */
-  dReal confidence;     /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only */
-  dReal open_thickness; /**< [m] how far below an open surface it is solid; 0 (default): the mean
+  dReal confidence;      /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only */
+  dReal open_thickness;  /**< [m] how far below an open surface it is solid; 0 (default): the mean
                                 edge length of the mesh */
-  int work_group_size;  /**< work-items per work-group, 1..device limit; 0 (default): 64 */
-  int initial_capacity; /**< entries of each append buffer at the start; 0: default (16384).
+  int work_group_size;   /**< work-items per work-group, 1..device limit; 0 (default): 64 */
+  int initial_capacity;  /**< entries of each append buffer at the start; 0: default (16384).
                                 Buffers grow by themselves */
+  int rays;              /**< dBatchRays... */
+  int deformable_target; /**< dBatchDeformable... */
+  int organisation;      /**< dBatchOrganisation... */
+  int misprediction;     /**< dBatchMisprediction... */
+  int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh; 0 (default):
+                                all of them */
+  int walk_limit;           /**< triangles an iterative ray walks across at most; 0 (default): 32 */
+  dReal displacement_limit; /**< how far the vertices of a pair may have moved since its last pass
+                                for iterative rays, in mean edge lengths of the target; 0 (default):
+                                1 */
+  int count_work; /**< nonzero: count the work of every work-item (see dBatchWork); slow */
 } dBatchColliderParams;
 
 /** Sets struct_size and the defaults. NULL is ignored. */
@@ -98,7 +144,8 @@ ODE_EXT_API const char *dBatchColliderGetLastErrorMessage(void);
  * A collider of 0 means plain dSpaceCollide. Inside the callback and after the call
  * dCollide(mesh, mesh, ...) answers from the batch, in either argument order and any number of
  * times, until the poses or the meshes change.
- * @return 1 delivered, 0 nothing delivered, -1 error (no callback was made)
+ * @return 1 delivered; 0 nothing delivered, no callback was made (dBatchMispredictionBacktrack);
+ *         -1 error, no callback was made
  */
 ODE_EXT_API int dBatchColliderSpaceCollide(dBatchColliderID collider, dSpaceID space, void *data,
                                            dNearCallback *callback);
@@ -127,8 +174,17 @@ ODE_EXT_API int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeo
  */
 ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data);
 
-/** Announces that a mesh will change in most steps (nonzero) or rarely (0, the default): what pays
-    off only over many steps is then not prepared. Contacts do not depend on it. */
+/**
+ * Announces that the vertices of a mesh move in most steps (nonzero) or rarely (0, the default).
+ * A deformable mesh keeps what depends on its triangles alone while they stay the same; the rest
+ * (normals, exits, bounds, BVH) is made anew on the device in every pass in which vertices moved.
+ * Its normals are rounded otherwise than those of a rigid mesh, so contacts may differ in their
+ * last bits. An open deformable mesh is a sheet with two sides: it pushes back from either, and its
+ * own vertices take the shorter way out.
+ * ODE takes the bounding box of a mesh when it is built, and never again: build a mesh that will
+ * move with two vertices at the corners of a box that holds every shape it can take, put them back,
+ * and call dGeomTriMeshDataUpdate (dBatchStatusMeshLeftBox says when that box was too small).
+ */
 ODE_EXT_API void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider,
                                                         dTriMeshDataID data, int deformable);
 
@@ -143,31 +199,68 @@ enum {
   dBatchStatusDeviceFailed = 1 << 1, /**< the device failed; ODE's own collider answers this pass */
   dBatchStatusMeshRefused = 1 << 2,  /**< a mesh has vertices that are not finite; its pairs get no
                                            contacts */
-  dBatchStatusGatherSkipped = 1 << 3 /**< the space was known to hold no mesh pair */
+  dBatchStatusGatherSkipped = 1 << 3, /**< the space was known to hold no mesh pair */
+  dBatchStatusMeshLeftBox = 1 << 4,   /**< a mesh has vertices outside of the box that ODE knows of
+                                           it: pairs may go unnoticed by ODE's broad phase */
+  dBatchStatusMissed = 1 << 5,        /**< dBatchMispredictionIgnore: something was lost */
+  dBatchStatusBacktracked = 1 << 6    /**< dBatchMispredictionBacktrack: nothing was delivered */
 };
 
-/** The append buffers, in the order of the pipeline (one between each two steps). */
+/** The append buffers, in the order of the pipeline. */
 enum {
-  dBatchBufferChunks = 0,   /**< pair step -> vertex step: runs of up to 16 vertices */
-  dBatchBufferRays = 1,     /**< vertex step -> ray step */
-  dBatchBufferHits = 2,     /**< ray step -> contact step */
-  dBatchBufferContacts = 3, /**< contact step -> host */
-  dBatchBufferCount = 4
+  /* pair step -> vertex step: runs of up to 16 vertices, by the category of their pair */
+  dBatchBufferChunksSmall = 0,      /**< rigid, small displacement */
+  dBatchBufferChunksHigh = 1,       /**< rigid, high displacement */
+  dBatchBufferChunksDeformable = 2, /**< one of the two is deformable */
+  /* vertex step -> ray step, by algorithm */
+  dBatchBufferRaysIterative = 3, /**< from the triangle met last */
+  dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
+  dBatchBufferRaysBasic = 5,     /**< every triangle */
+  dBatchBufferHits = 6,          /**< ray step -> contact step */
+  dBatchBufferContacts = 7,      /**< contact step -> host */
+  dBatchBufferCount = 8
 };
 
 /** The timed stages of a pass. */
 enum {
-  dBatchStageGather = 0,   /**< finding the pairs (ODE's broad phase) and their poses, host */
-  dBatchStageMeshes = 1,   /**< hashing, and rebuilding the meshes that changed, host */
-  dBatchStagePairStep = 2, /**< kernel, from device events, as are the next three */
-  dBatchStageVertexStep = 3,
-  dBatchStageRayStep = 4,
-  dBatchStageContactStep = 5,
-  dBatchStageDevice = 6, /**< first upload to last read-back, host clock */
-  dBatchStageExport = 7, /**< storing the answers, host */
-  dBatchStagePass = 8,   /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 9
+  dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
+  dBatchStageMeshes = 1,     /**< hashing, and rebuilding the meshes that changed, host */
+  dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
+                                  next seven */
+  dBatchStagePairStep = 3,
+  dBatchStageVertexStep = 4,    /**< of all categories */
+  dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
+  dBatchStageBvhRays = 6,
+  dBatchStageBasicRays = 7,
+  dBatchStageMonolithic = 8, /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
+  dBatchStageContactStep = 9,
+  dBatchStageDevice = 10, /**< first upload to last read-back, host clock */
+  dBatchStageExport = 11, /**< storing the answers, host */
+  dBatchStagePass = 12,   /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageCount = 13
 };
+
+/** The kernels whose work is counted on demand. */
+enum {
+  dBatchKernelVertexStep = 0,
+  dBatchKernelIterativeRays = 1,
+  dBatchKernelBvhRays = 2,
+  dBatchKernelBasicRays = 3,
+  dBatchKernelMonolithic = 4,
+  dBatchKernelCount = 5
+};
+
+/**
+ * The work of a kernel with params.count_work, in units of about one box test: a vertex looked at,
+ * a node visited 1, a triangle tested 2. In lockstep a group of work-items takes as long as its
+ * longest, and one branch after the other where they take different ones.
+ */
+typedef struct dBatchWork {
+  long long items;      /**< work-items with input, and those launched in vain beside them */
+  long long units;      /**< what they did, all together */
+  long long lockstep32; /**< what groups of 32 in lockstep are busy for, times 32 */
+  long long lockstep64; /**< the same for groups of 64 */
+} dBatchWork;
 
 /** What the last pass did. */
 typedef struct dBatchColliderStats {
@@ -188,6 +281,13 @@ typedef struct dBatchColliderStats {
   long long pairs_stock; /**< since creation: pairs answered by ODE's own collider */
   int meshes;            /**< meshes known */
   char device[128];      /**< device name, null-terminated */
+  long long missed;      /**< dBatchMispredictionIgnore: entries that did not fit, all buffers */
+  long long
+      iterative_unproven; /**< iterative rays of the last pass that were cast in full after all */
+  long long dropped; /**< dBatchRaysIterativePaper: vertices dropped for want of temporal data */
+  long long temporal_pairs;           /**< pairs whose temporal data is kept */
+  long long deformed;                 /**< meshes whose vertices moved since the pass before */
+  dBatchWork work[dBatchKernelCount]; /**< with params.count_work */
 } dBatchColliderStats;
 
 /** Fills stats (up to stats->struct_size bytes). Refuses an unknown collider with a message and

@@ -19,16 +19,37 @@ typedef float ox_f32;
 #define OX_STATIC_ASSERT(condition, name) static_assert(condition, #name)
 #endif
 
-// Counters live in one buffer, each on a cache line of its own. A counter runs on past the capacity
-// of its append buffer: that is how overflow is seen.
+// Counters live in one buffer, each on a cache line of its own. The first are those of the append
+// lists; a counter runs on past the capacity of its list: that is how overflow is seen.
 #define OX_COUNTER_STRIDE 16u
-#define OX_COUNTER_CHUNKS 0u
-#define OX_COUNTER_RAYS 1u
-#define OX_COUNTER_HITS 2u
-#define OX_COUNTER_CONTACTS 3u
-#define OX_COUNTER_BOUNDED 4u   // pairs whose bounding volumes overlap
-#define OX_COUNTER_SEGMENTS 5u  // candidates handed out to pairs
-#define OX_COUNTER_COUNT 6u
+#define OX_LIST_CHUNKS_SMALL 0u       // of rigid pairs that moved little
+#define OX_LIST_CHUNKS_HIGH 1u        // of rigid pairs that moved far, or are new
+#define OX_LIST_CHUNKS_DEFORMABLE 2u  // of pairs with a deformable mesh
+#define OX_LIST_RAYS_ITERATIVE 3u
+#define OX_LIST_RAYS_BVH 4u
+#define OX_LIST_RAYS_BASIC 5u
+#define OX_LIST_HITS 6u
+#define OX_LIST_CONTACTS 7u
+#define OX_LIST_COUNT 8u
+#define OX_COUNTER_BOUNDED 8u    // pairs whose bounding volumes overlap
+#define OX_COUNTER_SEGMENTS 9u   // candidates handed out to pairs
+#define OX_COUNTER_UNPROVEN 10u  // iterative rays that had to be cast in full
+#define OX_COUNTER_DROPPED 11u   // vertices dropped for want of temporal data
+#define OX_COUNTER_COUNT 12u
+
+// Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
+typedef struct {
+  ox_u32 first;
+  ox_u32 capacity;
+} ox_list;
+OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
+
+// Which algorithms a step uses (options.h).
+#define OX_RAYS_ITERATIVE 1u  // where there is temporal data
+#define OX_RAYS_PAPER 2u      // and only there: without it, and without proof
+#define OX_RAYS_BASIC 4u      // deformable targets without their BVH
+
+#define OX_NONE 0xffffffffu
 
 #define OX_CHUNK_VERTICES 16u
 
@@ -37,6 +58,9 @@ typedef float ox_f32;
 
 #define OX_MESH_CLOSED 1u
 #define OX_MESH_GRID 2u
+#define OX_MESH_DEFORMABLE 4u  // its vertices move: what depends on them is made on the device
+#define OX_MESH_TWO_SIDED 8u   // deformable and open: a sheet, with no inside
+#define OX_MESH_ISOLATED 16u   // the isolation of its triangles is known: iterative rays can prove
 
 // A geom of this step. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin.
@@ -52,7 +76,7 @@ OX_STATIC_ASSERT(sizeof(ox_object) == 64, ox_object_is_64_bytes);
 typedef struct {
   ox_u32 chunk_first, chunk_count;
   ox_u32 node_first, node_count;
-  ox_u32 triangle_first;
+  ox_u32 triangle_first, triangle_count;
   ox_u32 grid_first;       // word index of the occupancy bits
   ox_u32 clearance_first;  // word index of the clearance steps, four to a word
   ox_u32 grid_cells[3];
@@ -64,14 +88,17 @@ typedef struct {
   ox_f32 extent;         // largest distance of a box corner from the local origin
   ox_f32 radius;         // of the vertices about the box's centre
   ox_f32 block_side;     // shortest side of a block of the clearance grid
+  ox_f32 mean_edge;      // [m]
+  ox_f32 reach;          // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 moved;          // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 104, ox_mesh_is_104_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 120, ox_mesh_is_120_bytes);
 
 typedef struct {
   ox_f32 position[3];
   ox_f32 exit;          // [m] along `direction` to where the ray leaves its own mesh; inf: never
   ox_f32 direction[3];  // -normal, unit; 0: this vertex casts no ray
-  ox_u32 padding;
+  ox_f32 moved;         // how far it went in its own frame at the last deformation [m]
 } ox_vertex;
 OX_STATIC_ASSERT(sizeof(ox_vertex) == 32, ox_vertex_is_32_bytes);
 
@@ -81,7 +108,8 @@ typedef struct {
   ox_f32 half_size[3];
   ox_f32 radius;  // of the box about its centre
   ox_f32 reach;   // largest finite exit of its vertices
-  ox_u32 padding[2];
+  ox_f32 moved;   // the farthest one of them went in its own frame at the last deformation [m]
+  ox_u32 padding;
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 
@@ -94,17 +122,26 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_node) == 32, ox_node_is_32_bytes);
 
 // In the order of the leaves. Triangles of no area have three equal corners here: no ray hits them.
+// A neighbour is the triangle across an edge, in the order of the leaves, counted from the mesh's
+// first triangle; OX_NONE where there is none or more than one.
 typedef struct {
   ox_f32 a[3];
   ox_u32 id;  // breaks ties of distance
   ox_f32 b[3];
-  ox_u32 padding0;
+  ox_u32 across_ab;
   ox_f32 c[3];
-  ox_u32 padding1;
+  ox_u32 across_bc;
   ox_f32 normal[3];  // unit, outward
-  ox_u32 padding2;
+  ox_u32 across_ca;
 } ox_triangle;
 OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
+
+// How far from the middle of a triangle another may be before it is not of the same gently curved
+// piece of surface (geometry/isolation.h), for three meanings of gently [m]; 0: nothing is known.
+typedef struct {
+  ox_f32 within_10, within_30, within_60;
+} ox_isolation;
+OX_STATIC_ASSERT(sizeof(ox_isolation) == 12, ox_isolation_is_12_bytes);
 
 // What the pair step finds for a pair of objects A = object[0], B = object[1]. Side 0 takes points
 // of A into the frame of B, side 1 points of B into the frame of A: target = rotation[side] *
@@ -114,32 +151,86 @@ typedef struct {
   ox_f32 offset[2][3];
   ox_f32 epsilon;  // [m] what rounding can do to a coordinate of this pair
   ox_u32 mesh[2];
-  ox_u32 padding;
+  // [m] per side, how far a vertex of the source moved in the frame of the target at most since
+  // the last step; infinite: not known.
+  ox_f32 displacement[2];
+  ox_u32 padding[3];
 } ox_pair;
-OX_STATIC_ASSERT(sizeof(ox_pair) == 112, ox_pair_is_112_bytes);
+OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
+
+// Where the temporal data of a pair are (pipeline/temporal_cache.h). OX_NONE as slot: nowhere.
+typedef struct {
+  ox_u32 slot;          // its pose in the last step
+  ox_u32 directory[2];  // per side its first directory entry, one per chunk of the source
+  ox_u32 known;         // whether the last step left anything there
+} ox_link;
+OX_STATIC_ASSERT(sizeof(ox_link) == 16, ox_link_is_16_bytes);
+
+// The relative pose of a pair, as in ox_pair.
+typedef struct {
+  ox_f32 rotation[9];
+  ox_f32 offset[2][3];
+  ox_u32 step;  // that wrote it
+} ox_relative_pose;
+OX_STATIC_ASSERT(sizeof(ox_relative_pose) == 64, ox_relative_pose_is_64_bytes);
+
+// The temporal datum of a vertex.
+typedef struct {
+  ox_u32 triangle;  // met last, in the order of the leaves from the target's first on; or OX_NONE
+  ox_f32 moved;     // [m] since it was last cast in full; kept with OX_RAYS_PAPER only
+} ox_temporal;
+OX_STATIC_ASSERT(sizeof(ox_temporal) == 8, ox_temporal_is_8_bytes);
+
+// The block of temporal data that a chunk had in a step: OX_CHUNK_VERTICES of them.
+typedef struct {
+  ox_u32 block;
+  ox_u32 step;
+} ox_directory_entry;
+OX_STATIC_ASSERT(sizeof(ox_directory_entry) == 8, ox_directory_entry_is_8_bytes);
 
 // pair_side = pair << 1 | side; side 0: vertices of A against B, side 1: of B against A.
+// A chunk's block of temporal data has the task's own index. OX_NONE as chunk: nothing to do (the
+// monolithic organisation keeps a place for every chunk).
 typedef struct {
   ox_u32 pair_side;
   ox_u32 chunk;
+  ox_u32 previous;  // its block in the last step; OX_NONE: it had none
+  ox_u32 category;  // OX_CATEGORY_..., with OX_CATEGORY_REMEMBERED
 } ox_chunk_task;
-OX_STATIC_ASSERT(sizeof(ox_chunk_task) == 8, ox_chunk_task_is_8_bytes);
+OX_STATIC_ASSERT(sizeof(ox_chunk_task) == 16, ox_chunk_task_is_16_bytes);
+
+#define OX_CATEGORY_SMALL OX_LIST_CHUNKS_SMALL
+#define OX_CATEGORY_HIGH OX_LIST_CHUNKS_HIGH
+#define OX_CATEGORY_DEFORMABLE OX_LIST_CHUNKS_DEFORMABLE
+#define OX_CATEGORY_MASK 3u
+#define OX_CATEGORY_REMEMBERED 4u  // the pair keeps temporal data
 
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
+  ox_u32 memory;    // where its temporal datum goes; OX_NONE: nowhere
+  ox_u32 triangle;  // its temporal datum of the last step, or OX_NONE
 } ox_ray;
-OX_STATIC_ASSERT(sizeof(ox_ray) == 8, ox_ray_is_8_bytes);
+OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
+
+// What a work-item did, by algorithm, in units of about one box test.
+typedef struct {
+  ox_u32 vertex, iterative, bvh, basic;
+} ox_work;
+OX_STATIC_ASSERT(sizeof(ox_work) == 16, ox_work_is_16_bytes);
 
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit
 #define OX_HIT_TOUCHING 2u  // on the surface, depth 0
+#define OX_HIT_NONE 3u
+#define OX_HIT_KIND 3u
+#define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side
 
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
   ox_u32 triangle;  // index into all triangles, in the order of the leaves
-  ox_u32 kind;      // OX_HIT_...
+  ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
   ox_f32 depth;     // [m] to the plane of the triangle
   ox_f32 t;         // [m] along the ray
   ox_u32 slot;      // how many hits of this pair were appended before it
@@ -153,7 +244,7 @@ typedef struct {
   ox_f32 depth;
   ox_f32 normal[3];  // into A
   ox_f32 t;
-  ox_u32 side_kind;  // side << 2 | kind
+  ox_u32 side_kind;  // side << 3 | kind
   ox_u32 vertex;
   ox_u32 triangle;
   ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
@@ -163,7 +254,7 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 
 typedef struct {
-  ox_u32 side;
+  ox_u32 side_kind;  // as in ox_candidate
   ox_u32 vertex;
   ox_u32 triangle;
   ox_f32 depth;

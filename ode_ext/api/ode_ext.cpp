@@ -3,6 +3,7 @@
 #include "ode_ext/ode_ext.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -82,6 +83,27 @@ void check(const dBatchColliderParams& p) {
     refuse("work_group_size is " + std::to_string(p.work_group_size) + ", expected 0 or more");
   if (p.initial_capacity < 0)
     refuse("initial_capacity is " + std::to_string(p.initial_capacity) + ", expected 0 or more");
+  const auto check_constant = [](const char* name, int value, int last, const char* constants) {
+    if (value < 0 || value > last)
+      refuse(std::string(name) + " is " + std::to_string(value) + ", expected a " + constants +
+             " constant");
+  };
+  check_constant("rays", p.rays, dBatchRaysIterativePaper, "dBatchRays");
+  check_constant("deformable_target", p.deformable_target, dBatchDeformableBasic,
+                 "dBatchDeformable");
+  check_constant("organisation", p.organisation, dBatchOrganisationMonolithic,
+                 "dBatchOrganisation");
+  check_constant("misprediction", p.misprediction, dBatchMispredictionBacktrack,
+                 "dBatchMisprediction");
+  if (p.max_contacts_deformable < 0 ||
+      p.max_contacts_deformable > static_cast<int>(ode_ext::kMaxContacts))
+    refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
+           ", expected 0 (all) to " + std::to_string(ode_ext::kMaxContacts));
+  if (p.walk_limit < 0)
+    refuse("walk_limit is " + std::to_string(p.walk_limit) + ", expected 0 or more");
+  if (!(p.displacement_limit >= 0) || !std::isfinite(p.displacement_limit))
+    refuse("displacement_limit is " + std::to_string(p.displacement_limit) +
+           ", expected 0 or more");
 }
 
 std::string selection_or_environment(const char* selection) {
@@ -97,6 +119,21 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   if (p.workload == dBatchWorkloadExact) options.workload = ode_ext::Workload::kExact;
   if (p.prediction == dBatchPredictionPlain) options.prediction = ode_ext::PredictionRule::kPlain;
   options.confidence = p.confidence;
+  options.rays = std::array{ode_ext::Rays::kIterative, ode_ext::Rays::kFull,
+                            ode_ext::Rays::kIterativePaper}[static_cast<std::size_t>(p.rays)];
+  if (p.deformable_target == dBatchDeformableBasic)
+    options.deformable_target = ode_ext::DeformableTarget::kBasic;
+  if (p.organisation == dBatchOrganisationMonolithic)
+    options.organisation = ode_ext::Organisation::kMonolithic;
+  if (p.misprediction == dBatchMispredictionIgnore)
+    options.misprediction = ode_ext::Misprediction::kIgnore;
+  if (p.misprediction == dBatchMispredictionBacktrack)
+    options.misprediction = ode_ext::Misprediction::kBacktrack;
+  options.max_contacts_deformable = static_cast<std::uint32_t>(p.max_contacts_deformable);
+  if (p.walk_limit != 0) options.walk_limit = static_cast<std::uint32_t>(p.walk_limit);
+  if (p.displacement_limit > 0)
+    options.displacement_limit = static_cast<float>(p.displacement_limit);
+  options.count_work = p.count_work != 0;
   if (p.work_group_size != 0)
     options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
   if (p.initial_capacity != 0)
@@ -124,8 +161,7 @@ int collide(const char* call, dBatchColliderID handle, const PassRoot& root, voi
     return true;
   });
   if (!begun) return -1;
-  pass->deliver(data, callback);
-  return 1;
+  return pass->deliver(data, callback) ? 1 : 0;
 }
 
 // CollidePairs without a collider: what dCollide gives for each pair.

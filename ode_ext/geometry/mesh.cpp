@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "geometry/embedded.h"
 #include "geometry/exit_distance.h"
+#include "geometry/measures.h"
 #include "geometry/normals.h"
 #include "geometry/topology.h"
 #include "geometry/vertex_chunks.h"
@@ -21,33 +22,12 @@ namespace {
 // still less than 1/100 of the smallest cell (1/512 of a side) and costs nothing.
 constexpr double kGridMargin = 1e-5;  // of the box's diagonal
 
-bool is_finite(const TriangleSoup& soup) {
-  return std::all_of(soup.begin(), soup.end(), [](const Vec3f& corner) {
-    return std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.z);
-  });
-}
-
-// Up, so that the sphere holds every vertex.
 float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
   double largest = 0;
   for (const Vec3f& vertex : vertices) {
     largest = std::max(largest, length(Vec3d(vertex) - Vec3d(middle)));
   }
-  const auto rounded = static_cast<float>(largest);
-  if (rounded >= largest) return rounded;
-  return std::nextafter(rounded, std::numeric_limits<float>::infinity());
-}
-
-// Over the sides of all triangles; an edge inside the mesh counts once for each of them.
-float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles) {
-  double sum = 0;
-  for (const Triangle& triangle : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += length(Vec3d(vertices[triangle[k]]) - Vec3d(vertices[triangle[(k + 1) % 3]]));
-    }
-  }
-  if (triangles.empty()) return 0;
-  return static_cast<float>(sum / (3 * static_cast<double>(triangles.size())));
+  return rounded_up(largest);
 }
 
 }  // namespace
@@ -55,6 +35,8 @@ float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>&
 Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   Mesh mesh;
   mesh.content_hash = hash_soup(soup.data(), soup.size());
+  mesh.deformable = options.deformable;
+  if (mesh.deformable) mesh.open_thickness = options.open_thickness;
   mesh.finite = is_finite(soup);
   if (!mesh.finite) return mesh;
 
@@ -68,15 +50,21 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.inverted = orientation.inverted;
   mesh.reoriented = orientation.reoriented;
 
-  Normals normals = compute_normals(mesh.vertices, mesh.triangles);
-  mesh.normals = std::move(normals.vertices);
-  mesh.face_normals = std::move(normals.faces);
-
   mesh.box = box_of(mesh.vertices);
-  mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   mesh.mean_edge = mean_side(mesh.vertices, mesh.triangles);
   mesh.chunks = cut_into_chunks(mesh.vertices);
   mesh.bvh = build_bvh(mesh.vertices, mesh.triangles);
+  mesh.neighbours = neighbours(mesh.triangles);
+  if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
+    mesh.radius = half_diagonal(mesh.box);
+    mesh.corner_vertex = std::move(welded.corner_vertex);
+    return mesh;
+  }
+
+  Normals normals = compute_normals(mesh.vertices, mesh.triangles);
+  mesh.normals = std::move(normals.vertices);
+  mesh.face_normals = std::move(normals.faces);
+  mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
     if (options.occupancy_grid) {
@@ -85,11 +73,23 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
                                        static_cast<float>(kGridMargin * diagonal));
       mesh.clearance = build_clearance_grid(mesh.grid);
     }
+    if (options.isolation &&
+        is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours, mesh.bvh, mesh.face_normals)) {
+      mesh.isolation =
+          isolation(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.bvh, mesh.neighbours);
+    }
   } else {
     const float thickness = options.open_thickness > 0 ? options.open_thickness : mesh.mean_edge;
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh, thickness);
   }
   return mesh;
+}
+
+Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle) {
+  if (!mesh.deformable) return Vec3d(mesh.face_normals[triangle]);
+  const Triangle& corners = topology(mesh).triangles[triangle];
+  return face_normal(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                     mesh.vertices[corners[2]]);
 }
 
 }  // namespace ode_ext

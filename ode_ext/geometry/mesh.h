@@ -5,11 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/box.h"
 #include "geometry/bvh.h"
 #include "geometry/clearance_grid.h"
+#include "geometry/isolation.h"
+#include "geometry/neighbours.h"
 #include "geometry/occupancy_grid.h"
 #include "geometry/vec.h"
 
@@ -27,20 +30,30 @@ struct VertexChunk {
 
 inline constexpr std::uint32_t kChunkVertices = 16;
 
+// A mesh as it was built, or a shape of a deformable one: then `base` is the mesh as it was built,
+// and only the vertices, what is measured of them and the flags are the shape's own.
 struct Mesh {
   // Vertices welded by exact equality, sorted along a space-filling curve [m], local frame.
+  // Those of a shape are in the order of its base.
   std::vector<Vec3f> vertices;
-  // Unit, outward, angle-weighted; rays are cast along their negatives.
+  // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
+  // normals of the faces are empty for a deformable mesh: the device makes them.
   std::vector<Vec3f> normals;
   // Where a ray from the vertex along -normal leaves this mesh [m]; infinity if it never does.
   std::vector<float> exits;
 
   // Corner indices into `vertices`, oriented as `inverted` says; without collapsed triangles.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  // For each triangle its index in the program's mesh.
+  // For each triangle its index in the program's mesh, ascending.
   std::vector<std::uint32_t> source_triangle;
+  // Of deformable meshes: as in WeldedMesh.
+  std::vector<std::uint32_t> corner_vertex;
   // Unit normal of each triangle; zero where its area is zero.
   std::vector<Vec3f> face_normals;
+  // The triangles across each triangle's edges.
+  std::vector<Neighbours> neighbours;
+  // Of each triangle, if asked for; empty unless the mesh is closed and is_embedded (embedded.h).
+  std::vector<Isolation> isolation;
 
   Bvh bvh;                          // over `triangles`
   OccupancyGrid grid;               // of closed meshes, if asked for: the cells not outside
@@ -48,18 +61,31 @@ struct Mesh {
   std::vector<VertexChunk> chunks;  // of `vertices`
 
   Box box{};
-  float radius = 0;         // largest distance of a vertex from centre(box), rounded up [m]
-  float mean_edge = 0;      // [m]
-  bool closed = false;      // every edge has exactly two triangles, of opposite direction
-  bool inverted = false;    // the winding was turned: the closed mesh had a negative volume
-  bool reoriented = false;  // the winding was made consistent: each part now faces outward
-  bool finite = true;       // false: a coordinate is NaN or infinite, everything above is empty
+  // Largest distance of a vertex, or for a deformable mesh of its box, from centre(box), rounded up
+  // [m].
+  float radius = 0;
+  float mean_edge = 0;       // [m]
+  bool closed = false;       // every edge has exactly two triangles, of opposite direction
+  bool inverted = false;     // the winding was turned: the closed mesh had a negative volume
+  bool reoriented = false;   // the winding was made consistent: each part now faces outward
+  bool finite = true;        // false: a coordinate is NaN or infinite, everything above is empty
+  bool deformable = false;   // its vertices are expected to move
+  float open_thickness = 0;  // of deformable meshes: as in MeshOptions
   std::uint64_t content_hash = 0;  // of the soup: equal soups have equal hashes
+  std::shared_ptr<const Mesh> base;
 };
+
+// The mesh that holds triangles, BVH and chunks.
+inline const Mesh& topology(const Mesh& mesh) { return mesh.base ? *mesh.base : mesh; }
+
+// Unit; zero where the area is zero. `triangle` is an index into topology(mesh).triangles.
+Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 
 struct MeshOptions {
   float open_thickness = 0;    // [m] bounds the exits of an open mesh; 0: its mean edge
   bool occupancy_grid = true;  // worth building for a mesh that lives for more than a step or two
+  bool isolation = true;       // likewise
+  bool deformable = false;     // implies that there is neither
 };
 
 // Builds everything above. Throws std::bad_alloc only.

@@ -34,17 +34,21 @@ struct FaceNormal {
   double area = 0;  // twice the area [m^2]
 };
 
-// Always starts at the lowest corner, so that only the winding matters.
-FaceNormal face_normal(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
-  const auto lowest = static_cast<std::size_t>(std::min_element(triangle.begin(), triangle.end()) -
-                                               triangle.begin());
-  const Vec3d apex(vertices[triangle[lowest]]);
-  const Vec3d a = Vec3d(vertices[triangle[(lowest + 1) % 3]]) - apex;
-  const Vec3d b = Vec3d(vertices[triangle[(lowest + 2) % 3]]) - apex;
+FaceNormal measure(Vec3f apex, Vec3f next, Vec3f last) {
+  const Vec3d a = Vec3d(next) - Vec3d(apex);
+  const Vec3d b = Vec3d(last) - Vec3d(apex);
   const Vec3d normal = cross(a, b);
   const double area = length(normal);
   if (area <= kZeroArea * length(a) * length(b)) return {};
   return {(1 / area) * normal, area};
+}
+
+// Always starts at the lowest corner, so that only the winding matters.
+FaceNormal measure(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
+  const auto lowest = static_cast<std::size_t>(std::min_element(triangle.begin(), triangle.end()) -
+                                               triangle.begin());
+  return measure(vertices[triangle[lowest]], vertices[triangle[(lowest + 1) % 3]],
+                 vertices[triangle[(lowest + 2) % 3]]);
 }
 
 // Accurate for all angles, unlike the arc cosine; the same for either order of a and b.
@@ -74,13 +78,15 @@ Vec3f vertex_normal(const VertexSum& sum) {
 
 }  // namespace
 
+Vec3d face_normal(Vec3f a, Vec3f b, Vec3f c) { return measure(a, b, c).unit; }
+
 Normals compute_normals(const std::vector<Vec3f>& vertices,
                         const std::vector<Triangle>& triangles) {
   Normals normals;
   normals.faces.reserve(triangles.size());
   std::vector<VertexSum> sums(vertices.size());
   for (const Triangle& triangle : triangles) {
-    const FaceNormal face = face_normal(vertices, triangle);
+    const FaceNormal face = measure(vertices, triangle);
     normals.faces.push_back(Vec3f(face.unit));
     if (face.area == 0) continue;
     for (std::size_t k = 0; k < 3; ++k) {

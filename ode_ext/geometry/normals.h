@@ -9,6 +9,9 @@
 
 namespace ode_ext {
 
+// Unit normal of a triangle, zero where its area is zero.
+Vec3d face_normal(Vec3f a, Vec3f b, Vec3f c);
+
 struct Normals {
   std::vector<Vec3f> faces;     // unit; zero where the area is zero
   std::vector<Vec3f> vertices;  // unit; zero where all incident faces have zero area

@@ -120,6 +120,12 @@ bool make_consistent(const std::vector<HalfEdge>& halves, const std::vector<Vec3
 
 }  // namespace
 
+double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& triangle : triangles) volume += cone_volume(vertices, triangle);
+  return volume;
+}
+
 Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles) {
   Orientation result;
   if (triangles.size() < kFewestClosedTriangles) return result;
@@ -131,9 +137,7 @@ Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& tr
     return result;
   }
   result.closed = true;
-  double volume = 0;
-  for (const Triangle& triangle : triangles) volume += cone_volume(vertices, triangle);
-  if (volume < 0) {
+  if (signed_volume(vertices, triangles) < 0) {
     result.inverted = true;
     for (Triangle& triangle : triangles) turn(triangle);
   }

@@ -22,4 +22,7 @@ struct Orientation {
 // more than two triangles is left alone.
 Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles);
 
+// Six times the volume that the triangles of a closed mesh enclose.
+double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);
+
 }  // namespace ode_ext

@@ -75,12 +75,14 @@ WeldedMesh weld(const std::vector<Vec3f>& soup) {
   std::sort(corners.begin(), corners.end(), before);
 
   mesh.triangles.resize(mesh.source_triangle.size());
+  mesh.corner_vertex.assign(soup.size(), kNoVertex);
   for (const Corner& corner : corners) {
     if (mesh.vertices.empty() || !(mesh.vertices.back() == corner.position)) {
       mesh.vertices.push_back(corner.position);
     }
-    mesh.triangles[corner.index / 3][corner.index % 3] =
-        static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    const auto vertex = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    mesh.triangles[corner.index / 3][corner.index % 3] = vertex;
+    mesh.corner_vertex[3 * mesh.source_triangle[corner.index / 3] + corner.index % 3] = vertex;
   }
   return mesh;
 }

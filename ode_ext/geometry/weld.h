@@ -10,10 +10,14 @@
 
 namespace ode_ext {
 
+inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
 struct WeldedMesh {
   std::vector<Vec3f> vertices;      // each place once, along a Morton curve; -0 is stored as +0
   std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
   std::vector<std::uint32_t> source_triangle;
+  // For each corner of the soup its vertex; kNoVertex for those of triangles that collapsed.
+  std::vector<std::uint32_t> corner_vertex;
 };
 
 // Corners at exactly the same place become one vertex; a triangle with two equal corners collapses

@@ -68,6 +68,7 @@ BatchCollider::Pass::Pass(BatchCollider& collider, const PassRoot& root)
     throw std::runtime_error(
         "another thread runs a pass of this collider; give each thread a collider of its own");
   collider_.run_batch(root);
+  backtracked_ = (collider_.stats_.status & dBatchStatusBacktracked) != 0;
   running.emplace_back(&collider_, root);
   collider_.pass_thread_ = std::this_thread::get_id();
   ++collider_.depth_;
@@ -79,11 +80,13 @@ BatchCollider::Pass::~Pass() {
   collider_.failed_ = outer_failed_;
 }
 
-void BatchCollider::Pass::deliver(void* data, dNearCallback* callback) {
+bool BatchCollider::Pass::deliver(void* data, dNearCallback* callback) {
+  if (backtracked_) return false;
   if (root_.second == nullptr)
     dSpaceCollide(reinterpret_cast<dSpaceID>(root_.first), data, callback);
   else
     dSpaceCollide2(root_.first, root_.second, data, callback);
+  return true;
 }
 
 bool BatchCollider::RootLess::operator()(const PassRoot& a, const PassRoot& b) const {
@@ -120,9 +123,9 @@ void BatchCollider::run_batch(const PassRoot& root) {
     const Stopwatch gathering;
     const std::vector<GatheredPair> pairs = gather_pairs(root, traversed);
     stats_.ms[dBatchStageGather] = gathering.milliseconds();
-    if (histories_.size() > 4096) histories_.clear();  // spaces come and go; this is only a hint
+    if (memories_.size() > 4096) memories_.clear();  // spaces come and go; these are only hints
     try {
-      compute_ahead(pairs, histories_[root]);
+      compute_ahead(pairs, memories_[root]);
       if (stats_.pairs_computed != 0) failure_said_ = false;  // the device works
     } catch (const std::exception& error) {
       failed_ = true;
@@ -136,7 +139,7 @@ void BatchCollider::run_batch(const PassRoot& root) {
   trace_pass(whole.start(), stats_);
 }
 
-void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, History& history) {
+void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, PassMemory& memory) {
   const Stopwatch reading;
   begin_scene();
   std::vector<const Answer*> gathered;
@@ -152,7 +155,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, History& 
   }
   stats_.pairs = static_cast<long long>(gathered.size());
   stats_.ms[dBatchStageMeshes] = reading.milliseconds();
-  collide_scene(&history);
+  collide_scene(&memory);
   note_report();
   stats_.pairs_colliding = std::count_if(
       gathered.begin(), gathered.end(),
@@ -206,16 +209,19 @@ std::uint32_t BatchCollider::member_of(const PlacedGeom& placed) {
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     const auto& mesh = meshes_.refresh(data, look_, pass_);
     if (!mesh->finite) stats_.status |= dBatchStatusMeshRefused;
+    if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
     members_.push_back({placed.geom, data, mesh, placed.pose});
   }
   return place->second;
 }
 
-void BatchCollider::collide_scene(History* history) {
+void BatchCollider::collide_scene(PassMemory* memory) {
   scene_.meshes = meshes_.resident();
   for (const PairMember& member : members_)
-    scene_.objects.push_back({member.pose, meshes_.index_of(member.mesh.get())});
-  const PairContacts& found = collider_.collide(scene_, history);
+    scene_.objects.push_back({member.pose, meshes_.index_of(member.mesh.get()),
+                              reinterpret_cast<std::uintptr_t>(member.geom)});
+  const PairContacts& found = collider_.collide(scene_, memory);
+  if (collider_.report().backtracked) return;  // nothing to keep
   const Stopwatch storing;
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     const PairContacts::Range range = found.ranges[i];
@@ -223,7 +229,7 @@ void BatchCollider::collide_scene(History* history) {
     pending_[i]->contacts.assign(first, first + range.count);
     pending_[i]->valid = true;
   }
-  if (history != nullptr) stats_.ms[dBatchStageExport] = storing.milliseconds();
+  if (memory != nullptr) stats_.ms[dBatchStageExport] = storing.milliseconds();
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
@@ -327,7 +333,8 @@ void BatchCollider::fail(const std::exception& error) {
 
 void BatchCollider::begin_stats() {
   dBatchColliderStats fresh{};
-  if (depth_ != 0) fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped};
+  if (depth_ != 0)
+    fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;
   fresh.pairs_stock = stats_.pairs_stock;
@@ -347,9 +354,26 @@ void BatchCollider::note_report() {
     stats_.actual[i] = static_cast<long long>(report.actual[i]);
     stats_.capacity[i] = static_cast<long long>(report.capacity[i]);
   }
+  if (report.missed != 0) stats_.status |= dBatchStatusMissed;
+  if (report.backtracked) stats_.status |= dBatchStatusBacktracked;
+  stats_.missed = static_cast<long long>(report.missed);
+  stats_.iterative_unproven = static_cast<long long>(report.unproven);
+  stats_.dropped = static_cast<long long>(report.dropped);
+  stats_.temporal_pairs = static_cast<long long>(report.temporal_pairs);
+  for (std::size_t i = 0; i < kWorkerCount; ++i) {
+    const WorkCount& work = report.work[i];
+    stats_.work[i] = {static_cast<long long>(work.items), static_cast<long long>(work.units),
+                      static_cast<long long>(work.lockstep32),
+                      static_cast<long long>(work.lockstep64)};
+  }
+  stats_.deformed = static_cast<long long>(meshes_.take_deformed());
+  stats_.ms[dBatchStageDeformStep] = report.ms_deform_step;
   stats_.ms[dBatchStagePairStep] = report.ms_pair_step;
   stats_.ms[dBatchStageVertexStep] = report.ms_vertex_step;
-  stats_.ms[dBatchStageRayStep] = report.ms_ray_step;
+  stats_.ms[dBatchStageIterativeRays] = report.ms_iterative_rays;
+  stats_.ms[dBatchStageBvhRays] = report.ms_bvh_rays;
+  stats_.ms[dBatchStageBasicRays] = report.ms_basic_rays;
+  stats_.ms[dBatchStageMonolithic] = report.ms_monolithic;
   stats_.ms[dBatchStageContactStep] = report.ms_contact_step;
   stats_.ms[dBatchStageDevice] = report.ms_total;
 }

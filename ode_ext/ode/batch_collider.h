@@ -37,12 +37,14 @@ class BatchCollider {
     ~Pass();
     Pass(const Pass&) = delete;
     Pass& operator=(const Pass&) = delete;
-    // ODE's own pass with the program's callback, which may throw.
-    void deliver(void* data, dNearCallback* callback);
+    // ODE's own pass with the program's callback, which may throw. False: nothing is delivered
+    // (dBatchMispredictionBacktrack), and no callback was made.
+    bool deliver(void* data, dNearCallback* callback);
 
    private:
     BatchCollider& collider_;
     PassRoot root_;
+    bool backtracked_ = false;
     bool outer_failed_ = false;  // what failed_ was in the pass around this one
   };
 
@@ -70,7 +72,7 @@ class BatchCollider {
   };
 
   void run_batch(const PassRoot& root);
-  void compute_ahead(std::span<const GatheredPair> pairs, History& history);
+  void compute_ahead(std::span<const GatheredPair> pairs, PassMemory& memory);
   void compute_pairs(std::span<const dGeomID> geoms);
   void count_outside(std::size_t pairs);
   void compute_alone(Answer& answer, const GatheredPair& pair);
@@ -78,7 +80,7 @@ class BatchCollider {
   // A scene of what has no valid answer: begin, add, then collide and keep the answers.
   void begin_scene();
   void add_unless_answered(Answer& answer, const GatheredPair& pair);
-  void collide_scene(History* history);
+  void collide_scene(PassMemory* memory);
   std::uint32_t member_of(const PlacedGeom& placed);
 
   void begin_stats();
@@ -90,7 +92,7 @@ class BatchCollider {
   Collider collider_;
   MeshStore meshes_;
   Answers answers_;
-  std::map<PassRoot, History, RootLess> histories_;
+  std::map<PassRoot, PassMemory, RootLess> memories_;  // of collider_, and gone before it
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;

@@ -9,7 +9,9 @@
 
 namespace ode_ext {
 
-// Overwrites `soup`. The geom lives only in here, in no space; allowed inside callbacks.
-void read_triangles(dTriMeshDataID data, TriangleSoup& soup);
+// Overwrites `soup`. The geom lives only in here, in no space; allowed inside callbacks. Returns
+// whether the corners are finite and some lie outside of the box that ODE took of the data when it
+// was built, by which it finds pairs.
+bool read_triangles(dTriMeshDataID data, TriangleSoup& soup);
 
 }  // namespace ode_ext

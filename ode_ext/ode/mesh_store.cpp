@@ -2,8 +2,10 @@
 #include "ode/mesh_store.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
+#include "geometry/deform.h"
 #include "ode/mesh_import.h"
 #include "ode/messages.h"
 
@@ -26,11 +28,11 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   entry.last_pass = pass;
   if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) return entry.mesh;
 
-  read_triangles(data, soup_);
+  entry.left_box = read_triangles(data, soup_);
   const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
   if (entry.mesh == nullptr || entry.hash != hash ||
       static_cast<std::size_t>(entry.triangle_count) != soup_.size() / 3) {
-    entry.mesh = build(hash, entry.deformable);
+    update(entry, hash);
     entry.hash = hash;
     entry.triangle_count = static_cast<int>(soup_.size() / 3);
     resident_is_stale_ = true;
@@ -39,17 +41,29 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   return entry.mesh;
 }
 
-std::shared_ptr<const Mesh> MeshStore::build(std::uint64_t hash, bool deformable) {
-  std::weak_ptr<const Mesh>& known = by_content_[hash];
-  if (auto mesh = known.lock()) return mesh;
-  // The occupancy grid only saves rays: not worth its time for a mesh that changes in every step.
-  auto mesh = std::make_shared<const Mesh>(
-      build_mesh(soup_, {.open_thickness = open_thickness_, .occupancy_grid = !deformable}));
-  known = mesh;
-  if (!mesh->finite)
+void MeshStore::update(Entry& entry, std::uint64_t hash) {
+  if (!entry.deformable) {
+    entry.mesh = build(hash);
+  } else {
+    if (entry.mesh != nullptr) ++deformed_;
+    std::shared_ptr<const Mesh> shape;
+    if (entry.base != nullptr) shape = deformed(entry.base, soup_);
+    if (shape == nullptr)
+      shape = entry.base = std::make_shared<const Mesh>(
+          build_mesh(soup_, {.open_thickness = open_thickness_, .deformable = true}));
+    entry.mesh = std::move(shape);
+  }
+  if (!entry.mesh->finite)
     log(LogLevel::kWarning, "a mesh of " + std::to_string(soup_.size() / 3) +
                                 " triangles has a vertex that is not finite; its pairs get no "
                                 "contacts");
+}
+
+std::shared_ptr<const Mesh> MeshStore::build(std::uint64_t hash) {
+  std::weak_ptr<const Mesh>& known = by_content_[hash];
+  if (auto mesh = known.lock()) return mesh;
+  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, {.open_thickness = open_thickness_}));
+  known = mesh;
   return mesh;
 }
 
@@ -68,9 +82,15 @@ void MeshStore::announce_change(dTriMeshDataID data) {
 
 void MeshStore::set_deformable(dTriMeshDataID data, bool deformable) {
   const auto [place, is_new] = entries_.try_emplace(data);
-  if (is_new) place->second.order = next_order_++;
-  place->second.deformable = deformable;
+  Entry& entry = place->second;
+  if (is_new) entry.order = next_order_++;
+  if (entry.deformable == deformable) return;
+  entry.deformable = deformable;
+  drop(entry);
+  resident_is_stale_ = true;
 }
+
+void MeshStore::drop(Entry& entry) { entry.mesh = entry.base = nullptr; }
 
 void MeshStore::forget(dTriMeshDataID data) {
   if (entries_.erase(data) != 0) resident_is_stale_ = true;
@@ -78,15 +98,21 @@ void MeshStore::forget(dTriMeshDataID data) {
 
 void MeshStore::clear() {
   std::erase_if(entries_, [](const auto& item) { return !item.second.deformable; });
-  for (auto& [data, entry] : entries_) entry.mesh = nullptr;
+  for (auto& [data, entry] : entries_) drop(entry);
   resident_is_stale_ = true;
 }
 
 void MeshStore::prune(std::uint64_t pass) {
-  const std::size_t removed = std::erase_if(entries_, [&](const auto& item) {
-    return item.second.mesh != nullptr && item.second.last_pass + kPassesKept < pass;
-  });
-  if (removed != 0) resident_is_stale_ = true;
+  for (auto item = entries_.begin(); item != entries_.end();) {
+    Entry& entry = item->second;
+    const auto next = std::next(item);
+    if (entry.last_pass + kPassesKept < pass) {
+      if (entry.mesh != nullptr) resident_is_stale_ = true;
+      drop(entry);
+      if (!entry.deformable) entries_.erase(item);  // else it is to be known as such again
+    }
+    item = next;
+  }
 }
 
 const std::vector<std::shared_ptr<const Mesh>>& MeshStore::resident() {
@@ -98,9 +124,11 @@ const std::vector<std::shared_ptr<const Mesh>>& MeshStore::resident() {
             [](const Entry* a, const Entry* b) { return a->order < b->order; });
   resident_.clear();
   index_.clear();
-  for (const Entry* entry : ordered)
-    if (index_.emplace(entry->mesh.get(), static_cast<std::uint32_t>(resident_.size())).second)
-      resident_.push_back(entry->mesh);
+  for (const Entry* entry : ordered) {
+    const auto place = static_cast<std::uint32_t>(resident_.size());
+    const bool is_new = index_.emplace(entry->mesh.get(), place).second;
+    if (is_new || entry->deformable) resident_.push_back(entry->mesh);
+  }
   std::erase_if(by_content_, [](const auto& item) { return item.second.expired(); });
   resident_is_stale_ = false;
   return resident_;

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "geometry/mesh.h"
@@ -21,14 +22,20 @@ class MeshStore {
   // announced.
   MeshStore(float open_thickness, bool trust) : open_thickness_(open_thickness), trust_(trust) {}
 
-  // The mesh as it is now: read, compared by a hash of its corners, rebuilt if it changed. Looks
-  // once per mesh and value of `look`; `pass` is what prune goes by.
+  // The mesh as it is now: read, compared by a hash of its corners, and if it changed rebuilt, or
+  // followed where it is deformable and only its vertices moved. Looks once per mesh and value of
+  // `look`; `pass` is what prune goes by.
   const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, std::uint64_t look,
                                              std::uint64_t pass);
 
   // The mesh as of the last refresh; null if it is not known, was announced to have changed, or has
   // another number of triangles than `triangle_count`.
   std::shared_ptr<const Mesh> known(dTriMeshDataID data, int triangle_count) const;
+
+  // Whether it lay, when last read, outside of the box that ODE knows of it.
+  bool has_left_box(dTriMeshDataID data) const { return entries_.at(data).left_box; }
+  // How often deformable meshes changed since the last call.
+  std::uint64_t take_deformed() { return std::exchange(deformed_, 0); }
 
   void announce_change(dTriMeshDataID data);
   void set_deformable(dTriMeshDataID data, bool deformable);
@@ -37,7 +44,8 @@ class MeshStore {
   // Forgets meshes that no pass has met for a long time.
   void prune(std::uint64_t pass);
 
-  // All meshes, each once, in an order that changes only when one does; and the place of one in it.
+  // All meshes in an order that does not change while only deformable ones move, which keep their
+  // places; rigid ones of equal content are there once. And a place of one in it.
   const std::vector<std::shared_ptr<const Mesh>>& resident();
   std::uint32_t index_of(const Mesh* mesh) const { return index_.at(mesh); }
 
@@ -46,6 +54,7 @@ class MeshStore {
  private:
   struct Entry {
     std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const Mesh> base;  // of a deformable mesh: as it was built
     std::uint64_t hash = 0;
     int triangle_count = 0;
     std::uint64_t last_look = 0;
@@ -53,19 +62,23 @@ class MeshStore {
     std::uint64_t order = 0;
     bool changed = false;  // announced
     bool deformable = false;
+    bool left_box = false;
   };
 
-  std::shared_ptr<const Mesh> build(std::uint64_t hash, bool deformable);
+  void update(Entry& entry, std::uint64_t hash);
+  std::shared_ptr<const Mesh> build(std::uint64_t hash);
+  static void drop(Entry& entry);
 
   float open_thickness_;
   bool trust_;
   std::unordered_map<dTriMeshDataID, Entry> entries_;
-  // Equal content is built once, whoever holds it.
+  // Equal content of rigid meshes is built once, whoever holds it.
   std::unordered_map<std::uint64_t, std::weak_ptr<const Mesh>> by_content_;
   std::vector<std::shared_ptr<const Mesh>> resident_;
   std::unordered_map<const Mesh*, std::uint32_t> index_;
   bool resident_is_stale_ = false;
   std::uint64_t next_order_ = 0;
+  std::uint64_t deformed_ = 0;
   TriangleSoup soup_;
 };
 

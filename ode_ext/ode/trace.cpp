@@ -32,10 +32,11 @@ constexpr Stage kHostStages[] = {{"gather", dBatchStageGather},
                                  {"meshes", dBatchStageMeshes},
                                  {"device", dBatchStageDevice},
                                  {"export", dBatchStageExport}};
-constexpr Stage kKernels[] = {{"pair_step", dBatchStagePairStep},
-                              {"vertex_step", dBatchStageVertexStep},
-                              {"ray_step", dBatchStageRayStep},
-                              {"contact_step", dBatchStageContactStep}};
+constexpr Stage kKernels[] = {
+    {"deform_step", dBatchStageDeformStep}, {"pair_step", dBatchStagePairStep},
+    {"vertex_step", dBatchStageVertexStep}, {"iterative_rays", dBatchStageIterativeRays},
+    {"bvh_rays", dBatchStageBvhRays},       {"basic_rays", dBatchStageBasicRays},
+    {"monolithic", dBatchStageMonolithic},  {"contact_step", dBatchStageContactStep}};
 
 void write_event(const char* name, int track, double start_us, double duration_us,
                  const std::string& arguments) {
@@ -65,7 +66,9 @@ void trace_pass(std::chrono::steady_clock::time_point start, const dBatchCollide
   const double begin = std::chrono::duration<double, std::micro>(start.time_since_epoch()).count();
   write_event("pass", 1, begin, 1e3 * stats.ms[dBatchStagePass],
               ",\"args\":{\"pairs\":" + std::to_string(stats.pairs) +
-                  ",\"rays\":" + std::to_string(stats.actual[dBatchBufferRays]) +
+                  ",\"rays_iterative\":" + std::to_string(stats.actual[dBatchBufferRaysIterative]) +
+                  ",\"rays_bvh\":" + std::to_string(stats.actual[dBatchBufferRaysBvh]) +
+                  ",\"rays_basic\":" + std::to_string(stats.actual[dBatchBufferRaysBasic]) +
                   ",\"contacts\":" + std::to_string(stats.actual[dBatchBufferContacts]) + "}");
   double time = begin;
   double device_begin = begin;

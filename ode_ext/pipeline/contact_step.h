@@ -4,9 +4,11 @@
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_buffer.h"
+#include "pipeline/append_lists.h"
 #include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
+#include "pipeline/pair_buffers.h"
+#include "pipeline/step_settings.h"
 
 namespace ode_ext {
 
@@ -17,16 +19,17 @@ class ContactStep {
         gather_(program, "contact_gather"),
         reduce_(program, "contact_reduce") {}
 
-  void run(Launch per_pair, Launch per_hit, const Buffer& counters, const AppendBuffer& hits,
-           const Buffer& pairs, const DeviceMeshes& meshes, const Buffer& pair_hits,
-           const Buffer& pair_segments, cl_uint pair_count, const Buffer& candidates,
-           cl_uint max_contacts, const Buffer& pair_ranges, const AppendBuffer& contacts) {
-    place_.launch(per_pair.groups, per_pair.local, counters, pair_hits, pair_count, pair_segments);
-    gather_.launch(per_hit.groups, per_hit.local, counters, hits.records(), hits.capacity(), pairs,
-                   meshes.vertices(), meshes.triangles(), pair_segments, candidates);
-    reduce_.launch(per_pair.groups, per_pair.local, counters, pairs, meshes.records(), pair_hits,
-                   pair_segments, pair_count, candidates, hits.capacity(), max_contacts,
-                   pair_ranges, contacts.records(), contacts.capacity());
+  void run(Launch per_pair, Launch per_hit, const AppendLists& lists, const DeviceMeshes& meshes,
+           const PairBuffers& pairs, const StepSettings& settings) {
+    place_.launch(per_pair.groups, per_pair.local, lists.counters(), pairs.hits, pairs.count,
+                  pairs.segments);
+    gather_.launch(per_hit.groups, per_hit.local, lists.counters(), lists.lists(), lists.hits(),
+                   pairs.pairs, meshes.vertices(), meshes.triangles(), pairs.segments,
+                   lists.candidates());
+    reduce_.launch(per_pair.groups, per_pair.local, lists.counters(), lists.lists(), pairs.pairs,
+                   meshes.records(), pairs.hits, pairs.segments, pairs.count, lists.candidates(),
+                   settings.max_contacts, settings.max_contacts_deformable, pairs.ranges,
+                   lists.contacts());
   }
   double take_milliseconds() {
     return place_.take_milliseconds() + gather_.take_milliseconds() + reduce_.take_milliseconds();

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "geometry/ray_cast.h"
 
 namespace ode_ext {
 namespace {
@@ -21,9 +25,11 @@ Vec3f half_size(const Box& box) {
           std::nextafter(h.z, INFINITY)};
 }
 
+// The deform step makes the rest of the records of deformable meshes.
 ox_vertex to_record(const Mesh& mesh, std::size_t i) {
   ox_vertex record{};
   store(record.position, mesh.vertices[i]);
+  if (mesh.deformable) return record;
   store(record.direction, Vec3f{} - mesh.normals[i]);
   record.exit = mesh.exits[i];
   return record;
@@ -33,6 +39,7 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   ox_chunk record{};
   record.first = vertex_first + chunk.first;
   record.count = chunk.count;
+  if (mesh.deformable) return record;
   store(record.centre, centre(chunk.box));
   store(record.half_size, half_size(chunk.box));
   record.radius = std::nextafter(length(half_size(chunk.box)), INFINITY);
@@ -55,16 +62,33 @@ ox_node to_record(const BvhNode& node, float extent) {
   return record;
 }
 
-ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle) {
+// `places` as places_in_leaves gives them.
+ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
+                      const std::vector<std::uint32_t>& places) {
+  ox_triangle record{};
+  record.id = mesh.source_triangle[triangle];
+  const auto across = [&](std::size_t k) {
+    const std::uint32_t neighbour = mesh.neighbours[triangle][k];
+    return neighbour == kNone ? OX_NONE : places[neighbour];
+  };
+  record.across_ab = across(0);
+  record.across_bc = across(1);
+  record.across_ca = across(2);
+  if (mesh.deformable) return record;
   const auto& corners = mesh.triangles[triangle];
   const bool flat = mesh.face_normals[triangle] == Vec3f{};
-  ox_triangle record{};
   store(record.a, mesh.vertices[corners[0]]);
   store(record.b, mesh.vertices[corners[flat ? 0 : 1]]);
   store(record.c, mesh.vertices[corners[flat ? 0 : 2]]);
   store(record.normal, mesh.face_normals[triangle]);
-  record.id = mesh.source_triangle[triangle];
   return record;
+}
+
+std::vector<std::uint32_t> places_in_leaves(const Mesh& mesh) {
+  std::vector<std::uint32_t> places(mesh.triangles.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[mesh.bvh.order[i]] = static_cast<std::uint32_t>(i);
+  return places;
 }
 
 void append_bytes(std::vector<ox_u32>& words, const std::vector<std::uint8_t>& bytes) {
@@ -82,21 +106,82 @@ void upload_all(Buffer& buffer, const std::vector<T>& records) {
   buffer.write(records.data(), records.size() * sizeof(T));
 }
 
+// Of the vertices of a deformable mesh [m]; a closed one's come from rays.
+float thickness_of(const Mesh& mesh) {
+  if (mesh.closed) return INFINITY;
+  return mesh.open_thickness > 0 ? mesh.open_thickness : mesh.mean_edge;
+}
+
+// How far the rays of an open mesh go [m].
+float reach_of(const Mesh& mesh) {
+  if (mesh.closed) return 0;
+  if (mesh.deformable) return thickness_of(mesh);
+  float reach = 0;
+  for (const float exit : mesh.exits)
+    if (std::isfinite(exit)) reach = std::max(reach, exit);
+  return reach;
+}
+
+// What a mesh and each of its shapes have of their own.
+void measure(const Mesh& mesh, ox_mesh& record) {
+  const Box& box = mesh.box;
+  store(record.box_centre, centre(box));
+  store(record.box_half, half_size(box));
+  const Vec3f farthest = max(max(box.hi, Vec3f{} - box.hi), max(box.lo, Vec3f{} - box.lo));
+  record.extent = length(farthest);
+  record.radius = mesh.radius;
+  record.mean_edge = mesh.mean_edge;
+  record.reach = reach_of(mesh);
+}
+
+// A power of two, so that scaling rounds nothing.
+float scale_for(float extent) {
+  if (extent == 0) return 1;
+  return std::ldexp(1.0f, std::clamp(-std::ilogb(extent), -126, 126));
+}
+
 }  // namespace
 
-DeviceMeshes::DeviceMeshes(Device& device)
-    : device_(&device),
-      records_(device),
-      chunks_(device),
-      vertices_(device),
-      nodes_(device),
-      triangles_(device),
-      grids_(device) {}
+DeviceMeshes::DeviceMeshes(Program& program)
+    : deform_(program),
+      records_(program.device()),
+      chunks_(program.device()),
+      vertices_(program.device()),
+      nodes_(program.device()),
+      triangles_(program.device()),
+      isolations_(program.device()),
+      grids_(program.device()),
+      topologies_(program.device()) {}
 
-void DeviceMeshes::set(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
-  if (meshes == meshes_) return;
+void DeviceMeshes::set(const MeshList& meshes) {
   // Nothing is in flight here (a step ends with a wait), so the arrays may be rebuilt in place.
+  const bool anew = !are_shapes_of_the_same(meshes);
+  if (anew) rebuild(meshes);
+  moves_.clear();
+  positions_.clear();
+  for (auto& [i, deformable] : deformables_) {
+    const bool changed = anew || meshes[i] != meshes_[i];
+    if (changed || deformable.moving) add_move(i, *meshes[i], !changed);
+    if (!anew) deformable.moving = changed;
+  }
+  if (!moves_.empty()) deform_.run(moves_, positions_, *this);
+  meshes_ = meshes;
+}
+
+void DeviceMeshes::forget() {
   meshes_.clear();
+  deformables_.clear();
+}
+
+bool DeviceMeshes::are_shapes_of_the_same(const MeshList& meshes) const {
+  return std::equal(meshes.begin(), meshes.end(), meshes_.begin(), meshes_.end(),
+                    [](const auto& a, const auto& b) { return &topology(*a) == &topology(*b); });
+}
+
+void DeviceMeshes::rebuild(const MeshList& meshes) {
+  std::unordered_map<const Mesh*, const Mesh*> shapes_before;
+  for (const auto& mesh : meshes_) shapes_before.emplace(&topology(*mesh), mesh.get());
+  const MeshList before = std::exchange(meshes_, {});  // keeps them until they are appended
   places_.clear();
   owner_triangles_.clear();
   host_records_.clear();
@@ -104,51 +189,90 @@ void DeviceMeshes::set(const std::vector<std::shared_ptr<const Mesh>>& meshes) {
   host_vertices_.clear();
   host_nodes_.clear();
   host_triangles_.clear();
+  host_isolations_.clear();
   host_grids_.clear();
-  for (const auto& mesh : meshes) append(*mesh);
+  host_topologies_.clear();
+  deformables_.clear();
+  for (const auto& mesh : meshes) {
+    const auto known = shapes_before.find(&topology(*mesh));
+    append(*mesh, known == shapes_before.end() ? nullptr : known->second);
+  }
   upload();
-  meshes_ = meshes;
 }
 
-void DeviceMeshes::append(const Mesh& mesh) {
-  const Box& box = mesh.box;
+void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
+  const Mesh& built = topology(mesh);
   ox_mesh record{};
   record.chunk_first = static_cast<ox_u32>(host_chunks_.size());
-  record.chunk_count = static_cast<ox_u32>(mesh.chunks.size());
+  record.chunk_count = static_cast<ox_u32>(built.chunks.size());
   record.node_first = static_cast<ox_u32>(host_nodes_.size());
-  record.node_count = static_cast<ox_u32>(mesh.bvh.nodes.size());
+  record.node_count = static_cast<ox_u32>(built.bvh.nodes.size());
   record.triangle_first = static_cast<ox_u32>(host_triangles_.size());
+  record.triangle_count = static_cast<ox_u32>(built.triangles.size());
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
-  record.clearance_first = static_cast<ox_u32>(host_grids_.size() + mesh.grid.bits.size());
-  record.block_side = mesh.clearance.block_side;
-  std::copy(mesh.grid.cells.begin(), mesh.grid.cells.end(), record.grid_cells);
-  record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) | (mesh.grid.bits.empty() ? 0u : OX_MESH_GRID);
-  store(record.box_centre, centre(box));
-  store(record.box_half, half_size(box));
-  store(record.grid_origin, mesh.grid.origin);
-  store(record.grid_scale, mesh.grid.cells_per_meter);
-  const Vec3f farthest = max(max(box.hi, Vec3f{} - box.hi), max(box.lo, Vec3f{} - box.lo));
-  record.extent = length(farthest);
-  record.radius = mesh.radius;
+  record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
+  record.block_side = built.clearance.block_side;
+  std::copy(built.grid.cells.begin(), built.grid.cells.end(), record.grid_cells);
+  record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) |
+                 (built.grid.bits.empty() ? 0u : OX_MESH_GRID) |
+                 (built.isolation.empty() ? 0u : OX_MESH_ISOLATED) |
+                 (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
+                 (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
+  store(record.grid_origin, built.grid.origin);
+  store(record.grid_scale, built.grid.cells_per_meter);
+  measure(mesh, record);
 
   const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
   places_.push_back({vertex_first, record.triangle_first});
+  if (mesh.deformable) {
+    Deformable& deformable = deformables_[static_cast<std::uint32_t>(host_records_.size())];
+    deformable.topology = append_topology(built, host_topologies_);
+    deformable.moving = before != nullptr && before != &mesh;
+  }
   host_records_.push_back(record);
-  for (const VertexChunk& chunk : mesh.chunks)
-    host_chunks_.push_back(to_record(mesh, chunk, vertex_first));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    host_vertices_.push_back(to_record(mesh, i));
-  for (const BvhNode& node : mesh.bvh.nodes) host_nodes_.push_back(to_record(node, record.extent));
-  for (const std::uint32_t triangle : mesh.bvh.order)
-    host_triangles_.push_back(to_record(mesh, triangle));
+  for (const VertexChunk& chunk : built.chunks)
+    host_chunks_.push_back(to_record(built, chunk, vertex_first));
+  const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
+  for (std::size_t i = 0; i < placed.vertices.size(); ++i)
+    host_vertices_.push_back(to_record(placed, i));
+  for (const BvhNode& node : built.bvh.nodes) host_nodes_.push_back(to_record(node, record.extent));
+  const std::vector<std::uint32_t> places = places_in_leaves(built);
+  for (const std::uint32_t triangle : built.bvh.order) {
+    host_triangles_.push_back(to_record(built, triangle, places));
+    const Isolation isolation = built.isolation.empty() ? Isolation{} : built.isolation[triangle];
+    host_isolations_.push_back({isolation.within_10, isolation.within_30, isolation.within_60});
+  }
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const std::uint32_t corner : mesh.triangles[t]) {
+  for (std::size_t t = 0; t < built.triangles.size(); ++t)
+    for (const std::uint32_t corner : built.triangles[t]) {
       std::uint32_t& owner = owner_triangles_[vertex_first + corner];
-      owner = std::min(owner, mesh.source_triangle[t]);
+      owner = std::min(owner, built.source_triangle[t]);
     }
-  host_grids_.insert(host_grids_.end(), mesh.grid.bits.begin(), mesh.grid.bits.end());
-  append_bytes(host_grids_, mesh.clearance.steps);
+  host_grids_.insert(host_grids_.end(), built.grid.bits.begin(), built.grid.bits.end());
+  append_bytes(host_grids_, built.clearance.steps);
+}
+
+void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
+  const Deformable& deformable = deformables_.at(mesh);
+  measure(shape, host_records_[mesh]);
+  MeshMove move;
+  move.record.shape = host_records_[mesh];
+  move.record.mesh = mesh;
+  move.record.vertex_first = places_[mesh].vertex_first;
+  move.record.vertex_count = static_cast<ox_u32>(shape.vertices.size());
+  move.record.position_first = static_cast<ox_u32>(positions_.size());
+  move.record.corner_first = deformable.topology.corner_first;
+  move.record.incident_first = deformable.topology.incident_first;
+  move.record.node_order_first = deformable.topology.node_order_first;
+  move.record.scale = scale_for(move.record.shape.extent);
+  move.record.thickness = thickness_of(shape);
+  // A vertex may lie on a face that is not its own (geometry/exit_distance.cpp); rounding, here of
+  // the ray test too, sees them less than 16 roundings of the size apart (ray_step.cl).
+  move.record.on_surface = 0x1p-20f * 2 * shape.radius;
+  move.rests = rests;
+  move.level_starts = &deformable.topology.level_starts;
+  moves_.push_back(move);
+  if (!rests) positions_.insert(positions_.end(), shape.vertices.begin(), shape.vertices.end());
 }
 
 void DeviceMeshes::upload() {
@@ -157,7 +281,9 @@ void DeviceMeshes::upload() {
   upload_all(vertices_, host_vertices_);
   upload_all(nodes_, host_nodes_);
   upload_all(triangles_, host_triangles_);
+  upload_all(isolations_, host_isolations_);
   upload_all(grids_, host_grids_);
+  upload_all(topologies_, host_topologies_);
 }
 
 }  // namespace ode_ext

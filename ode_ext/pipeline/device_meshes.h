@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All meshes, concatenated in device memory.
+// All meshes, concatenated in device memory, and kept up with where they deform.
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
 #include "device/buffer.h"
 #include "geometry/mesh.h"
+#include "pipeline/deform_step.h"
+#include "pipeline/deform_topology.h"
 #include "shared/types.h"
 
 namespace ode_ext {
@@ -20,13 +23,18 @@ struct MeshPlace {
 
 class DeviceMeshes {
  public:
-  explicit DeviceMeshes(Device& device);
+  explicit DeviceMeshes(Program& program);
 
-  // Makes `meshes` the ones on the device: mesh i is the i-th. The same list again uploads nothing.
-  // The uploads are enqueued; the sources live in this object.
+  // Makes `meshes` the ones on the device: mesh i is the i-th. The same list again uploads nothing,
+  // a list in which only shapes of deformable meshes changed the positions of those. Everything is
+  // enqueued; the sources live in this object.
   void set(const std::vector<std::shared_ptr<const Mesh>>& meshes);
   // The device lost its contents: the next set() uploads again.
-  void forget() { meshes_.clear(); }
+  void forget();
+
+  void warm_up(Launch wide) { deform_.warm_up(wide, *this); }
+  // Device time of the deform step since the last call [ms].
+  double take_milliseconds() { return deform_.take_milliseconds(); }
 
   const Mesh& mesh(std::uint32_t i) const { return *meshes_[i]; }
   const MeshPlace& place(std::uint32_t i) const { return places_[i]; }
@@ -39,14 +47,27 @@ class DeviceMeshes {
   const Buffer& vertices() const { return vertices_; }
   const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
+  const Buffer& isolations() const { return isolations_; }
   const Buffer& grids() const { return grids_; }
+  const Buffer& topologies() const { return topologies_; }  // see ox_move
 
  private:
-  void append(const Mesh& mesh);
-  void upload();
+  using MeshList = std::vector<std::shared_ptr<const Mesh>>;
 
-  Device* device_;
-  std::vector<std::shared_ptr<const Mesh>> meshes_;
+  struct Deformable {
+    DeformTopology topology;
+    bool moving = false;  // its vertices moved at the last set()
+  };
+
+  bool are_shapes_of_the_same(const MeshList& meshes) const;
+  void rebuild(const MeshList& meshes);
+  // `before`: the shape it had until now, if it was here.
+  void append(const Mesh& mesh, const Mesh* before);
+  void upload();
+  void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
+
+  DeformStep deform_;
+  MeshList meshes_;
   std::vector<MeshPlace> places_;
   std::vector<std::uint32_t> owner_triangles_;
   std::vector<ox_mesh> host_records_;
@@ -54,8 +75,13 @@ class DeviceMeshes {
   std::vector<ox_vertex> host_vertices_;
   std::vector<ox_node> host_nodes_;
   std::vector<ox_triangle> host_triangles_;
+  std::vector<ox_isolation> host_isolations_;
   std::vector<ox_u32> host_grids_;
-  Buffer records_, chunks_, vertices_, nodes_, triangles_, grids_;
+  std::vector<ox_u32> host_topologies_;
+  std::map<std::uint32_t, Deformable> deformables_;  // by mesh
+  std::vector<MeshMove> moves_;
+  std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
+  Buffer records_, chunks_, vertices_, nodes_, triangles_, isolations_, grids_, topologies_;
 };
 
 }  // namespace ode_ext

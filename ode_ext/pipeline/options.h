@@ -9,18 +9,30 @@
 namespace ode_ext {
 
 enum class Workload { kPredicted, kExact };
+enum class Rays { kIterative, kFull, kIterativePaper };
+enum class DeformableTarget { kRefit, kBasic };
+enum class Organisation { kPipelined, kMonolithic };
+enum class Misprediction { kRedo, kIgnore, kBacktrack };
 
 struct ColliderOptions {
   std::string device;  // see choose_device
   std::uint32_t max_contacts = 16;
+  std::uint32_t max_contacts_deformable = 0;  // 0: all
+  Rays rays = Rays::kIterative;
+  DeformableTarget deformable_target = DeformableTarget::kRefit;
+  Organisation organisation = Organisation::kPipelined;
   Workload workload = Workload::kPredicted;
   PredictionRule prediction = PredictionRule::kPairScaled;
+  Misprediction misprediction = Misprediction::kRedo;
   double confidence = 1.2;
   std::uint32_t work_group_size = 64;
-  std::uint64_t initial_capacity = 16384;  // [records] of each append buffer
+  std::uint64_t initial_capacity = 16384;  // [records] of each append list
+  std::uint32_t walk_limit = 32;           // triangles an iterative ray crosses at most
+  float displacement_limit = 1;            // [mean edges of the target] for iterative rays
+  bool count_work = false;
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that no
   // counter and no index passes 2^32.
-  std::uint64_t tile_vertices = std::uint64_t{1} << 31;
+  std::uint64_t tile_vertices = std::uint64_t{1} << 29;
 };
 
 // The largest max_contacts (OX_MAX_CONTACTS in contact_step.cl).

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kernels/pair_step.cl: pairs -> chunk tasks.
+// kernels/pair_step.cl: pairs -> chunk tasks, by category.
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_buffer.h"
+#include "pipeline/append_lists.h"
 #include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
+#include "pipeline/pair_buffers.h"
+#include "pipeline/step_settings.h"
+#include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
 
@@ -13,12 +16,14 @@ class PairStep {
  public:
   explicit PairStep(Program& program) : kernel_(program, "pair_step") {}
 
-  void run(Launch launch, const Buffer& counters, const Buffer& objects, const DeviceMeshes& meshes,
-           const Buffer& pair_objects, cl_uint pair_count, const Buffer& pairs,
-           const Buffer& pair_hits, const Buffer& pair_ranges, const AppendBuffer& tasks) {
-    kernel_.launch(launch.groups, launch.local, counters, objects, meshes.records(),
-                   meshes.chunks(), meshes.grids(), pair_objects, pair_count, pairs, pair_hits,
-                   pair_ranges, tasks.records(), tasks.capacity());
+  // dense: a task for every chunk of every pair, at its own place; those of PairBuffers.
+  void run(Launch launch, AppendLists& lists, const DeviceMeshes& meshes, const PairBuffers& pairs,
+           const TemporalCache& temporal, const StepSettings& settings, bool dense) {
+    kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.objects,
+                   meshes.records(), meshes.chunks(), meshes.grids(), pairs.members,
+                   temporal.links(), pairs.count, temporal.step(), settings.rays_mode,
+                   settings.displacement_limit, temporal.poses(), temporal.directory(), pairs.pairs,
+                   pairs.hits, pairs.ranges, cl_uint{dense}, pairs.dense_first, lists.tasks());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -9,8 +9,17 @@
 namespace ode_ext {
 
 // The append buffers, in the order of the pipeline. The order is public (dBatchBuffer...).
-enum class Arrow : std::size_t { kChunks, kRays, kHits, kContacts };
-inline constexpr std::size_t kArrowCount = 4;
+enum class Arrow : std::size_t {
+  kChunksSmall,
+  kChunksHigh,
+  kChunksDeformable,
+  kRaysIterative,
+  kRaysBvh,
+  kRaysBasic,
+  kHits,
+  kContacts
+};
+inline constexpr std::size_t kArrowCount = 8;
 using ArrowCounts = std::array<std::uint64_t, kArrowCount>;
 
 enum class PredictionRule { kPairScaled, kPlain };

@@ -29,7 +29,8 @@ struct Pose {
 struct Scene {
   struct Object {
     Pose pose;
-    std::uint32_t mesh;  // index into meshes
+    std::uint32_t mesh;          // index into meshes
+    std::uint64_t identity = 0;  // the same from step to step; 0: none, nothing is remembered of it
   };
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Object> objects;

@@ -4,6 +4,7 @@
 
 #include "device/program.h"
 #include "pipeline/contact_step.h"
+#include "pipeline/monolithic_step.h"
 #include "pipeline/pair_step.h"
 #include "pipeline/ray_step.h"
 #include "pipeline/vertex_step.h"
@@ -12,11 +13,18 @@ namespace ode_ext {
 
 struct Steps {
   explicit Steps(Program& program)
-      : pair(program), vertex(program), ray(program), contact(program) {}
+      : pair(program),
+        vertex(program),
+        iterative(program, "ray_iterative"),
+        bvh(program, "ray_bvh"),
+        basic(program, "ray_basic"),
+        monolithic(program),
+        contact(program) {}
 
   PairStep pair;
   VertexStep vertex;
-  RayStep ray;
+  RayStep iterative, bvh, basic;
+  MonolithicStep monolithic;
   ContactStep contact;
 };
 

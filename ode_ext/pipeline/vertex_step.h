@@ -1,28 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kernels/vertex_step.cl: chunk tasks -> rays.
+// kernels/vertex_step.cl: chunk tasks -> rays, one kernel per category of pairs.
 #pragma once
 
+#include <array>
+
 #include "device/program.h"
-#include "pipeline/append_buffer.h"
+#include "pipeline/append_lists.h"
 #include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
+#include "pipeline/pair_buffers.h"
+#include "pipeline/step_settings.h"
+#include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
 
 class VertexStep {
  public:
-  explicit VertexStep(Program& program) : kernel_(program, "vertex_step") {}
+  explicit VertexStep(Program& program)
+      : kernels_{{{program, "vertex_small"},
+                  {program, "vertex_high"},
+                  {program, "vertex_deformable"}}} {}
 
-  void run(Launch launch, const Buffer& counters, const AppendBuffer& tasks, const Buffer& pairs,
-           const DeviceMeshes& meshes, const AppendBuffer& rays) {
-    kernel_.launch(launch.groups, launch.local, counters, tasks.records(), tasks.capacity(), pairs,
-                   meshes.records(), meshes.chunks(), meshes.vertices(), meshes.grids(),
-                   rays.records(), rays.capacity());
+  void run(Arrow category, Launch launch, AppendLists& lists, const DeviceMeshes& meshes,
+           const PairBuffers& pairs, const TemporalCache& temporal, const StepSettings& settings,
+           const Buffer& works) {
+    kernels_[static_cast<std::size_t>(category)].launch(
+        launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(), pairs.pairs,
+        meshes.records(), meshes.chunks(), meshes.vertices(), meshes.grids(), settings.rays_mode,
+        settings.displacement_limit, temporal.before(), temporal.now(), lists.rays(), works);
   }
-  double take_milliseconds() { return kernel_.take_milliseconds(); }
+  double take_milliseconds() {
+    double sum = 0;
+    for (Kernel& kernel : kernels_) sum += kernel.take_milliseconds();
+    return sum;
+  }
 
  private:
-  Kernel kernel_;
+  std::array<Kernel, 3> kernels_;
 };
 
 }  // namespace ode_ext

@@ -179,17 +179,6 @@ TEST_F(ApiMeshes, ThatAreTrustedMayBeReplacedWhenAnnounced) {
   EXPECT_EQ(difference_with_geoms(collide(g1, g2), right()), "");
 }
 
-TEST_F(ApiMeshes, DeclaredDeformableGetTheSameContacts) {
-  const BatchCollider collider;
-  const Contacts expected = right();
-  dBatchColliderTriMeshDataSetDeformable(collider, soft.id(), 1);
-  collider.pass(space);
-  EXPECT_EQ(difference_with_geoms(collide(g1, g2), expected), "");
-  dent();
-  collider.pass(space);
-  EXPECT_EQ(difference_with_geoms(collide(g1, g2), right()), "");
-}
-
 TEST_F(ApiMeshes, SharedByGeomsAreBuiltOnce) {
   for (int i = 0; i < 5; ++i) world.geom(soft, at(3 + 0.5 * i, 0.1 * i, 0), space);
   const BatchCollider collider;

@@ -30,6 +30,14 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.open_thickness, 0);
   EXPECT_EQ(params.work_group_size, 0);
   EXPECT_EQ(params.initial_capacity, 0);
+  EXPECT_EQ(params.rays, dBatchRaysIterative);
+  EXPECT_EQ(params.deformable_target, dBatchDeformableRefit);
+  EXPECT_EQ(params.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(params.misprediction, dBatchMispredictionRedo);
+  EXPECT_EQ(params.max_contacts_deformable, 0);
+  EXPECT_EQ(params.walk_limit, 0);
+  EXPECT_EQ(params.displacement_limit, 0);
+  EXPECT_EQ(params.count_work, 0);
 }
 
 TEST(ApiParams, InitIgnoresNull) { dBatchColliderParamsInit(nullptr); }
@@ -76,6 +84,16 @@ const BadParameter kBadParameters[] = {
     {"confidence", "Infinite", [](P& p) { p.confidence = kInfinity; }},
     {"open_thickness", "Negative", [](P& p) { p.open_thickness = -1; }},
     {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNan; }},
+    {"rays", "Unknown", [](P& p) { p.rays = 3; }},
+    {"rays", "Negative", [](P& p) { p.rays = -1; }},
+    {"deformable_target", "Unknown", [](P& p) { p.deformable_target = 2; }},
+    {"organisation", "Unknown", [](P& p) { p.organisation = 2; }},
+    {"misprediction", "Unknown", [](P& p) { p.misprediction = 3; }},
+    {"max_contacts_deformable", "Negative", [](P& p) { p.max_contacts_deformable = -1; }},
+    {"max_contacts_deformable", "TooMany", [](P& p) { p.max_contacts_deformable = 65; }},
+    {"walk_limit", "Negative", [](P& p) { p.walk_limit = -1; }},
+    {"displacement_limit", "Negative", [](P& p) { p.displacement_limit = -1; }},
+    {"displacement_limit", "Nan", [](P& p) { p.displacement_limit = kNan; }},
     {"work_group_size", "Negative", [](P& p) { p.work_group_size = -1; }},
     {"work_group_size", "AboveEveryDevice", [](P& p) { p.work_group_size = 1 << 24; }},
     {"initial_capacity", "Negative", [](P& p) { p.initial_capacity = -1; }},

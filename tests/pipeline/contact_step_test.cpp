@@ -22,7 +22,10 @@ std::vector<ox_candidate> sorted_candidates(const StepRecords& records, std::siz
     candidates.assign(first, first + records.pair_hits[pair]);
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return std::tuple(a.side_kind >> 2, a.vertex) < std::tuple(b.side_kind >> 2, b.vertex);
+    const auto key = [](const ox_candidate& c) {
+      return std::tuple(c.side_kind >> 3, c.position[0], c.position[1], c.position[2], c.vertex);
+    };
+    return key(a) < key(b);
   });
   return candidates;
 }
@@ -33,7 +36,7 @@ std::vector<ContactKey> contacts_of(const StepRecords& records, std::size_t pair
   std::vector<ContactKey> keys;
   for (ox_u32 k = 0; k < records.ranges[pair].count; ++k) {
     const ox_contact& c = records.contacts.at(records.ranges[pair].first + k);
-    keys.emplace_back(c.side, c.vertex, c.triangle, c.depth);
+    keys.emplace_back(c.side_kind >> 3, c.vertex, c.triangle, c.depth);
   }
   return keys;
 }
@@ -47,7 +50,7 @@ std::vector<ContactKey> expected_contacts(const TestScene& scene, std::size_t pa
   std::vector<ContactKey> keys;
   for (const std::size_t i : reduce.run(limit).taken) {
     const ox_candidate& c = candidates[i];
-    keys.emplace_back(c.side_kind >> 2, c.vertex, c.triangle, c.depth);
+    keys.emplace_back(c.side_kind >> 3, c.vertex, c.triangle, c.depth);
   }
   return keys;
 }
@@ -76,10 +79,10 @@ TEST(ContactStep, GathersEveryHitAmongThoseOfItsPairInTheFrameOfB) {
     const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
     for (const ox_candidate& c : sorted_candidates(records, i)) {
       ++gathered;
-      const ox_u32 side = c.side_kind >> 2;
+      const ox_u32 side = c.side_kind >> 3;
       const auto found = hits.find({static_cast<ox_u32>(i) << 1 | side, c.vertex});
       ASSERT_NE(found, hits.end());
-      EXPECT_EQ(c.side_kind & 3, found->second.kind);
+      EXPECT_EQ(c.side_kind & OX_HIT_KIND, found->second.kind);
       EXPECT_EQ(c.triangle, found->second.triangle);
       EXPECT_EQ(c.depth, found->second.depth);
       EXPECT_EQ(c.t, found->second.t);
@@ -142,20 +145,20 @@ TEST(ContactStep, PutsTheDeepestFirstAndThenTheDeepestOfEveryOtherPatch) {
     ASSERT_EQ(candidates.empty(), contacts.empty());
     if (candidates.empty()) continue;
     ox_u32 kind = OX_HIT_TOUCHING;
-    for (const ox_candidate& c : candidates) kind = std::min(kind, c.side_kind & 3);
+    for (const ox_candidate& c : candidates) kind = std::min(kind, c.side_kind & OX_HIT_KIND);
     ox_f32 deepest = 0;
     for (const ox_candidate& c : candidates)
-      if ((c.side_kind & 3) == kind) deepest = std::max(deepest, c.depth);
+      if ((c.side_kind & OX_HIT_KIND) == kind) deepest = std::max(deepest, c.depth);
     EXPECT_EQ(std::get<3>(contacts[0]), deepest);
     // Every candidate faces the way of some contact (25.8 degrees), unless the limit was reached.
     if (contacts.size() == 64) continue;
     ++checked;
     for (const ox_candidate& c : candidates) {
-      if ((c.side_kind & 3) != kind) continue;
+      if ((c.side_kind & OX_HIT_KIND) != kind) continue;
       const bool covered = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
         const auto other =
             std::find_if(candidates.begin(), candidates.end(), [&](const ox_candidate& candidate) {
-              return std::tuple(candidate.side_kind >> 2, candidate.vertex) ==
+              return std::tuple(candidate.side_kind >> 3, candidate.vertex) ==
                      std::tuple(std::get<0>(contact), std::get<1>(contact));
             });
         return dot(point_of(other->normal), point_of(c.normal)) > 0.9 - 1e-6;
@@ -175,7 +178,7 @@ TEST(ContactStep, KeepsFacesThatLookOppositeWaysApart) {
   std::vector<Point> normals;
   for (const auto& contact : contacts_of(records, 0))
     for (const ox_candidate& c : candidates)
-      if (c.side_kind >> 2 == std::get<0>(contact) && c.vertex == std::get<1>(contact))
+      if (c.side_kind >> 3 == std::get<0>(contact) && c.vertex == std::get<1>(contact))
         normals.push_back(point_of(c.normal));
   ASSERT_EQ(normals.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i)

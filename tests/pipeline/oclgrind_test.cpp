@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/collider.h"
+#include "pipeline/deform_rig.h"
+#include "pipeline/moving_scene.h"
 #include "pipeline/test_scene.h"
 
 namespace ode_ext::test {
@@ -105,6 +107,53 @@ TEST(OclgrindPipeline, CountsExactlyAndInTiles) {
   exact.tile_vertices = 1;
   Collider collider(exact), plain(small_options());
   EXPECT_EQ(counts(collider, scene), counts(plain, scene));
+}
+
+// Iterative rays that are proven, handed on, and that walk off a border; in both organisations.
+TEST(OclgrindPipeline, CastsIteratively) {
+  const std::vector<TestMesh> meshes = {make_icosphere(0.6, 1), make_cube(1), make_sheet(1.5, 4)};
+  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+    for (const Rays rays : {Rays::kIterative, Rays::kIterativePaper}) {
+      ColliderOptions options = small_options();
+      options.organisation = organisation;
+      options.rays = rays;
+      options.count_work = true;
+      Collider collider(options);
+      MovingScene moving(meshes, 3, 0.01, 1);
+      PassMemory memory;
+      std::uint64_t iterative = 0;
+      for (int i = 0; i < 3; ++i, moving.advance()) {
+        collider.collide(moving.scene(), &memory);
+        iterative += collider.report().actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
+      }
+      EXPECT_GT(iterative, 0u);
+    }
+  }
+}
+
+// A sheet that moves through a cube, as source and as target, by every algorithm.
+TEST(OclgrindPipeline, CollidesASheet) {
+  const auto base = deformable(soup_of(make_sheet(1.5, 4)), 0.05f);
+  for (const DeformableTarget target : {DeformableTarget::kRefit, DeformableTarget::kBasic}) {
+    for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+      ColliderOptions options = small_options();
+      options.deformable_target = target;
+      options.organisation = organisation;
+      Collider collider(options);
+      PassMemory memory;
+      Scene scene;
+      scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(1, 2)))), base};
+      scene.objects = {{Pose{}, 0, 1}, {Pose{{0.01, 0.02, 0.3}}, 1, 2}};
+      scene.pairs = {{0, 1}};
+      for (const float phase : {0.0f, 0.1f}) {
+        TriangleSoup soup;
+        for (const std::uint32_t vertex : base->corner_vertex)
+          soup.push_back(base->vertices[vertex]);
+        scene.meshes[1] = deformed(base, bent(soup, phase));
+        EXPECT_GT(collider.collide(scene, &memory).ranges[0].count, 0u);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -51,12 +51,24 @@ inline double gap_between(const OrientedBox& a, const OrientedBox& b) {
   return gap;
 }
 
-// [m]; negative where the boxes of the two meshes overlap.
+// The rays of an open mesh that meet another open one may leave its box, as far as this [m].
+inline double reach_of_pair(const TestScene& scene, std::size_t pair) {
+  double reach = 0;
+  for (const std::size_t side : {0u, 1u}) {
+    if (scene.built_mesh_of(pair, side).closed) return 0;
+    for (const float exit : scene.built_mesh_of(pair, side).exits)
+      if (std::isfinite(exit)) reach = std::max(reach, double{exit});
+  }
+  return reach;
+}
+
+// [m]; negative where the boxes of the two meshes overlap, or are within reach of their rays.
 inline double gap_of_pair(const TestScene& scene, std::size_t pair) {
   const Point& origin = scene.pose_of(pair, 1).position;
   return gap_between(
-      oriented_box(scene.built_mesh_of(pair, 0).box, scene.pose_of(pair, 0), origin),
-      oriented_box(scene.built_mesh_of(pair, 1).box, scene.pose_of(pair, 1), origin));
+             oriented_box(scene.built_mesh_of(pair, 0).box, scene.pose_of(pair, 0), origin),
+             oriented_box(scene.built_mesh_of(pair, 1).box, scene.pose_of(pair, 1), origin)) -
+         reach_of_pair(scene, pair);
 }
 
 }  // namespace ode_ext::test

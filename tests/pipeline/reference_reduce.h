@@ -23,7 +23,8 @@ struct Reduction {
 
 class ReferenceReduce {
  public:
-  // Candidates sorted by (side, vertex); `merge` [m]: what is nearer to another adds nothing.
+  // Candidates sorted by (side, position, vertex); `merge` [m]: what is nearer to another adds
+  // nothing.
   ReferenceReduce(const std::vector<ox_candidate>& candidates, float merge, double size)
       : candidates_(candidates),
         merge2_(merge * merge),
@@ -44,7 +45,7 @@ class ReferenceReduce {
  private:
   static constexpr int kNoPatch = -1;
 
-  std::uint32_t kind(std::size_t i) const { return candidates_[i].side_kind & 3; }
+  std::uint32_t kind(std::size_t i) const { return candidates_[i].side_kind & OX_HIT_KIND; }
   float depth(std::size_t i) const { return candidates_[i].depth; }
   static Vec3f vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
   float apart2(std::size_t i, std::size_t j) const {

@@ -6,8 +6,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/append_lists.h"
 #include "pipeline/device_meshes.h"
+#include "pipeline/object_record.h"
+#include "pipeline/pair_buffers.h"
 #include "pipeline/steps.h"
+#include "pipeline/temporal_cache.h"
 #include "pipeline/test_scene.h"
 
 namespace ode_ext::test {
@@ -15,8 +19,8 @@ namespace ode_ext::test {
 struct StepRecords {
   std::uint32_t bounded = 0;         // pairs whose boxes overlap
   std::vector<ox_pair> pairs;        // of the scene, in its order
-  std::vector<ox_chunk_task> tasks;  // what follows comes in any order
-  std::vector<ox_ray> rays;
+  std::vector<ox_chunk_task> tasks;  // of all lists; what follows comes in any order
+  std::vector<ox_ray> rays;          // of all lists
   std::vector<ox_hit> hits;
   std::vector<ox_u32> pair_hits, pair_segments;
   std::vector<ox_candidate> candidates;
@@ -36,24 +40,20 @@ class Rig {
 
   StepRecords run(const Scene& scene, std::uint32_t max_contacts = 16, Launch launch = {8, 64}) {
     upload(scene, max_contacts);
-    const auto pair_count = static_cast<cl_uint>(scene.pairs.size());
-    steps_.pair.run(launch, counters_, objects_, meshes_, pair_objects_, pair_count, pairs_,
-                    pair_hits_, pair_ranges_, tasks_);
-    steps_.vertex.run(launch, counters_, tasks_, pairs_, meshes_, rays_);
-    steps_.ray.run(launch, counters_, rays_, pairs_, meshes_, pair_hits_, hits_);
-    steps_.contact.run(launch, launch, counters_, hits_, pairs_, meshes_, pair_hits_,
-                       pair_segments_, pair_count, candidates_, max_contacts, pair_ranges_,
-                       contacts_);
-    return read_back(pair_count);
+    steps_.pair.run(launch, lists_, meshes_, pairs_, temporal_, settings_, false);
+    for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunksHigh, Arrow::kChunksDeformable})
+      steps_.vertex.run(category, launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
+    for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
+      step->run(launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
+    steps_.contact.run(launch, launch, lists_, meshes_, pairs_, settings_);
+    return read_back();
   }
 
   // Its first step alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1);
-    const auto pair_count = static_cast<cl_uint>(scene.pairs.size());
-    steps_.pair.run(launch, counters_, objects_, meshes_, pair_objects_, pair_count, pairs_,
-                    pair_hits_, pair_ranges_, tasks_);
-    return read_back(pair_count);
+    steps_.pair.run(launch, lists_, meshes_, pairs_, temporal_, settings_, false);
+    return read_back();
   }
 
   // The index within its own mesh of a vertex or triangle of all.
@@ -61,101 +61,83 @@ class Rig {
     return vertex - meshes_.place(mesh).vertex_first;
   }
   std::uint32_t local_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
-    return meshes_.mesh(mesh).bvh.order[triangle - meshes_.place(mesh).triangle_first];
+    return topology(meshes_.mesh(mesh)).bvh.order[triangle - meshes_.place(mesh).triangle_first];
   }
 
  private:
-  Rig() : device_(""), program_(device_, ""), steps_(program_), meshes_(device_) {}
-
-  static ox_object record_of(const Scene::Object& object) {
-    ox_object record{};
-    for (std::size_t k = 0; k < 9; ++k)
-      record.rotation[k] = static_cast<float>(object.pose.rotation[k]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      // Split after Veltkamp: g++ 12 takes double(float(x)) for x when it vectorizes, and the low
-      // part would be 0.
-      const double x = object.pose.position[k];
-      const double scaled = (0x1p29 + 1) * x;
-      const double high = scaled - (scaled - x);
-      record.hi[k] = static_cast<float>(high);
-      record.lo[k] = static_cast<float>(x - high);
-    }
-    record.mesh = object.mesh;
-    return record;
-  }
+  Rig() : device_(""), program_(device_, ""), steps_(program_), meshes_(program_) {}
 
   void upload(const Scene& scene, std::uint32_t max_contacts) {
     meshes_.set(scene.meshes);
     host_objects_.clear();
-    host_pairs_.clear();
-    for (const Scene::Object& object : scene.objects) host_objects_.push_back(record_of(object));
+    host_members_.clear();
+    for (const Scene::Object& object : scene.objects)
+      host_objects_.push_back(object_record(object));
     std::uint64_t chunks = 1, vertices = 1;
     for (const auto& pair : scene.pairs) {
-      host_pairs_.insert(host_pairs_.end(), pair.begin(), pair.end());
+      host_members_.insert(host_members_.end(), pair.begin(), pair.end());
       for (const std::uint32_t object : pair) {
-        chunks += scene.meshes[scene.objects[object].mesh]->chunks.size();
-        vertices += scene.meshes[scene.objects[object].mesh]->vertices.size();
+        const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
+        chunks += topology(mesh).chunks.size();
+        vertices += mesh.vertices.size();
       }
     }
     const std::size_t count = scene.pairs.size();
-    objects_.reserve(host_objects_.size() * sizeof(ox_object));
-    objects_.write(host_objects_.data(), host_objects_.size() * sizeof(ox_object));
-    pair_objects_.reserve(host_pairs_.size() * sizeof(ox_u32));
-    pair_objects_.write(host_pairs_.data(), host_pairs_.size() * sizeof(ox_u32));
-    pairs_.reserve(count * sizeof(ox_pair));
-    pair_hits_.reserve(count * sizeof(ox_u32));
-    pair_segments_.reserve(count * sizeof(ox_u32));
-    pair_ranges_.reserve(count * sizeof(ox_range));
-    tasks_.reserve(chunks);
-    rays_.reserve(vertices);
-    hits_.reserve(vertices);
-    candidates_.reserve(std::uint64_t{hits_.capacity()} * sizeof(ox_candidate));
-    contacts_.reserve(count * max_contacts + 1);
-    counters_.reserve(kCounterBytes);
-    counters_.fill_zero(kCounterBytes);
-    pair_segments_.fill_zero(count * sizeof(ox_u32));
-    pairs_.fill_zero(count * sizeof(ox_pair));
+    pairs_.reserve(count);
+    pairs_.objects.reserve(host_objects_.size() * sizeof(ox_object));
+    pairs_.objects.write(host_objects_.data(), host_objects_.size() * sizeof(ox_object));
+    pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
+    lists_.reserve({chunks, chunks, chunks, vertices, vertices, vertices, vertices,
+                    std::uint64_t{count} * max_contacts + 1});
+    lists_.begin();
+    temporal_.begin_without(count);
+    works_.reserve(sizeof(ox_work));
+    pairs_.segments.fill_zero(count * sizeof(ox_u32));
+    pairs_.pairs.fill_zero(count * sizeof(ox_pair));
+    settings_.max_contacts = max_contacts;
   }
 
-  StepRecords read_back(std::size_t pair_count) {
-    std::vector<ox_u32> counters(kCounterBytes / sizeof(ox_u32));
-    counters_.read(counters.data(), kCounterBytes);
+  StepRecords read_back() {
+    std::vector<ox_u32> counters(AppendLists::kCounterBytes / sizeof(ox_u32));
+    lists_.read_counters(counters.data());
     device_.finish();
     const auto counter = [&](std::size_t i) { return counters[i * OX_COUNTER_STRIDE]; };
     StepRecords records;
     records.bounded = counter(OX_COUNTER_BOUNDED);
-    read(pairs_, records.pairs, pair_count);
-    read(tasks_.records(), records.tasks, counter(OX_COUNTER_CHUNKS));
-    read(rays_.records(), records.rays, counter(OX_COUNTER_RAYS));
-    read(hits_.records(), records.hits, counter(OX_COUNTER_HITS));
-    read(pair_hits_, records.pair_hits, pair_count);
-    read(pair_segments_, records.pair_segments, pair_count);
-    read(candidates_, records.candidates, counter(OX_COUNTER_HITS));
-    read(pair_ranges_, records.ranges, pair_count);
-    read(contacts_.records(), records.contacts, counter(OX_COUNTER_CONTACTS));
-    device_.finish();
+    read(pairs_.pairs, 0, records.pairs, pairs_.count);
+    for (const Arrow list : {Arrow::kChunksSmall, Arrow::kChunksHigh, Arrow::kChunksDeformable})
+      read(lists_.tasks(), lists_.first(list), records.tasks, counter(static_cast<ox_u32>(list)));
+    for (const Arrow list : {Arrow::kRaysIterative, Arrow::kRaysBvh, Arrow::kRaysBasic})
+      read(lists_.rays(), lists_.first(list), records.rays, counter(static_cast<ox_u32>(list)));
+    read(lists_.hits(), 0, records.hits, counter(OX_LIST_HITS));
+    read(pairs_.hits, 0, records.pair_hits, pairs_.count);
+    read(pairs_.segments, 0, records.pair_segments, pairs_.count);
+    read(lists_.candidates(), 0, records.candidates, counter(OX_LIST_HITS));
+    read(pairs_.ranges, 0, records.ranges, pairs_.count);
+    read(lists_.contacts(), 0, records.contacts, counter(OX_LIST_CONTACTS));
     return records;
   }
 
+  // Appends `count` records of the buffer from `first` on.
   template <class T>
-  static void read(const Buffer& buffer, std::vector<T>& records, std::size_t count) {
-    records.resize(count);
-    buffer.read(records.data(), count * sizeof(T));
+  void read(const Buffer& buffer, std::uint64_t first, std::vector<T>& records, std::size_t count) {
+    const std::size_t before = records.size();
+    records.resize(before + count);
+    buffer.read(records.data() + before, count * sizeof(T), first * sizeof(T));
+    device_.finish();
   }
-
-  static constexpr std::size_t kCounterBytes =
-      OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
 
   Device device_;
   Program program_;
   Steps steps_;
   DeviceMeshes meshes_;
-  Buffer counters_{device_}, objects_{device_}, pair_objects_{device_}, pairs_{device_},
-      pair_hits_{device_}, pair_ranges_{device_}, pair_segments_{device_}, candidates_{device_};
-  AppendBuffer tasks_{device_, sizeof(ox_chunk_task)}, rays_{device_, sizeof(ox_ray)},
-      hits_{device_, sizeof(ox_hit)}, contacts_{device_, sizeof(ox_contact)};
+  AppendLists lists_{device_};
+  PairBuffers pairs_{device_};
+  TemporalCache temporal_{device_};
+  Buffer works_{device_};
+  StepSettings settings_;
   std::vector<ox_object> host_objects_;
-  std::vector<ox_u32> host_pairs_;
+  std::vector<ox_u32> host_members_;
 };
 
 }  // namespace ode_ext::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A ray of a vertex by one of the three algorithms, the same in both organisations. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_CAST_H
+#define ODE_EXT_KERNELS_SHARED_CAST_H
+
+#include "shared/append.h"
+#include "shared/iterative_ray.h"
+
+// Casts a ray by one of the algorithms, and leaves its temporal datum. False: an iterative ray that
+// has to be cast in full; ray->triangle then is the best guess there is.
+static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* pairs,
+                               __global const ox_mesh* meshes, __global const ox_vertex* vertices,
+                               __global const ox_node* nodes, __global const ox_triangle* triangles,
+                               __global const ox_isolation* isolations, uint rays_mode,
+                               uint walk_limit, __global ox_temporal* temporal, ox_outcome* outcome,
+                               ox_work* work) {
+  const uint side = ray->pair_side & 1u;
+  __global const ox_pair* pair = pairs + (ray->pair_side >> 1);
+  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+  const ox_vertex_ray vertex_ray = ox_ray_of(pair, side, meshes, vertices + ray->vertex);
+  // What is up to half an edge behind the vertex it may pass through in the next steps.
+  const float behind = ray->memory == OX_NONE ? 0.0f : 0.5f * target->mean_edge;
+  uint remember = ray->triangle;
+  if (list == OX_LIST_RAYS_ITERATIVE) {
+    const bool proof = (rays_mode & OX_RAYS_PAPER) == 0u;
+    const bool done = ox_cast_iteratively(&vertex_ray, target, triangles, isolations, walk_limit,
+                                          proof, behind, &remember, outcome, &work->iterative);
+    if (!done) {
+      ray->triangle = remember == OX_NONE ? OX_NONE : remember - target->triangle_first;
+      return false;
+    }
+  } else {
+    const bool basic = list == OX_LIST_RAYS_BASIC;
+    const uint seed = ray->triangle == OX_NONE ? OX_NONE : target->triangle_first + ray->triangle;
+    *outcome = ox_cast_in_full(basic, &vertex_ray, target, nodes, triangles, seed, behind,
+                               &remember, basic ? &work->basic : &work->bvh);
+  }
+  if (ray->memory != OX_NONE)
+    temporal[ray->memory].triangle =
+        remember == OX_NONE ? OX_NONE : remember - target->triangle_first;
+  return true;
+}
+
+static inline void ox_append_hit(__global volatile uint* counters, __global const ox_list* lists,
+                                 const ox_ray* ray, const ox_outcome* outcome,
+                                 __global volatile uint* pair_hits, __global ox_hit* hits) {
+  if ((outcome->kind & OX_HIT_KIND) == OX_HIT_NONE) return;
+  const uint slot = ox_append(counters, lists, OX_LIST_HITS);
+  if (slot == OX_NONE) return;
+  __global ox_hit* hit = hits + slot;
+  hit->pair_side = ray->pair_side;
+  hit->vertex = ray->vertex;
+  hit->triangle = outcome->triangle;
+  hit->kind = outcome->kind;
+  hit->depth = outcome->depth;
+  hit->t = outcome->t;
+  hit->slot = atomic_inc(pair_hits + (ray->pair_side >> 1));
+}
+
+#endif

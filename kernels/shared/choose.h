@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which ray algorithm a vertex gets (GRAPP section 3.2), the same in both organisations. Device
+// only.
+#ifndef ODE_EXT_KERNELS_SHARED_CHOOSE_H
+#define ODE_EXT_KERNELS_SHARED_CHOOSE_H
+
+#include "shared/append.h"
+#include "shared/cull.h"
+
+#define OX_WORK_TASK 1u
+#define OX_WORK_VERTEX 2u
+
+// One vertex of a task.
+typedef struct {
+  uint list;      // OX_LIST_RAYS_..., or OX_NONE: no ray
+  uint vertex;    // over all meshes
+  uint memory;    // as in ox_ray
+  uint triangle;  // as in ox_ray
+} ox_choice;
+
+// How far a vertex moved in the frame of the target since the last step, at most [m]. For rigid
+// pairs the pair step has judged that already.
+static inline float ox_displacement(__global const ox_pair* pair, uint side,
+                                    __global const ox_mesh* target,
+                                    __global const ox_vertex* vertex) {
+  return pair->displacement[side] + vertex->moved + target->moved;
+}
+
+// `task_index` and `lane`: the vertex. Clears its temporal datum; the ray step sets it.
+static inline ox_choice ox_choose(__global volatile uint* counters,
+                                  __global const ox_chunk_task* tasks, uint task_index, uint lane,
+                                  __global const ox_pair* pairs, __global const ox_mesh* meshes,
+                                  __global const ox_chunk* chunks,
+                                  __global const ox_vertex* vertices, __global const uint* grids,
+                                  uint rays_mode, float displacement_limit,
+                                  __global const ox_temporal* temporal_before,
+                                  __global ox_temporal* temporal, ox_work* work) {
+  ox_choice choice;
+  choice.list = OX_NONE;
+  choice.memory = OX_NONE;
+  choice.triangle = OX_NONE;
+  work->vertex += OX_WORK_TASK;
+  __global const ox_chunk_task* task = tasks + task_index;
+  if (task->chunk == OX_NONE) return choice;
+  __global const ox_chunk* chunk = chunks + task->chunk;
+  if (lane >= chunk->count) return choice;
+
+  choice.vertex = chunk->first + lane;
+  if ((task->category & OX_CATEGORY_REMEMBERED) != 0u) {
+    choice.memory = task_index * OX_CHUNK_VERTICES + lane;
+    temporal[choice.memory].triangle = OX_NONE;
+    temporal[choice.memory].moved = 0.0f;
+  }
+  __global const ox_vertex* vertex = vertices + choice.vertex;
+  const float3 direction = vload3(0, vertex->direction);
+  if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return choice;
+
+  const uint side = task->pair_side & 1u;
+  __global const ox_pair* pair = pairs + (task->pair_side >> 1);
+  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+  const bool paper = (rays_mode & OX_RAYS_PAPER) != 0u;
+  ox_temporal before;
+  before.triangle = OX_NONE;
+  before.moved = INFINITY;
+  if (task->previous != OX_NONE)
+    before = temporal_before[task->previous * OX_CHUNK_VERTICES + lane];
+  bool small = (task->category & OX_CATEGORY_MASK) == OX_CATEGORY_SMALL;
+  if ((task->category & OX_CATEGORY_MASK) == OX_CATEGORY_DEFORMABLE && task->previous != OX_NONE) {
+    // Each vertex has its own displacement (GRAPP 3.2). Where those without temporal data are
+    // dropped it counts from the last time the vertex was cast in full.
+    float moved = ox_displacement(pair, side, target, vertex);
+    if (paper) moved += before.moved;
+    small = moved <= displacement_limit * target->mean_edge;
+    if (choice.memory != OX_NONE) temporal[choice.memory].moved = small ? moved : 0.0f;
+  }
+  if (small) choice.triangle = before.triangle;
+  const bool iterative = small && choice.triangle != OX_NONE;
+  if (!(paper && iterative)) {
+    work->vertex += OX_WORK_VERTEX;
+    if (!ox_keep_vertex(pair, side, meshes, vertex, grids)) return choice;
+    if (paper && small) {  // the paper has no ray for it
+      ox_count(counters, OX_COUNTER_DROPPED);
+      return choice;
+    }
+  }
+  // Without isolation nothing can be proven; the triangle still tells a full ray how far to look.
+  if (iterative && (paper || (target->flags & OX_MESH_ISOLATED) != 0u))
+    choice.list = OX_LIST_RAYS_ITERATIVE;
+  else
+    choice.list = ox_full_list(pairs, meshes, task->pair_side, rays_mode);
+  return choice;
+}
+
+#endif

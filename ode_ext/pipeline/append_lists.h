@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The append lists of a step (GRAPP section 3.1): records in device memory behind counters that run
+// on past the capacity. Lists of one kind of record share a buffer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "device/buffer.h"
+#include "pipeline/prediction.h"
+#include "shared/types.h"
+
+namespace ode_ext {
+
+class AppendLists {
+ public:
+  explicit AppendLists(Device& device);
+
+  // Room for at least so many records; a quarter more where a list has to grow, so that it rarely
+  // does.
+  void reserve(const ArrowCounts& counts);
+  // Room for exactly so many, whatever there was.
+  void limit(const ArrowCounts& counts);
+  const ArrowCounts& capacities() const { return capacities_; }
+  // The place of a list's first record in its buffer.
+  std::uint64_t first(Arrow list) const {
+    return host_lists_[static_cast<std::size_t>(list)].first;
+  }
+  bool overflowed(const ArrowCounts& counts) const;
+  // Records of all chunk lists together; their indices are below that.
+  std::uint64_t task_capacity() const;
+
+  // Before a step: counters at zero, lists as reserved.
+  void begin();
+  // Enqueues the read of all counters into `target`.
+  static constexpr std::size_t kCounterBytes =
+      OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
+  void read_counters(void* target) const { counters_.read(target, kCounterBytes); }
+
+  const Buffer& counters() const { return counters_; }
+  const Buffer& lists() const { return lists_; }
+  Buffer& tasks() { return tasks_; }
+  const Buffer& rays() const { return rays_; }
+  const Buffer& hits() const { return hits_; }
+  const Buffer& candidates() const { return candidates_; }  // one per hit
+  const Buffer& contacts() const { return contacts_; }
+
+ private:
+  void lay_out();
+
+  ArrowCounts capacities_{};
+  std::array<ox_list, kArrowCount> host_lists_{};
+  Buffer counters_, lists_, tasks_, rays_, hits_, candidates_, contacts_;
+};
+
+}  // namespace ode_ext

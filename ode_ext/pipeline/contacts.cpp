@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/contacts.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace ode_ext {
+namespace {
+
+Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
+                   const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
+  const std::uint32_t side = contact.side_kind >> 3;
+  const Scene::Object& source = scene.objects[pair[side]];
+  const Scene::Object& target = scene.objects[pair[1 - side]];
+  const Mesh& target_mesh = meshes.mesh(target.mesh);
+  const std::uint32_t vertex = contact.vertex - meshes.place(source.mesh).vertex_first;
+  const std::uint32_t triangle =
+      topology(target_mesh).bvh.order[contact.triangle - meshes.place(target.mesh).triangle_first];
+
+  // Out of the target is into the source; the normal is to point into the first object.
+  const Vec3d outward = target.pose.turn(face_normal(target_mesh, triangle));
+  const bool turned = (side == 0) == ((contact.side_kind & OX_HIT_REVERSED) != 0);
+  Contact result;
+  result.position = source.pose.place(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+  result.normal = ((turned ? -1.0 : 1.0) / length(outward)) * outward;
+  result.depth = static_cast<double>(contact.depth);
+  result.triangles[side] = meshes.owner_triangle(contact.vertex);
+  result.triangles[1 - side] = topology(target_mesh).source_triangle[triangle];
+  return result;
+}
+
+bool is_deformable(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
+  return scene.meshes[scene.objects[pair[0]].mesh]->deformable ||
+         scene.meshes[scene.objects[pair[1]].mesh]->deformable;
+}
+
+bool comes_first(const Contact& a, const Contact& b) {
+  const auto rank = [](const Contact& c) {
+    return std::tie(c.position.x, c.position.y, c.position.z, c.triangles, c.normal.x, c.normal.y,
+                    c.normal.z);
+  };
+  return a.depth != b.depth ? a.depth > b.depth : rank(a) < rank(b);
+}
+
+}  // namespace
+
+void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t first_pair,
+                     std::span<const ox_range> ranges, std::span<const ox_contact> contacts,
+                     bool sort, PairContacts& result) {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const auto& pair = scene.pairs[first_pair + i];
+    const auto first = static_cast<std::ptrdiff_t>(result.contacts.size());
+    result.ranges.push_back({result.contacts.size(), ranges[i].count});
+    if (ranges[i].count == 0) continue;
+    for (const ox_contact& contact : contacts.subspan(ranges[i].first, ranges[i].count))
+      result.contacts.push_back(to_contact(scene, meshes, pair, contact));
+    if (sort && is_deformable(scene, pair))
+      std::sort(result.contacts.begin() + first, result.contacts.end(), comes_first);
+  }
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/deform_step.h"
+
+#include <algorithm>
+
+#include "pipeline/device_meshes.h"
+
+namespace ode_ext {
+namespace {
+
+template <class T>
+void upload(Buffer& buffer, const std::vector<T>& records) {
+  buffer.reserve(records.size() * sizeof(T));
+  buffer.write(records.data(), records.size() * sizeof(T));
+}
+
+std::uint32_t count_of_level(const MeshMove& move, std::size_t height) {
+  const std::vector<std::uint32_t>& starts = *move.level_starts;
+  return move.rests || height + 1 >= starts.size() ? 0 : starts[height + 1] - starts[height];
+}
+
+}  // namespace
+
+DeformStep::DeformStep(Program& program)
+    : triangles_(program, "deform_triangles"),
+      vertices_(program, "deform_vertices"),
+      nodes_(program, "deform_nodes"),
+      exits_(program, "deform_exits"),
+      chunks_(program, "deform_chunks"),
+      meshes_(program, "deform_meshes"),
+      rest_(program, "deform_rest"),
+      moves_(program.device()),
+      starts_(program.device()),
+      positions_(program.device()),
+      measures_(program.device()),
+      local_(std::min<std::size_t>(64, program.device().info().work_group_limit)) {}
+
+void DeformStep::run(const std::vector<MeshMove>& moves, const std::vector<Vec3f>& positions,
+                     const DeviceMeshes& meshes) {
+  host_moves_.clear();
+  host_starts_.clear();
+  std::size_t triangles = 0;
+  for (const MeshMove& move : moves) {
+    host_moves_.push_back(move.record);
+    host_moves_.back().measure_first = static_cast<ox_u32>(triangles);
+    if (!move.rests) triangles += move.record.shape.triangle_count;
+  }
+  const Work work = plan(moves);
+  upload(moves_, host_moves_);
+  upload(starts_, host_starts_);
+  upload(positions_, positions);
+  measures_.reserve(4 * triangles * sizeof(ox_f32));
+  launch(work, meshes);
+}
+
+void DeformStep::warm_up(Launch wide, const DeviceMeshes& meshes) {
+  host_moves_.assign(1, ox_move{});
+  host_starts_.assign(1, 0);  // no move, no item
+  upload(moves_, host_moves_);
+  upload(starts_, host_starts_);
+  upload(positions_, std::vector<Vec3f>{});
+  const Items none{0, 0};
+  launch({none, none, none, none, none, {none}}, meshes, &wide);
+}
+
+double DeformStep::take_milliseconds() {
+  double sum = 0;
+  for (Kernel* kernel : {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &meshes_, &rest_})
+    sum += kernel->take_milliseconds();
+  return sum;
+}
+
+template <class CountOf>
+DeformStep::Items DeformStep::append_starts(const std::vector<MeshMove>& moves, CountOf count_of) {
+  Items items{static_cast<cl_uint>(host_starts_.size()), 0};
+  for (const MeshMove& move : moves) {
+    host_starts_.push_back(static_cast<ox_u32>(items.count));
+    items.count += count_of(move);
+  }
+  host_starts_.push_back(static_cast<ox_u32>(items.count));
+  return items;
+}
+
+DeformStep::Work DeformStep::plan(const std::vector<MeshMove>& moves) {
+  const auto unless_resting = [](auto count_of) {
+    return [=](const MeshMove& move) -> std::uint32_t { return move.rests ? 0 : count_of(move); };
+  };
+  Work work{};
+  work.triangles = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.shape.triangle_count; }));
+  work.vertices = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.vertex_count; }));
+  work.exits = append_starts(moves, unless_resting([](const auto& move) {
+                               const ox_move& record = move.record;
+                               const bool closed = (record.shape.flags & OX_MESH_CLOSED) != 0;
+                               return closed ? record.vertex_count : 0;
+                             }));
+  work.chunks = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.shape.chunk_count; }));
+  work.rest = append_starts(
+      moves, [](const MeshMove& move) { return move.rests ? move.record.vertex_count : 0; });
+
+  std::size_t heights = 0;
+  for (const MeshMove& move : moves) heights = std::max(heights, move.level_starts->size());
+  for (std::size_t height = 0; height + 1 < heights; ++height) {
+    work.levels.push_back(
+        append_starts(moves, [&](const MeshMove& move) { return count_of_level(move, height); }));
+    for (const MeshMove& move : moves)
+      host_starts_.push_back(count_of_level(move, height) == 0 ? 0 : (*move.level_starts)[height]);
+  }
+  return work;
+}
+
+void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Launch* wide) {
+  const auto count = static_cast<cl_uint>(wide != nullptr ? 0 : host_moves_.size());
+  // A grid of 2^30 keeps every index within 32 bits; the loops in the kernels do the rest.
+  const auto run = [&](Kernel& kernel, std::size_t items, const auto&... arguments) {
+    const std::size_t groups =
+        std::min((items + local_ - 1) / local_, (std::size_t{1} << 30) / local_);
+    const Launch launch = wide != nullptr ? *wide : Launch{groups, local_};
+    kernel.launch(launch.groups, launch.local, moves_, count, arguments...);
+  };
+  run(triangles_, work.triangles.count, starts_, work.triangles.starts_first, positions_,
+      meshes.topologies(), meshes.triangles(), measures_);
+  run(vertices_, work.vertices.count, starts_, work.vertices.starts_first, positions_,
+      meshes.topologies(), meshes.triangles(), measures_, meshes.vertices());
+  for (const Items& level : work.levels)
+    run(nodes_, level.count, starts_, level.starts_first, positions_, meshes.topologies(),
+        meshes.nodes());
+  run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.topologies(),
+      meshes.nodes(), meshes.triangles(), meshes.vertices());
+  run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
+  run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
+      meshes.chunks());
+  run(meshes_, host_moves_.size(), meshes.chunks(), meshes.records());
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the deform step needs to know of a mesh's triangles, however its vertices lie.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "shared/deform.h"
+
+namespace ode_ext {
+
+// Where it lies in the words of all meshes; see ox_move.
+struct DeformTopology {
+  std::uint32_t corner_first = 0;
+  std::uint32_t incident_first = 0;
+  std::uint32_t node_order_first = 0;
+  std::vector<std::uint32_t> level_starts;  // into the order of the nodes, by height; then its end
+};
+
+// Appends to `words` what belongs to `mesh` (as it was built, not a shape).
+DeformTopology append_topology(const Mesh& mesh, std::vector<ox_u32>& words);
+
+}  // namespace ode_ext

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "pipeline/prediction.h"
+#include "pipeline/temporal_cache.h"
+
+namespace ode_ext {
+
+// What is kept from one pass to the next of the same space. Must not outlive the collider that
+// filled it.
+struct PassMemory {
+  History history;
+  std::unique_ptr<TemporalCache> temporal;
+};
+
+}  // namespace ode_ext

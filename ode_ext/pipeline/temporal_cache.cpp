@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/temporal_cache.h"
+
+#include <utility>
+
+namespace ode_ext {
+namespace {
+
+// A pair that nobody has collided for so many steps starts anew.
+constexpr std::uint32_t kStepsKept = 8;
+
+// 16 million chunks: 256 million vertices of all pairs, 256 MiB.
+constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
+
+// The buffers are cleared before it, so nothing in them carries the number of the step before it.
+constexpr std::uint32_t kFirstStep = 2;
+
+constexpr std::size_t kPoseBytes = 2 * sizeof(ox_relative_pose);
+constexpr std::size_t kEntryBytes = 2 * sizeof(ox_directory_entry);
+
+const std::shared_ptr<const Mesh>& topology_of(const std::shared_ptr<const Mesh>& mesh) {
+  return mesh->base != nullptr ? mesh->base : mesh;
+}
+
+std::uint32_t chunk_count(const Mesh& mesh) {
+  return static_cast<std::uint32_t>(mesh.chunks.size());
+}
+
+}  // namespace
+
+TemporalCache::TemporalCache(Device& device)
+    : device_(&device),
+      links_(device),
+      poses_(device),
+      directory_(device),
+      blocks_{Buffer(device), Buffer(device)} {
+  poses_.reserve(kPoseBytes);
+  directory_.reserve(kEntryBytes);
+  reserve_blocks(1);
+}
+
+std::size_t TemporalCache::KeyHash::operator()(const Key& key) const {
+  // Fibonacci hashing: handles differ in few, aligned bits.
+  return static_cast<std::size_t>((key[0] * 0x9e3779b97f4a7c15u + key[1]) * 0x9e3779b97f4a7c15u >>
+                                  16);
+}
+
+void TemporalCache::begin(const Scene& scene) {
+  if (step_ == UINT32_MAX) clear();
+  ++step_;
+  host_links_.clear();
+  for (const auto& pair : scene.pairs) host_links_.push_back(link(scene, pair));
+  evict();
+  grow();
+  upload();
+}
+
+void TemporalCache::begin_without(std::size_t pairs) {
+  host_links_.assign(pairs, {OX_NONE, {OX_NONE, OX_NONE}, 0});
+  upload();
+}
+
+void TemporalCache::upload() {
+  links_.reserve(host_links_.size() * sizeof(ox_link));
+  links_.write(host_links_.data(), host_links_.size() * sizeof(ox_link));
+}
+
+ox_link TemporalCache::link(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
+  const Scene::Object& a = scene.objects[pair[0]];
+  const Scene::Object& b = scene.objects[pair[1]];
+  ox_link link{OX_NONE, {OX_NONE, OX_NONE}, 0};
+  if (a.identity == 0 || b.identity == 0) return link;
+  // The order within the pair may change from step to step.
+  const bool swapped = b.identity < a.identity;
+  const Scene::Object& low = swapped ? b : a;
+  const Scene::Object& high = swapped ? a : b;
+  const auto& low_mesh = topology_of(scene.meshes[low.mesh]);
+  const auto& high_mesh = topology_of(scene.meshes[high.mesh]);
+
+  const auto [found, is_new] = slots_.try_emplace(Key{low.identity, high.identity});
+  Slot& slot = found->second;
+  const bool same = !is_new && slot.meshes[0] == low_mesh && slot.meshes[1] == high_mesh;
+  if (!same) {
+    // What the last step wrote there must not be taken for that of the next owner.
+    if (!is_new) release(slot, step_ + 2);
+    slot = {{}, {low_mesh, high_mesh}, 0};
+    if (!place(chunk_count(*low_mesh) + chunk_count(*high_mesh), slot.place)) {
+      slots_.erase(found);
+      return link;
+    }
+  }
+  link.slot = slot.place.slot;
+  link.directory[swapped ? 1 : 0] = slot.place.directory;
+  link.directory[swapped ? 0 : 1] = slot.place.directory + chunk_count(*low_mesh);
+  link.known = same && slot.last_step + 1 == step_ ? 1 : 0;
+  slot.last_step = step_;
+  return link;
+}
+
+bool TemporalCache::place(std::uint32_t chunks, Place& place) {
+  std::vector<Free>& reusable = free_[chunks];
+  if (!reusable.empty() && reusable.back().ready <= step_) {
+    place = reusable.back().place;
+    reusable.pop_back();
+    return true;
+  }
+  if (chunks > kMostEntries - entry_count_) return false;
+  place = {slot_count_++, entry_count_};
+  entry_count_ += chunks;
+  return true;
+}
+
+void TemporalCache::release(const Slot& slot, std::uint32_t ready) {
+  free_[chunk_count(*slot.meshes[0]) + chunk_count(*slot.meshes[1])].push_back({slot.place, ready});
+}
+
+void TemporalCache::evict() {
+  for (auto it = slots_.begin(); it != slots_.end();) {
+    if (it->second.last_step + kStepsKept >= step_) {
+      ++it;
+      continue;
+    }
+    release(it->second, step_);
+    it = slots_.erase(it);
+  }
+}
+
+// A buffer that grows loses what was in it: every pair then starts anew.
+void TemporalCache::grow() {
+  const std::size_t poses = slot_count_ * kPoseBytes;
+  const std::size_t entries = entry_count_ * kEntryBytes;
+  if (poses <= poses_.capacity() && entries <= directory_.capacity() && step_ != kFirstStep) return;
+  poses_.reserve(poses);
+  directory_.reserve(entries);
+  poses_.fill_zero(poses_.capacity());
+  directory_.fill_zero(directory_.capacity());
+  for (ox_link& link : host_links_) link.known = 0;
+}
+
+void TemporalCache::reserve_blocks(std::uint64_t tasks) {
+  blocks_[step_ & 1].reserve(tasks * OX_CHUNK_VERTICES * sizeof(ox_temporal));
+  blocks_[1 - (step_ & 1)].reserve(sizeof(ox_temporal));
+}
+
+void TemporalCache::clear() {
+  slots_.clear();
+  free_.clear();
+  slot_count_ = entry_count_ = 0;
+  step_ = kFirstStep - 1;
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a pass leaves for the next one of the same space (GRAPP section 3): per pair the relative
+// pose, per vertex that was looked at the triangle of the target that its line met.
+//
+// Three stages, so that memory goes by what was looked at and nothing ever needs clearing: a pair
+// has a slot here, on the host; the slot has a relative pose and, for each chunk of either mesh, a
+// directory entry; an entry names the block of temporal data that the chunk had in a step. Poses
+// and entries carry the number of the step that wrote them and are void in any step but the next.
+// All are kept twice, for even and odd steps, so that a step can be run again.
+//
+// What is found here is only ever a place to start from: that a triangle index is within the target
+// it was stored for is all that must be true, and the meshes of a slot see to that.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "device/buffer.h"
+#include "pipeline/scene.h"
+#include "shared/types.h"
+
+namespace ode_ext {
+
+class TemporalCache {
+ public:
+  explicit TemporalCache(Device& device);
+
+  // Begins a step: finds the pairs of the scene again, makes room for new ones and forgets those
+  // that have not been seen for a while. Pairs of objects without identity are not kept.
+  void begin(const Scene& scene);
+  // The step that began keeps nothing at all.
+  void begin_without(std::size_t pairs);
+  // Room for the temporal data of so many tasks.
+  void reserve_blocks(std::uint64_t tasks);
+  void clear();
+
+  const Buffer& links() const { return links_; }
+  const Buffer& poses() const { return poses_; }
+  const Buffer& directory() const { return directory_; }
+  const Buffer& before() const { return blocks_[1 - (step_ & 1)]; }
+  const Buffer& now() const { return blocks_[step_ & 1]; }
+  cl_uint step() const { return step_; }
+  std::size_t pairs() const { return slots_.size(); }
+
+ private:
+  using Key = std::array<std::uint64_t, 2>;
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+  struct Place {
+    std::uint32_t slot, directory;
+  };
+  struct Slot {
+    Place place;
+    std::array<std::shared_ptr<const Mesh>, 2> meshes;  // of the lower and the higher identity
+    std::uint32_t last_step;
+  };
+  struct Free {
+    Place place;
+    std::uint32_t ready;  // the step from which it may be used again
+  };
+
+  ox_link link(const Scene& scene, const std::array<std::uint32_t, 2>& pair);
+  // False: there is no room left; the pair then is not kept.
+  bool place(std::uint32_t chunks, Place& place);
+  void release(const Slot& slot, std::uint32_t ready);
+  void evict();
+  void grow();
+  void upload();
+
+  Device* device_;
+  std::unordered_map<Key, Slot, KeyHash> slots_;
+  std::unordered_map<std::uint32_t, std::vector<Free>> free_;  // by the number of chunks
+  std::uint32_t slot_count_ = 0;
+  std::uint32_t entry_count_ = 0;
+  std::uint32_t step_ = 1;
+  std::vector<ox_link> host_links_;
+  Buffer links_, poses_, directory_;
+  std::array<Buffer, 2> blocks_;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/tiles.h"
+
+#include <cmath>
+
+namespace ode_ext {
+
+std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices) {
+  std::vector<Tile> tiles;
+  std::uint64_t vertices = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    std::uint64_t of_pair = 0;
+    for (const std::uint32_t object : scene.pairs[i])
+      of_pair += kChunkVertices * topology(*scene.meshes[scene.objects[object].mesh]).chunks.size();
+    if (tiles.empty() || vertices + of_pair > tile_vertices) {
+      tiles.push_back({i, 0});
+      vertices = 0;
+    }
+    vertices += of_pair;
+    ++tiles.back().count;
+  }
+  return tiles;
+}
+
+ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
+  std::uint64_t chunks = 0, vertices = 0, contacts = 0;
+  for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
+    std::uint64_t of_pair = 0;
+    bool deformable = false;
+    for (const std::uint32_t object : scene.pairs[i]) {
+      const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
+      deformable = deformable || mesh.deformable;
+      chunks += topology(mesh).chunks.size();
+      of_pair += mesh.vertices.size();
+    }
+    vertices += of_pair;
+    if (!deformable)
+      contacts += options.max_contacts;
+    else
+      contacts += options.max_contacts_deformable != 0 ? options.max_contacts_deformable : of_pair;
+  }
+  // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
+  return {chunks, chunks, chunks, vertices, vertices, vertices, vertices, contacts};
+}
+
+ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {
+  ArrowCounts result{};
+  for (std::size_t i = 0; i < kArrowCount; ++i)
+    result[i] = static_cast<std::uint64_t>(std::ceil(
+        static_cast<double>(counts[i]) * static_cast<double>(part) / static_cast<double>(whole)));
+  return result;
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A step in parts that fit the device.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/options.h"
+#include "pipeline/scene.h"
+
+namespace ode_ext {
+
+struct Tile {
+  std::size_t first, count;  // pairs
+};
+
+std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices);
+
+// What a tile can append at the very most.
+ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options);
+
+// The share of some records that a part of the pairs has.
+ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole);
+
+}  // namespace ode_ext

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The modes of a collider, from a program's side.
+#include <functional>
+
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+struct Mode {
+  const char* name;
+  BatchCollider::Change change;
+};
+
+const Mode kSameBytes[] = {
+    {"FullRays", [](auto& p) { p.rays = dBatchRaysFull; }},
+    {"Monolithic", [](auto& p) { p.organisation = dBatchOrganisationMonolithic; }},
+    {"MonolithicFullRays",
+     [](auto& p) {
+       p.organisation = dBatchOrganisationMonolithic;
+       p.rays = dBatchRaysFull;
+     }},
+    {"BasicDeformables", [](auto& p) { p.deformable_target = dBatchDeformableBasic; }},
+    {"ExactWorkload", [](auto& p) { p.workload = dBatchWorkloadExact; }},
+    {"PlainPrediction", [](auto& p) { p.prediction = dBatchPredictionPlain; }},
+    {"NoWalk",
+     [](auto& p) {
+       p.walk_limit = 1;
+       p.displacement_limit = 100;
+     }},
+    {"HardlyEverIterative", [](auto& p) { p.displacement_limit = 1e-6; }},
+    {"CountedWork", [](auto& p) { p.count_work = 1; }},
+};
+
+class ApiModes : public ::testing::TestWithParam<Mode> {
+ protected:
+  OdeWorld world;
+  dSpaceID space = world.space(SpaceKind::Hash);
+  Pile pile{world, space, 12, 1};
+};
+
+TEST_P(ApiModes, GiveTheBytesOfTheDefaults) {
+  const BatchCollider defaults, collider(GetParam().change);
+  for (std::uint64_t step = 1; step < 7; ++step) {
+    if (step % 2 != 0) pile.shake(step);  // and every other pass finds all at rest
+    const auto expected = answers_of(defaults.pass(space));
+    EXPECT_EQ(difference(answers_of(collider.pass(space)), expected), "") << step;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ApiModes, ::testing::ValuesIn(kSameBytes),
+                         [](const auto& mode) { return std::string(mode.param.name); });
+
+class ApiMode : public ::testing::Test {
+ protected:
+  // Everything moves by a hair: all pairs are computed again, and iterative rays may be used.
+  void nudge() {
+    for (const dGeomID geom : pile.geoms) {
+      const dReal* p = dGeomGetPosition(geom);
+      dGeomSetPosition(geom, p[0] + 1e-4, p[1], p[2]);
+    }
+  }
+
+  OdeWorld world;
+  dSpaceID space = world.space(SpaceKind::Hash);
+  Pile pile{world, space, 12, 1};
+};
+
+TEST_F(ApiMode, IterativeRaysAreTheDefaultAndAreUsed) {
+  const BatchCollider collider, full([](auto&p) { p.rays = dBatchRaysFull; });
+  for (const BatchCollider* each : {&collider, &full}) each->pass(space);
+  EXPECT_GT(collider.stats().temporal_pairs, 0);
+  nudge();
+  for (const BatchCollider* each : {&collider, &full}) each->pass(space);
+  EXPECT_GT(collider.stats().actual[dBatchBufferRaysIterative], 0);
+  EXPECT_GT(collider.stats().actual[dBatchBufferChunksSmall], 0);
+  EXPECT_EQ(full.stats().actual[dBatchBufferRaysIterative], 0);
+  EXPECT_EQ(full.stats().temporal_pairs, 0);
+}
+
+TEST_F(ApiMode, ThePapersIterativeRaysDropVerticesAndSayHowMany) {
+  const BatchCollider paper([](auto& p) { p.rays = dBatchRaysIterativePaper; });
+  paper.pass(space);
+  EXPECT_EQ(paper.stats().dropped, 0);
+  nudge();
+  paper.pass(space);
+  EXPECT_GT(paper.stats().dropped, 0);
+}
+
+TEST_F(ApiMode, CountedWorkIsReportedPerKernel) {
+  const BatchCollider counting([](auto&p) { p.count_work = 1; }), plain;
+  counting.pass(space);
+  plain.pass(space);
+  for (const int kernel : {dBatchKernelVertexStep, dBatchKernelBvhRays}) {
+    const dBatchWork work = counting.stats().work[kernel];
+    EXPECT_GT(work.items, 0);
+    EXPECT_GT(work.units, 0);
+    EXPECT_GE(work.lockstep32, work.units);
+    EXPECT_GE(work.lockstep64, work.lockstep32);
+    EXPECT_EQ(plain.stats().work[kernel].items, 0);
+  }
+  EXPECT_EQ(counting.stats().work[dBatchKernelBvhRays].items,
+            counting.stats().actual[dBatchBufferRaysBvh]);
+}
+
+void count_calls(void* data, dGeomID, dGeomID) { ++*static_cast<int*>(data); }
+
+TEST_F(ApiMode, BacktrackingDeliversNothingMakesNoCallbackAndReturnsZero) {
+  const BatchCollider collider([](auto& p) {
+    p.misprediction = dBatchMispredictionBacktrack;
+    p.prediction = dBatchPredictionPlain;
+    p.initial_capacity = 1;
+    p.confidence = 1;
+    p.rays = dBatchRaysFull;
+  });
+  // One pair is enough to predict from; then there are many more.
+  for (std::size_t i = 2; i < pile.geoms.size(); ++i) dGeomDisable(pile.geoms[i]);
+  int calls = 0;
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &calls, &count_calls), 1);
+  for (const dGeomID geom : pile.geoms) dGeomEnable(geom);
+  calls = 0;
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &calls, &count_calls), 0);
+  EXPECT_EQ(calls, 0);
+  const auto stats = collider.stats();
+  EXPECT_NE(stats.status & dBatchStatusBacktracked, 0u);
+  bool short_of_room = false;
+  for (int i = 0; i < dBatchBufferCount; ++i)
+    short_of_room = short_of_room || stats.actual[i] > stats.predicted[i];
+  EXPECT_TRUE(short_of_room);
+
+  int passes = 0;
+  while (dBatchColliderSpaceCollide(collider, space, &calls, &count_calls) == 0)
+    ASSERT_LT(++passes, dBatchBufferCount);
+  EXPECT_GT(calls, 0);
+  const BatchCollider fresh;
+  EXPECT_EQ(difference(answers_of(collider.pass(space)), answers_of(fresh.pass(space))), "");
+}
+
+TEST_F(ApiMode, IgnoringMispredictionsSaysWhatWasMissed) {
+  const BatchCollider collider([](auto& p) {
+    p.misprediction = dBatchMispredictionIgnore;
+    p.prediction = dBatchPredictionPlain;
+    p.confidence = 1;
+  });
+  for (std::size_t i = 3; i < pile.geoms.size(); ++i) dGeomDisable(pile.geoms[i]);
+  collider.pass(space);
+  EXPECT_EQ(collider.stats().missed, 0);
+  for (const dGeomID geom : pile.geoms) dGeomEnable(geom);
+  collider.pass(space);
+  EXPECT_GT(collider.stats().missed, 0);
+  EXPECT_NE(collider.stats().status & dBatchStatusMissed, 0u);
+  EXPECT_EQ(collider.stats().status & dBatchStatusRedone, 0u);
+}
+
+}  // namespace
+}  // namespace ode_ext::test

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/append_lists.h"
+
+#include <gtest/gtest.h>
+
+#include "device/error.h"
+
+namespace ode_ext {
+namespace {
+
+ArrowCounts all(std::uint64_t count) {
+  ArrowCounts counts;
+  counts.fill(count);
+  return counts;
+}
+
+TEST(AppendLists, HaveNoRoomUntilAsked) {
+  Device device("");
+  const AppendLists lists(device);
+  EXPECT_EQ(lists.capacities(), all(0));
+  EXPECT_FALSE(lists.overflowed(all(0)));
+  EXPECT_TRUE(lists.overflowed(all(1)));
+}
+
+TEST(AppendLists, GrowByAQuarterMoreThanAsked) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve(all(1000));
+  EXPECT_EQ(lists.capacities(), all(1250));
+  EXPECT_EQ(lists.task_capacity(), 3750u);
+  EXPECT_GE(lists.tasks().capacity(), 3750 * sizeof(ox_chunk_task));
+  EXPECT_GE(lists.rays().capacity(), 3750 * sizeof(ox_ray));
+  EXPECT_GE(lists.hits().capacity(), 1250 * sizeof(ox_hit));
+  EXPECT_GE(lists.candidates().capacity(), 1250 * sizeof(ox_candidate));
+  EXPECT_GE(lists.contacts().capacity(), 1250 * sizeof(ox_contact));
+}
+
+TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve({4, 8, 12, 16, 20, 24, 28, 32});
+  EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
+  EXPECT_EQ(lists.first(Arrow::kChunksHigh), 5u);
+  EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
+  EXPECT_EQ(lists.first(Arrow::kRaysIterative), 0u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 20u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 45u);
+  EXPECT_EQ(lists.first(Arrow::kHits), 0u);
+  EXPECT_EQ(lists.first(Arrow::kContacts), 0u);
+}
+
+TEST(AppendLists, KeepTheirMemoryWhileThereIsRoom) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve(all(1000));
+  const cl_mem memory = lists.rays().get();
+  lists.reserve(all(1250));
+  lists.reserve(all(1));
+  EXPECT_EQ(lists.capacities(), all(1250));
+  EXPECT_EQ(lists.rays().get(), memory);
+}
+
+TEST(AppendLists, CanBeLimitedToExactlyWhatWasPredicted) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve(all(1000));
+  lists.limit(all(3));
+  EXPECT_EQ(lists.capacities(), all(3));
+  EXPECT_TRUE(lists.overflowed(all(4)));
+}
+
+TEST(AppendLists, CanGrowAfterGrowingFailed) {
+  Device device("");
+  AppendLists lists(device);
+  fault_injector::arm(1, CL_MEM_OBJECT_ALLOCATION_FAILURE);
+  EXPECT_THROW(lists.reserve(all(100000)), DeviceError);
+  fault_injector::disarm();
+  lists.reserve(all(100000));
+  EXPECT_GE(lists.tasks().capacity(), 3 * 125000 * sizeof(ox_chunk_task));
+  EXPECT_GE(lists.contacts().capacity(), 125000 * sizeof(ox_contact));
+}
+
+}  // namespace
+}  // namespace ode_ext

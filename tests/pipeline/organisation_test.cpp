@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The modes of a step: the organisations and workloads give the same bytes, the paper's ways to
+// meet a wrong prediction lose what they say they lose.
+#include <gtest/gtest.h>
+
+#include "pipeline/collider.h"
+#include "pipeline/moving_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Bits = std::vector<std::vector<ContactBits>>;
+
+std::uint64_t count(const StepReport& report, Arrow arrow) {
+  return report.actual[static_cast<std::size_t>(arrow)];
+}
+
+std::vector<TestMesh> all_meshes() {
+  std::vector<TestMesh> meshes = small_meshes();
+  for (const TestMesh& mesh : smooth_meshes()) meshes.push_back(mesh);
+  return meshes;
+}
+
+class Organisations : public testing::TestWithParam<Rays> {};
+
+TEST_P(Organisations, GiveTheSameBytes) {
+  ColliderOptions options;
+  options.rays = GetParam();
+  Collider pipelined(options);
+  options.organisation = Organisation::kMonolithic;
+  Collider monolithic(options);
+  PassMemory memory, memory_of_monolithic;
+  MovingScene moving(all_meshes(), 100, 0.003, 21);
+  for (int i = 0; i < 10; ++i, moving.advance()) {
+    const Bits expected = bits_of(pipelined.collide(moving.scene(), &memory));
+    ASSERT_EQ(bits_of(monolithic.collide(moving.scene(), &memory_of_monolithic)), expected) << i;
+    for (const Arrow arrow :
+         {Arrow::kRaysIterative, Arrow::kRaysBvh, Arrow::kHits, Arrow::kContacts})
+      EXPECT_EQ(count(monolithic.report(), arrow), count(pipelined.report(), arrow)) << i;
+    EXPECT_EQ(monolithic.report().unproven, pipelined.report().unproven);
+    EXPECT_EQ(monolithic.report().dropped, pipelined.report().dropped);
+    EXPECT_EQ(count(monolithic.report(), Arrow::kChunksHigh), 0u);  // no list in between
+  }
+}
+
+TEST_P(Organisations, DoTheSameWork) {
+  ColliderOptions options;
+  options.rays = GetParam();
+  options.count_work = true;
+  Collider pipelined(options);
+  options.organisation = Organisation::kMonolithic;
+  Collider monolithic(options);
+  PassMemory memory, memory_of_monolithic;
+  MovingScene moving(smooth_meshes(), 30, 0.003, 22);
+  for (int i = 0; i < 4; ++i, moving.advance()) {
+    pipelined.collide(moving.scene(), &memory);
+    monolithic.collide(moving.scene(), &memory_of_monolithic);
+  }
+  WorkCount sum;
+  for (const WorkCount& work : pipelined.report().work) {
+    sum.items += work.items;
+    sum.units += work.units;
+    sum.lockstep32 += work.lockstep32;
+    sum.lockstep64 += work.lockstep64;
+    EXPECT_LE(work.units, work.lockstep32);
+    EXPECT_LE(work.lockstep32, work.lockstep64);
+  }
+  const WorkCount& alone = monolithic.report().work[static_cast<std::size_t>(Worker::kMonolithic)];
+  const auto vertex_items =
+      pipelined.report().work[static_cast<std::size_t>(Worker::kVertexStep)].items;
+  // One unit each for the vertices that only the monolithic kernel looks at, to find them dropped.
+  EXPECT_EQ(alone.units - (alone.items - vertex_items), sum.units);
+  EXPECT_GT(alone.lockstep32, sum.lockstep32);
+}
+
+TEST_P(Organisations, WaitForTheDeviceOnceInAStepLikeTheLast) {
+  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+    ColliderOptions options;
+    options.rays = GetParam();
+    options.organisation = organisation;
+    Collider collider(options);
+    PassMemory memory;
+    MovingScene moving(all_meshes(), 60, 0.001, 23);
+    for (int i = 0; i < 5; ++i, moving.advance()) collider.collide(moving.scene(), &memory);
+    EXPECT_EQ(collider.report().synchronizations, 1);
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<Rays>& info) {
+  if (info.param == Rays::kFull) return "Full";
+  return info.param == Rays::kIterative ? "Iterative" : "IterativePaper";
+}
+
+INSTANTIATE_TEST_SUITE_P(Rays, Organisations,
+                         testing::Values(Rays::kFull, Rays::kIterative, Rays::kIterativePaper),
+                         name_of);
+
+TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
+  ColliderOptions options;
+  options.misprediction = Misprediction::kIgnore;
+  options.rays = Rays::kFull;
+  options.confidence = 1.0;
+  options.prediction = PredictionRule::kPlain;
+  Collider ignoring(options);
+  Collider whole({});
+  PassMemory memory;
+  MovingScene moving(smooth_meshes(), 40, 0, 24);
+  const auto all = moving.scene().pairs;
+  moving.scene().pairs.resize(20);
+  const Bits first = bits_of(whole.collide(moving.scene(), nullptr));
+  EXPECT_EQ(bits_of(ignoring.collide(moving.scene(), &memory)), first);  // nothing was predicted
+  EXPECT_EQ(ignoring.report().missed, 0u);
+  EXPECT_EQ(bits_of(ignoring.collide(moving.scene(), &memory)), first);  // right to the last entry
+  EXPECT_EQ(ignoring.report().missed, 0u);
+
+  moving.scene().pairs = all;
+  const std::size_t contacts = whole.collide(moving.scene(), nullptr).contacts.size();
+  const PairContacts& found = ignoring.collide(moving.scene(), &memory);
+  EXPECT_LT(found.contacts.size(), contacts);
+  EXPECT_EQ(found.ranges.size(), 40u);
+  std::uint64_t missed = 0;
+  const StepReport& report = ignoring.report();
+  for (std::size_t i = 0; i < kArrowCount; ++i)
+    if (report.actual[i] > report.predicted[i]) missed += report.actual[i] - report.predicted[i];
+  EXPECT_EQ(report.missed, missed);
+  EXPECT_GT(missed, 0u);
+  EXPECT_EQ(report.redone, 0);
+}
+
+TEST(Misprediction, ScaledByThePairsLosesLessWhereTheirNumberGrows) {
+  std::array<std::uint64_t, 2> missed{};
+  for (const PredictionRule rule : {PredictionRule::kPairScaled, PredictionRule::kPlain}) {
+    ColliderOptions options;
+    options.misprediction = Misprediction::kIgnore;
+    options.rays = Rays::kFull;
+    options.confidence = 1.02;
+    options.prediction = rule;
+    Collider collider(options);
+    PassMemory memory;
+    MovingScene moving(smooth_meshes(), 100, 0, 25);
+    const auto all = moving.scene().pairs;
+    for (std::size_t pairs = 20; pairs <= 100; pairs += 5) {
+      moving.scene().pairs.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(pairs));
+      collider.collide(moving.scene(), &memory);
+      missed[static_cast<std::size_t>(rule)] += collider.report().missed;
+    }
+  }
+  EXPECT_LT(2 * missed[0], missed[1]);
+}
+
+TEST(Misprediction, BacktrackedDeliversNothingAndMakesRoom) {
+  ColliderOptions options;
+  options.misprediction = Misprediction::kBacktrack;
+  options.prediction = PredictionRule::kPlain;
+  options.initial_capacity = 1;
+  options.confidence = 1.0;
+  options.rays = Rays::kFull;
+  Collider collider(options);
+  Collider whole({});
+  PassMemory memory;
+  MovingScene moving(smooth_meshes(), 40, 0, 26);
+  const auto all = moving.scene().pairs;
+  moving.scene().pairs.resize(5);
+  collider.collide(moving.scene(), &memory);
+  EXPECT_FALSE(collider.report().backtracked);  // nothing was predicted
+
+  moving.scene().pairs = all;
+  const Bits expected = bits_of(whole.collide(moving.scene(), nullptr));
+  int backtracked = 0;
+  while (collider.collide(moving.scene(), &memory).ranges.empty()) {
+    EXPECT_TRUE(collider.report().backtracked);
+    ASSERT_LT(++backtracked, 5);  // one for every list that was too small, at most
+  }
+  EXPECT_GT(backtracked, 0);
+  EXPECT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected);
+}
+
+}  // namespace
+}  // namespace ode_ext::test
