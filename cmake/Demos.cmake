@@ -3,6 +3,7 @@
 
 find_package(CLI11 REQUIRED)
 find_package(assimp REQUIRED)
+find_package(nlohmann_json REQUIRED)
 
 # The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
@@ -29,6 +30,24 @@ if(falling_objects_sources)
     CLI11::CLI11 assimp::assimp ODE::ODE Threads::Threads)
 endif()
 
+# All of paper but main, in the same way. What it measured is to say which commit it was.
+file(GLOB paper_sources CONFIGURE_DEPENDS demos/paper/*.cpp)
+list(FILTER paper_sources EXCLUDE REGEX "/main\\.cpp$")
+if(paper_sources)
+  execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(NOT commit)
+    set(commit unknown)
+  endif()
+  set_property(SOURCE demos/paper/machine.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+               PAPER_COMMIT="${commit}" PAPER_BUILD_TYPE="$<CONFIG>")
+  add_library(paper_parts OBJECT EXCLUDE_FROM_ALL ${paper_sources})
+  ode_ext_compile_options(paper_parts)
+  target_include_directories(paper_parts PUBLIC demos ${public_includes})
+  target_compile_options(paper_parts PUBLIC ${public_options})
+  target_link_libraries(paper_parts PUBLIC CLI11::CLI11 nlohmann_json::nlohmann_json ODE::ODE)
+endif()
+
 # add_demo(<name> <main source> [<target to link>...]): nothing where the source is not there.
 function(add_demo name source)
   if(ODE_EXT_BUILD_DEMOS AND EXISTS ${PROJECT_SOURCE_DIR}/${source})
@@ -41,3 +60,4 @@ endfunction()
 add_demo(hello demos/hello/hello.c)
 add_demo(ode_ext_info demos/info/main.cpp)
 add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_parts ode_ext_test_support)
+add_demo(paper demos/paper/main.cpp paper_parts falling_objects_parts ode_ext_test_support)

@@ -17,6 +17,7 @@ if(test_sources)
   target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(ode_ext_tests PRIVATE
     ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
+    $<TARGET_NAME_IF_EXISTS:paper_parts>
     GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen ${CMAKE_DL_LIBS})
   # Half of what compiling a test takes is this header.
   target_precompile_headers(ode_ext_tests PRIVATE <gtest/gtest.h>)
@@ -46,6 +47,12 @@ if(TARGET falling_objects)
   add_test(NAME same_contacts_in_every_run
            COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/same_hash_test.sh $<TARGET_FILE:falling_objects>)
   set_tests_properties(same_contacts_in_every_run PROPERTIES TIMEOUT 120)
+endif()
+
+if(TARGET paper)
+  add_test(NAME figures_of_the_paper
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/figures_test.sh $<TARGET_FILE:paper>)
+  set_tests_properties(figures_of_the_paper PROPERTIES TIMEOUT 120)
 endif()
 
 # The consumer is not built with sanitizers, so it cannot link a library that is.

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/configuration.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace paper {
+namespace {
+
+constexpr std::array<std::pair<Word, const char*>, 7> kWords{{{kPaper, "paper"},
+                                                              {kBasic, "basic"},
+                                                              {kMonolithic, "monolithic"},
+                                                              {kExact, "exact"},
+                                                              {kPlain, "plain"},
+                                                              {kIgnore, "ignore"},
+                                                              {kCount, "count"}}};
+
+[[noreturn]] void refuse(std::string_view name, const std::string& why) {
+  std::string words;
+  for (const auto& [word, text] : kWords) words += std::string(words.empty() ? "" : ", ") + text;
+  throw std::invalid_argument("'" + std::string(name) + "' is no configuration: " + why +
+                              "; a name is 'full' or 'iterative', then any of " + words +
+                              ", with '-' between them");
+}
+
+Rays parse_rays(std::string_view name, std::string_view word) {
+  if (word == "full") return Rays::kFull;
+  if (word == "iterative") return Rays::kIterative;
+  refuse(name, "it begins with '" + std::string(word) + "'");
+}
+
+Word parse_word(std::string_view name, std::string_view text) {
+  for (const auto& [word, known] : kWords) {
+    if (text == known) return word;
+  }
+  refuse(name, "nothing is called '" + std::string(text) + "'");
+}
+
+}  // namespace
+
+std::string Configuration::name() const {
+  std::string name = rays == Rays::kFull ? "full" : "iterative";
+  for (const auto& [word, text] : kWords) {
+    if (has(word)) name += std::string("-") + text;
+  }
+  return name;
+}
+
+dBatchColliderParams Configuration::params(const std::string& device) const {
+  dBatchColliderParams params;
+  dBatchColliderParamsInit(&params);
+  if (!device.empty()) params.device = device.c_str();
+  params.rays = rays == Rays::kFull ? dBatchRaysFull
+                : has(kPaper)       ? dBatchRaysIterativePaper
+                                    : dBatchRaysIterative;
+  params.deformable_target = has(kBasic) ? dBatchDeformableBasic : dBatchDeformableRefit;
+  params.organisation =
+      has(kMonolithic) ? dBatchOrganisationMonolithic : dBatchOrganisationPipelined;
+  params.workload = has(kExact) ? dBatchWorkloadExact : dBatchWorkloadPredicted;
+  params.prediction = has(kPlain) ? dBatchPredictionPlain : dBatchPredictionPairScaled;
+  if (has(kIgnore)) {
+    params.misprediction = dBatchMispredictionIgnore;
+    params.confidence = static_cast<dReal>(kPapersConfidence);
+  }
+  params.count_work = has(kCount);
+  return params;
+}
+
+Configuration parse_configuration(std::string_view name) {
+  Configuration configuration;
+  std::string_view rest = name;
+  const auto take = [&] {
+    const std::size_t end = rest.find('-');
+    const std::string_view word = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    return word;
+  };
+  configuration.rays = parse_rays(name, take());
+  if (name.ends_with('-')) refuse(name, "it ends with '-'");
+  while (!rest.empty()) {
+    const Word word = parse_word(name, take());
+    if (configuration.has(word)) refuse(name, "it says something twice");
+    configuration.words |= word;
+  }
+  if (configuration.has(kPaper) && configuration.rays == Rays::kFull)
+    refuse(name, "'paper' is a rule for iterative rays");
+  return configuration;
+}
+
+std::vector<Configuration> default_configurations(std::string_view scene) {
+  const std::vector<unsigned> timed{0, kMonolithic, kExact, kPlain, kIgnore, kPlain | kIgnore};
+  const std::vector<unsigned> counted{kCount, kMonolithic | kCount};
+  std::vector<Configuration> result;
+  const auto add = [&](Rays rays, unsigned words, const std::vector<unsigned>& variants) {
+    for (const unsigned variant : variants) result.push_back({rays, words | variant});
+  };
+  if (scene == "rigid-deformable") {
+    // The paper's three algorithms, and with a refitted BVH in place of the basic one. Of the full
+    // rays the paper says nothing here: they are the reference.
+    add(Rays::kFull, 0, {0});
+    add(Rays::kIterative, 0, timed);
+    add(Rays::kIterative, kBasic, timed);
+    result.push_back({Rays::kIterative, kPaper});
+    add(Rays::kIterative, 0, counted);
+    add(Rays::kIterative, kBasic, counted);
+  } else {
+    add(Rays::kFull, 0, timed);
+    add(Rays::kIterative, 0, timed);
+    result.push_back({Rays::kIterative, kPaper});
+    add(Rays::kFull, 0, counted);
+    add(Rays::kIterative, 0, counted);
+  }
+  return result;
+}
+
+}  // namespace paper

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A way to run the library, by name: full or iterative, then what differs from the default.
+#pragma once
+
+#include <ode_ext/ode_ext.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace paper {
+
+// GRAPP section 5.4: a variability of 2 %.
+inline constexpr double kPapersConfidence = 1.02;
+
+enum class Rays { kFull, kIterative };
+
+// The words of a name after the first, in the order in which they are written.
+enum Word : unsigned {
+  kPaper = 1 << 0,       // dBatchRaysIterativePaper
+  kBasic = 1 << 1,       // dBatchDeformableBasic
+  kMonolithic = 1 << 2,  // dBatchOrganisationMonolithic
+  kExact = 1 << 3,       // dBatchWorkloadExact
+  kPlain = 1 << 4,       // dBatchPredictionPlain: Eq. 2
+  kIgnore = 1 << 5,      // dBatchMispredictionIgnore, with the paper's confidence
+  kCount = 1 << 6,       // count_work
+};
+
+struct Configuration {
+  Rays rays = Rays::kFull;
+  unsigned words = 0;
+
+  bool operator==(const Configuration&) const = default;
+  bool has(Word word) const { return (words & word) != 0; }
+  Configuration without(Word word) const { return {rays, words & ~unsigned{word}}; }
+  // Gives the same bytes as every other one of which this is true.
+  bool is_lossless() const { return !has(kPaper) && !has(kIgnore); }
+  std::string name() const;
+  dBatchColliderParams params(const std::string& device) const;
+};
+
+// Throws std::invalid_argument, a sentence that lists the words.
+Configuration parse_configuration(std::string_view name);
+
+// What the figures and tables need.
+std::vector<Configuration> default_configurations(std::string_view scene);
+
+}  // namespace paper

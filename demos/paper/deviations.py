@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is not as in the paper. Holds no result."""
+
+TEXT = (
+    "**Physics.** ODE steps the world on the host; the paper used Bullet 3 on the GPU, where poses "
+    "already lie in device memory. Here they are uploaded in every pass and contacts read back.",
+    "**Device.** The paper measured an AMD HD 7990. PoCL on a CPU vectorises nothing across "
+    "work-items with divergent loops: it has no divergence to avoid, so the measured speed-ups of "
+    "figures 6 and 7 are of less work and better locality only. What divergence would cost is "
+    "counted instead, for groups of 32 and 64 lanes.",
+    "**Synchronisation.** PoCL's queue is served by threads of the same process, so that a launch "
+    "or a wait costs microseconds and crosses no bus: the milliseconds of table 1 cannot show "
+    "there. How many waits are avoided is counted beside them.",
+    "**Objects.** The paper's models are not public. Shapes of exactly their numbers of triangles "
+    "(902, 2,130, 3,264 and 3,458) are generated (demos/falling_objects/shapes.h); the ground, the "
+    "placement, masses and friction are ours too, and so is the number of pairs.",
+    "**Fewer rays per vertex.** The paper dismisses a vertex by a bounding volume. Here chunks of 16 "
+    "vertices are dismissed by boxes and a clearance grid, vertices by an occupancy grid. What "
+    "remains for the ray step is a small part of what the paper's would get, and far less sparse.",
+    "**The baseline.** 'Without the pipeline' is one kernel per pair that marks its chunks in a dense "
+    "list, then one with a work-item per vertex of every pair and a switch between the algorithms. "
+    "It shares culls, data and the contact step with the pipeline. The paper says no more of its "
+    "baseline than that it does not have the reorganisation. The list is dense, and therefore most "
+    "work-items leave at once; they are counted.",
+    "**Iterative rays are exact.** Where the triangle met by walking cannot be proven to be the "
+    "first one, the ray is cast by the BVH as well. The paper believes it, and drops vertices "
+    "without temporal data; that rule is measured beside (`iterative-paper`).",
+    "**Temporal data** is kept by pair. Whenever its memory grows all of it is void for one step, in "
+    "which every ray is cast in full: rare once the pile is complete, but it puts spikes into "
+    "figure 6b and upsets the predictions behind table 2.",
+    "**Small displacement** is decided per pair and by the mean edge length of the target "
+    "(`displacement_limit`); the paper gives no threshold.",
+    "**Contacts.** An open surface, a grazing hit and a vertex on the surface have rules that are "
+    "not in the paper (docs/architecture.md), and a pair keeps at most 16 contacts.",
+    "**Units of work.** A chunk looked at and a node visited count 1, a vertex looked at and a "
+    "triangle tested 2, about their costs in box tests. Memory is not counted, and the pair step "
+    "and the contact step, which are the same with and without the pipeline, are not either. "
+    "Work-items are grouped in the order of their indices.",
+    "**Counting steps.** Work is counted by colliders of their own that take part in the two steps "
+    "before as well, so that temporal data and predictions are as in any other step. Steps in which "
+    "they were redone for larger buffers are left out.",
+    "**Same poses.** All configurations collide the poses that one of them drives. In the paper "
+    "each simulation was presumably its own, so a lost ray of table 2 would change what follows. "
+    "The order of the configurations changes from step to step.",
+    "**Predictions of what is lost.** Under *ignore* a buffer behind one that overflowed has not "
+    "seen everything, so its count, and with it the next prediction, is a lower bound. There are "
+    "more buffers here than in the paper, since chunks of vertices go through some of their own.",
+    "**First step.** Without a history nothing is predicted: the first step is redone until "
+    "everything fits, under *ignore* too.",
+)

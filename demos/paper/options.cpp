@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "paper/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+namespace paper {
+namespace {
+
+using falling_objects::kExitOk;
+using falling_objects::kExitUsage;
+
+constexpr const char* kDescription =
+    "Measures the library as GRAPP section 5 does. One configuration drives the simulation, all\n"
+    "others collide the same poses in the same step. demos/paper/figures.py draws the results.";
+
+constexpr const char* kFooter = R"(
+Configurations are 'full' or 'iterative' (rays), then any of
+  paper        the paper's rule for iterative rays, which misses contacts
+  basic        every triangle of a deformable mesh instead of a refitted BVH
+  monolithic   one kernel instead of the pipeline
+  exact        the exact workload instead of the predicted one
+  plain        predictions by Eq. 2 instead of Eq. 1
+  ignore       what exceeds a prediction is lost; confidence 1.02, as in the paper
+  count        the work of every work-item is counted; only in every K-th step, and in the two
+               before it, so that temporal data and predictions are what they always are
+
+DIR gets steps.csv (a row per step and configuration), work.csv (what was counted), machine.json
+and summary.json (what must be identical, and whether it was).
+
+Examples:
+  paper run --out results                             the paper's scene, a thousand objects, 10 s
+  paper run --objects 100 --steps 60 --out results    a try
+  paper run --configurations full,full-monolithic --out results
+  paper run --scene rigid --list                      the configurations of a scene
+
+Exit codes: 0 done, 1 results differ that must be identical, or something failed, 2 wrong usage or
+DIR cannot be written, 3 no device.)";
+
+std::string command_line(int argc, const char* const* argv) {
+  std::string command = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
+  return command;
+}
+
+void add_configuration(std::vector<Configuration>& configurations, const Configuration& added) {
+  if (std::find(configurations.begin(), configurations.end(), added) == configurations.end())
+    configurations.push_back(added);
+}
+
+void choose_configurations(const std::vector<std::string>& names, const std::string& driver,
+                           Options& options) {
+  for (const std::string& name : names)
+    add_configuration(options.configurations, parse_configuration(name));
+  if (names.empty()) options.configurations = default_configurations(options.scene.scene);
+  options.driver = parse_configuration(driver);
+  if (options.driver.has(kCount))
+    throw std::invalid_argument("'" + driver + "' does not collide in every step: it cannot drive");
+  if (!options.driver.is_lossless())
+    throw std::invalid_argument("'" + driver + "' may miss contacts: it cannot drive");
+  add_configuration(options.configurations, options.driver);
+}
+
+}  // namespace
+
+ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out,
+                            std::ostream& err) {
+  ParsedOptions parsed;
+  Options& o = parsed.options;
+  falling_objects::Options& scene = o.scene;
+  std::vector<std::string> names;
+  std::string driver = "full";
+  CLI::App app(kDescription, "paper");
+  app.require_subcommand(1);
+  CLI::App* run = app.add_subcommand("run", "Run a scene and write what was measured");
+  app.footer("paper run --help says more.");
+  run->footer(kFooter);
+  run->get_formatter()->column_width(34);
+  run->add_option("--scene", scene.scene, "rigid (default): 1,000 objects of four shapes")
+      ->check(CLI::IsMember({"rigid"}));
+  run->add_option("--objects", scene.objects, "How many objects")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  run->add_option("--steps", scene.steps, "How many steps, 60 a second")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  run->add_option("--seed", scene.seed, "Of the placement and the ground")->capture_default_str();
+  run->add_option("--every", o.every, "Steps from one count of the work to the next")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+      ->capture_default_str();
+  CLI::Option* directory = run->add_option("--out", o.out, "Where the results go; made if missing");
+  run->add_option("--configurations", names, "Which (default: all that the figures need)")
+      ->delimiter(',')
+      ->option_text("NAME,NAME...");
+  run->add_option("--driver", driver, "Whose contacts drive the simulation")->capture_default_str();
+  run->add_option("--device", scene.device, "OpenCL device, as in ODE_EXT_DEVICE");
+  run->add_flag("--quiet", scene.quiet, "No progress");
+  run->add_flag("--list", o.list, "Print the configurations and stop");
+  try {
+    app.parse(argc, argv);
+    if (!o.list && directory->count() == 0) throw CLI::RequiredError("--out");
+    o.command = command_line(argc, argv);
+    choose_configurations(names, driver, o);
+  } catch (const CLI::ParseError& e) {
+    parsed.exit_code = app.exit(e, out, err) == 0 ? kExitOk : kExitUsage;
+  } catch (const std::invalid_argument& e) {
+    err << e.what() << '\n';
+    parsed.exit_code = kExitUsage;
+  }
+  return parsed;
+}
+
+}  // namespace paper

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line.
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "falling_objects/options.h"
+#include "paper/configuration.h"
+
+namespace paper {
+
+struct Options {
+  falling_objects::Options scene;  // of these only what makes the scene and its steps
+  int every = 20;                  // steps from one count of the work to the next
+  std::string out;
+  std::vector<Configuration> configurations;
+  Configuration driver;  // one of `configurations`
+  std::string command;   // as typed, for the record
+  bool list = false;
+};
+
+struct ParsedOptions {
+  Options options;
+  std::optional<int> exit_code;  // set: help was asked for, or the command line is wrong
+};
+
+ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out,
+                            std::ostream& err);
+
+}  // namespace paper

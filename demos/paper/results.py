@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The raw results of a run of `paper`, and what follows from them."""
+
+import csv
+import gzip
+import json
+import os
+
+import numpy
+
+# From the clocks of the device's own events; the other stages are of the host.
+KERNEL_STAGES = ("deform_step", "pair_step", "vertex_step", "iterative_rays", "bvh_rays",
+                 "basic_rays", "monolithic", "contact_step")
+RAY_BUFFERS = ("rays_iterative", "rays_bvh", "rays_basic")
+BUFFERS = ("chunks_small", "chunks_high", "chunks_deformable") + RAY_BUFFERS + ("hits", "contacts")
+
+
+class Missing(Exception):
+    """A sentence that says which results are not there."""
+
+
+def _open(path):
+    if os.path.exists(path):
+        return open(path, newline="")
+    if os.path.exists(path + ".gz"):
+        return gzip.open(path + ".gz", "rt", newline="")
+    raise Missing(f"there is no {path}")
+
+
+def _rows(path):
+    with _open(path) as file:
+        return list(csv.DictReader(file))
+
+
+def _json(path):
+    with _open(path) as file:
+        return json.load(file)
+
+
+class Results:
+    """One scene: a folder with steps.csv, work.csv, machine.json and summary.json."""
+
+    def __init__(self, folder):
+        self.scene = os.path.basename(os.path.normpath(folder))
+        self._steps = {}
+        for row in _rows(os.path.join(folder, "steps.csv")):
+            self._steps.setdefault(row["configuration"], []).append(row)
+        self._work = {}
+        for row in _rows(os.path.join(folder, "work.csv")):
+            self._work.setdefault(row["configuration"], []).append(row)
+        self.machine = _json(os.path.join(folder, "machine.json"))
+        self.summary = _json(os.path.join(folder, "summary.json"))
+
+    def require(self, *configurations):
+        for name in configurations:
+            if name not in self._steps:
+                raise Missing(
+                    f"the results of the scene '{self.scene}' hold no configuration '{name}'")
+
+    def column(self, configuration, name):
+        self.require(configuration)
+        return numpy.array([float(row[name]) for row in self._steps[configuration]])
+
+    def seconds(self, configuration):
+        return self.column(configuration, "step") / self.summary["hz"]
+
+    def kernel_ms(self, configuration):
+        """The sum of kernel times of each step."""
+        return sum(self.column(configuration, stage + "_ms") for stage in KERNEL_STAGES)
+
+    def speed_up(self, slow, fast):
+        """Of each step in which there is a pair to collide."""
+        with_pairs = self.column(fast, "pairs") > 0
+        return (self.kernel_ms(slow) / self.kernel_ms(fast))[with_pairs]
+
+    def work(self, configuration):
+        """{kernel: {column: sum over the counted steps that were computed once}}."""
+        counted = [row for row in self._work.get(configuration, []) if row["redone"] == "0"]
+        if not counted:
+            raise Missing(f"the results of the scene '{self.scene}' hold no counted work of "
+                          f"'{configuration}'")
+        total = {}
+        for row in counted:
+            kernel = total.setdefault(row["kernel"], {"steps": 0})
+            kernel["steps"] += 1
+            for name in ("items", "units", "lockstep32", "lockstep64"):
+                kernel[name] = kernel.get(name, 0) + int(row[name])
+        return total
+
+    def counted_steps(self, configuration):
+        return {row["step"] for row in self._work.get(configuration, []) if row["redone"] == "0"}
+
+    def lockstep_speed_up(self, slow, fast, lanes):
+        """How much longer groups of so many lanes are busy with `slow`, over all kernels."""
+        if self.counted_steps(slow) != self.counted_steps(fast):
+            raise Missing(f"'{slow}' and '{fast}' were not counted in the same steps of the scene "
+                          f"'{self.scene}'")
+        busy = [sum(kernel[f"lockstep{lanes}"] for kernel in self.work(name).values())
+                for name in (slow, fast)]
+        return busy[0] / busy[1]
+
+    def missed(self, configuration, buffers):
+        """Entries that did not fit, and all entries, of these buffers over the whole run."""
+        lost = total = 0
+        for buffer in buffers:
+            actual = self.column(configuration, "actual_" + buffer)
+            capacity = self.column(configuration, "capacity_" + buffer)
+            lost += numpy.maximum(actual - capacity, 0).sum()
+            total += actual.sum()
+        return lost, total
+
+
+def load(folder, scene):
+    """The results of a scene. Raises Missing, a sentence."""
+    path = os.path.join(folder, scene)
+    if not os.path.isdir(path):
+        raise Missing(f"the scene '{scene}' was not run: there is no folder {path}")
+    return Results(path)

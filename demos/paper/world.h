@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene of falling_objects that is collided from outside.
+#pragma once
+
+#include <ode/ode.h>
+#include <ode_ext/ode_ext.h>
+
+#include <span>
+
+#include "falling_objects/options.h"
+#include "falling_objects/scene.h"
+
+namespace paper {
+
+class World {
+ public:
+  // Between dInitODE2 and dCloseODE.
+  explicit World(const falling_objects::Options& options);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  dSpaceID space() const { return scene_.space(); }
+  // What a collider must be told of the scene before its first pass.
+  void introduce(dBatchColliderID collider) const;
+  // Before the step's collisions: all boxes are brought up to date, whoever collides first.
+  void prepare();
+  // After them.
+  void advance(std::span<const dContactGeom> contacts);
+
+ private:
+  const falling_objects::Options& options_;
+  falling_objects::Scene scene_;
+  dJointGroupID joints_;
+};
+
+}  // namespace paper
