@@ -58,6 +58,8 @@ bool Checks::after_step(const StepRecord& record, std::span<const dContactGeom> 
     for (const dGeomID geom : {contact.g1, contact.g2}) {
       if (dGeomGetBody(geom) != nullptr) diameter = std::min(diameter, 2 * kShapeRadius);
     }
+    // That of a sheet's vertex is the way along its normal, however far the surface is there.
+    if (scene_.touches_sheet(contact)) continue;
     const double depth = contact.depth;
     if (!(depth <= diameter)) {
       impossible_.add(depth, at(record.step) + format("%.3f m: ", depth) +
@@ -102,7 +104,8 @@ void Checks::after_measurement(int step, const std::vector<Penetration>& too_dee
   too_deep_since_ = std::move(now);
 }
 
-void Checks::collect_speeds() {
+void Checks::collect_speeds(const StepRecord& record) {
+  fastest_vertex_ = std::max(fastest_vertex_, record.fastest_vertex);
   const std::vector<double> now = speeds(scene_);
   final_speeds_.insert(final_speeds_.end(), now.begin(), now.end());
 }
@@ -116,12 +119,27 @@ void Checks::judge_rest() {
                             "(allowed %.3f)",
                             average, one_step / 2, fast, one_step));
   }
+  if (!(fastest_vertex_ <= kVertexMayMove)) {
+    restless_.add(0, format("a vertex of a sheet at %.3f m/s (allowed %.3f)", fastest_vertex_,
+                            kVertexMayMove));
+  }
+}
+
+void Checks::after_draping(const Draping& draping) {
+  if (draping.inside > 0) {
+    inside_.add(0, format("%lld, the deepest by %.3f m (allowed %.3f m)", draping.inside,
+                          draping.deepest, kVertexMayBeInside));
+  }
+  if (draping.crossing_share() > kTrianglesMayCross) {
+    crossing_.add(0, format("%lld of %lld (allowed %.1f %%)", draping.crossing, draping.triangles,
+                            100 * kTrianglesMayCross));
+  }
 }
 
 std::vector<std::string> Checks::failures() const {
   std::vector<std::string> result;
-  for (const Finding* finding :
-       {&not_finite_, &fell_out_, &impossible_, &stuck_, &device_, &restless_}) {
+  for (const Finding* finding : {&not_finite_, &fell_out_, &impossible_, &stuck_, &device_,
+                                 &restless_, &inside_, &crossing_}) {
     if (!finding->empty()) result.push_back(finding->describe());
   }
   return result;

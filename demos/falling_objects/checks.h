@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "falling_objects/draping.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/scene.h"
 #include "falling_objects/step_record.h"
@@ -38,8 +39,10 @@ class Checks {
   bool after_step(const StepRecord& record, std::span<const dContactGeom> contacts);
   // `too_deep`: what the oracle found deeper than allowed.
   void after_measurement(int step, const std::vector<Penetration>& too_deep);
+  // Where the sheets are at the end.
+  void after_draping(const Draping& draping);
   // In every step of the last 0.5 s.
-  void collect_speeds();
+  void collect_speeds(const StepRecord& record);
   void judge_rest();
 
   std::size_t lost_objects() const { return lost_.size(); }
@@ -54,6 +57,7 @@ class Checks {
   // Pairs too deep at the last measurement, and the step since when.
   std::map<std::pair<std::size_t, std::size_t>, int> too_deep_since_;
   std::vector<double> final_speeds_;
+  double fastest_vertex_ = 0;
 
   Finding not_finite_{"a state that is not finite"};
   Finding fell_out_{"objects below the ground or out of the bowl"};
@@ -61,6 +65,8 @@ class Checks {
   Finding stuck_{"pairs deeper inside each other than half their thinnest part for over 0.5 s"};
   Finding device_{"the device failed"};
   Finding restless_{"not at rest at the end"};
+  Finding inside_{"vertices of sheets inside an object or the ground"};
+  Finding crossing_{"triangles of sheets that cross an object or the ground"};
 };
 
 }  // namespace falling_objects

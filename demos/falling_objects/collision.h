@@ -25,6 +25,7 @@ class Collision {
   // Of the last batched pass; zeroes without a batch collider.
   dBatchColliderStats stats() const;
   bool has_batch() const { return batch_ != nullptr; }
+  dBatchColliderID batch() const { return batch_; }
 
  private:
   dSpaceID space_;

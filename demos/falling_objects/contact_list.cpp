@@ -7,6 +7,11 @@
 #include "falling_objects/scene.h"
 
 namespace falling_objects {
+namespace {
+
+constexpr int kNoLimit = 0xffff;  // the most that dCollide's flags can say
+
+}  // namespace
 
 void ContactList::clear() {
   count_ = 0;
@@ -15,9 +20,12 @@ void ContactList::clear() {
 }
 
 void ContactList::collide(dGeomID g1, dGeomID g2, CollideFunction* function) {
-  const std::size_t room = count_ + static_cast<std::size_t>(limit_);
+  // A sheet lies on what it touches with hundreds of vertices, and needs a contact for each.
+  const bool sheet = ((dGeomGetCategoryBits(g1) | dGeomGetCategoryBits(g2)) & kSheetBit) != 0;
+  const int limit = sheet ? kNoLimit : limit_;
+  const std::size_t room = count_ + static_cast<std::size_t>(limit);
   if (contacts_.size() < room) contacts_.resize(std::max(room, 2 * contacts_.size()));
-  const int found = function(g1, g2, limit_, &contacts_[count_], sizeof(dContactGeom));
+  const int found = function(g1, g2, limit, &contacts_[count_], sizeof(dContactGeom));
   ++pairs_;
   colliding_pairs_ += found > 0;
   count_ += static_cast<std::size_t>(found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes fall into a bowl, headless: the scene 'rigid objects' of GRAPP section 6, and any other
-// meshes. Try --help.
+// Meshes fall into a bowl, headless: the two scenes of GRAPP section 6, and any other meshes. Try
+// --help.
 #include <cstdlib>
 #include <iostream>
 

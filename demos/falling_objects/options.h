@@ -2,6 +2,9 @@
 // The command line.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <ostream>
@@ -17,6 +20,7 @@ enum ExitCode { kExitOk = 0, kExitCheckFailed = 1, kExitUsage = 2, kExitNoDevice
 struct Options {
   std::string scene = "rigid";
   int objects = 1000;
+  int sheets = 0;
   int steps = 600;  // GRAPP section 6: 10 s at 60 Hz
   double hz = 60;
   std::uint64_t seed = 1;
@@ -35,6 +39,13 @@ struct Options {
   bool check = false;
   bool check_rest = false;
   bool quiet = false;
+  std::string snapshot;
+
+  bool has_sheets() const { return sheets > 0; }
+  // The last 0.5 s, over which speeds are judged.
+  std::size_t rest_steps() const {
+    return static_cast<std::size_t>(std::max(1L, std::lround(0.5 * hz)));
+  }
 };
 
 struct ParsedOptions {

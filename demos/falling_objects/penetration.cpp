@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "falling_objects/pose.h"
+
 namespace falling_objects {
 namespace {
 
@@ -11,12 +13,6 @@ using ode_ext::oracle::Pose;
 using ode_ext::oracle::Vector;
 
 Mesh oracle_mesh(const TriangleMesh& mesh) { return Mesh(mesh.vertices, mesh.indices); }
-
-Pose pose_of(dBodyID body) {
-  const dReal* p = dBodyGetPosition(body);
-  const dReal* r = dBodyGetRotation(body);  // rows of four
-  return {{{{r[0], r[1], r[2]}, {r[4], r[5], r[6]}, {r[8], r[9], r[10]}}}, {p[0], p[1], p[2]}};
-}
 
 }  // namespace
 

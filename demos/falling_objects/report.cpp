@@ -68,6 +68,23 @@ void print_comparison(std::ostream& out, const std::vector<StepRecord>& steps) {
       << largest(ode) << " most\n";
 }
 
+// The fastest vertex over as long as the checks look at.
+void print_draping(std::ostream& out, const Options& options, const std::vector<StepRecord>& steps,
+                   const Draping& draping) {
+  const auto depths = column(steps, [](auto& s) { return s.deepest_vertex; });
+  const auto shares = column(steps, [](auto& s) { return s.crossing_share; });
+  const auto speeds = column(steps, [](auto& s) { return s.fastest_vertex; });
+  const auto last = std::min(speeds.size(), options.rest_steps());
+  out << std::setprecision(4) << "  deepest sheet vertex  " << largest(depths) << " m, at the end "
+      << draping.deepest << " m; " << draping.inside << " deeper than " << kVertexMayBeInside
+      << " m (measured on the meshes)\n"
+      << "  sheet triangles that cross objects or the ground: at most " << std::setprecision(3)
+      << 100 * largest(shares) << " %, at the end " << 100 * draping.crossing_share() << " % ("
+      << draping.crossing << " of " << draping.triangles << ")\n"
+      << "  fastest sheet vertex  " << largest(speeds) << " m/s, over the last 0.5 s "
+      << largest({speeds.end() - static_cast<std::ptrdiff_t>(last), speeds.end()}) << " m/s\n";
+}
+
 }  // namespace
 
 Progress::Progress(const Options& options)
@@ -92,8 +109,9 @@ void Progress::finish() {
 void print_report(std::ostream& out, const Options& options, const std::vector<StepRecord>& steps,
                   const Summary& summary) {
   const bool batch = !summary.device.empty();
-  out << std::fixed << "scene " << options.scene << ": " << options.objects << " objects, "
-      << steps.size() << " steps at " << std::setprecision(0) << options.hz << " Hz, seed "
+  out << std::fixed << "scene " << options.scene << ": " << options.objects << " objects, ";
+  if (options.has_sheets()) out << options.sheets << " sheets, ";
+  out << steps.size() << " steps at " << std::setprecision(0) << options.hz << " Hz, seed "
       << options.seed << ", at most " << options.max_contacts << " contacts a pair\n";
   out << "collider: " << (options.collider == Collider::kBatch ? "batch" : "ODE's own");
   if (batch) out << ", device " << summary.device;
@@ -101,6 +119,9 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
   print_count(out, "pairs", column(steps, [](auto& s) { return s.pairs; }));
   print_count(out, "colliding pairs", column(steps, [](auto& s) { return s.colliding_pairs; }));
   print_count(out, "contacts", column(steps, [](auto& s) { return s.contacts; }));
+  if (options.has_sheets()) {
+    print_count(out, "contacts of sheets", column(steps, [](auto& s) { return s.sheet_contacts; }));
+  }
   if (batch) print_count(out, "rays", column(steps, [](auto& s) { return s.rays; }));
 
   out << "\n  ms                        median      95 %\n";
@@ -111,6 +132,9 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
     }
   }
   print_time(out, "collide, all", column(steps, [](auto& s) { return s.collide_ms; }));
+  if (options.has_sheets()) {
+    print_time(out, "cloth solver", column(steps, [](auto& s) { return s.cloth_ms; }));
+  }
   print_time(out, "world step", column(steps, [](auto& s) { return s.world_ms; }));
   if (options.compare) print_comparison(out, steps);
 
@@ -124,6 +148,7 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
       << (depths.empty() ? 0 : depths.back()) << " m (measured on the meshes)\n"
       << "  mean speed at the end " << (steps.empty() ? 0 : steps.back().mean_speed) << " m/s\n"
       << "  objects lost          " << summary.lost_objects << '\n';
+  if (options.has_sheets()) print_draping(out, options, steps, summary.draping);
   if (batch) out << "  steps redone          " << redone << " (for larger buffers; nothing lost)\n";
   out << "  contact hash          " << std::hex << std::setw(16) << std::setfill('0')
       << summary.hash << std::dec << std::setfill(' ') << '\n';
@@ -133,7 +158,9 @@ void write_csv(std::ostream& out, const std::vector<StepRecord>& steps) {
   out << "step,pairs,colliding_pairs,contacts,rays,status";
   for (const char* name : kStageNames) out << ',' << name << "_ms";
   out << ",collide_ms,world_ms,batch_ms,ode_ms,batch_contacts,ode_contacts,mean_speed,"
-         "deepest_contact,deepest_penetration\n"
+         "deepest_contact,deepest_penetration,sheet_contacts,cloth_ms,fastest_vertex,deepest_"
+         "vertex,"
+         "crossing_share\n"
       << std::setprecision(9);
   for (const StepRecord& s : steps) {
     out << s.step << ',' << s.pairs << ',' << s.colliding_pairs << ',' << s.contacts << ','
@@ -143,6 +170,10 @@ void write_csv(std::ostream& out, const std::vector<StepRecord>& steps) {
         << s.batch_contacts << ',' << s.ode_contacts << ',' << s.mean_speed << ','
         << s.deepest_contact << ',';
     if (s.deepest_penetration >= 0) out << s.deepest_penetration;  // empty: not measured
+    out << ',' << s.sheet_contacts << ',' << s.cloth_ms << ',' << s.fastest_vertex << ',';
+    if (s.deepest_vertex >= 0) out << s.deepest_vertex;
+    out << ',';
+    if (s.crossing_share >= 0) out << s.crossing_share;
     out << '\n';
   }
 }

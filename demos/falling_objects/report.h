@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "falling_objects/draping.h"
 #include "falling_objects/options.h"
 #include "falling_objects/step_record.h"
 
@@ -30,6 +31,7 @@ class Progress {
 struct Summary {
   std::string device;  // empty: no batch collider
   std::size_t lost_objects = 0;
+  Draping draping;  // at the end
   std::uint64_t hash = 0;
 };
 

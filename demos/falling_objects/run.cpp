@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -12,13 +13,15 @@
 #include "falling_objects/mesh_file.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
+#include "falling_objects/sheets.h"
 #include "falling_objects/simulation.h"
+#include "falling_objects/snapshot.h"
 
 namespace falling_objects {
 namespace {
 
 constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
-constexpr double kRestWindow = 0.5;    // [s] at the end, over which speeds are judged
+constexpr double kDrapeEvery = 1;      // [s] ... at the sheets, which takes it longer
 
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -64,13 +67,23 @@ int run_scene(const Options& options) {
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 
   Collision collision(options, scene.space());
-  Simulation simulation(options, scene, collision);
+  std::unique_ptr<Sheets> sheets;
+  std::unique_ptr<DrapingMeter> draping_meter;
+  if (options.has_sheets()) {
+    sheets =
+        std::make_unique<Sheets>(static_cast<std::size_t>(options.sheets), options.seed, scene);
+    sheets->introduce(collision.batch());
+    draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
+  }
+  Simulation simulation(options, scene, collision, sheets.get());
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
   Progress progress(options);
   std::vector<StepRecord> records;
+  Summary summary;
   const int measure_every = steps_in(kMeasureEvery, options.hz);
-  const int rest_from = options.steps - steps_in(kRestWindow, options.hz);
+  const int drape_every = steps_in(kDrapeEvery, options.hz);
+  const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   for (int step = 0; step < options.steps; ++step) {
     StepRecord record = simulation.step();
     const bool finite = checks.after_step(record, simulation.contacts());
@@ -79,7 +92,14 @@ int run_scene(const Options& options) {
       checks.after_measurement(step, measured.too_deep);
       record.deepest_penetration = measured.deepest;
     }
-    if (options.check_rest && step >= rest_from) checks.collect_speeds();
+    if (finite && sheets && ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
+      const Draping draping = draping_meter->measure();
+      record.deepest_vertex = draping.deepest;
+      record.crossing_share = draping.crossing_share();
+      if (step + 1 == options.steps) checks.after_draping(draping);
+      summary.draping = draping;
+    }
+    if (options.check_rest && step >= rest_from) checks.collect_speeds(record);
     records.push_back(record);
     progress.show(record);
     if (!finite) break;
@@ -87,13 +107,21 @@ int run_scene(const Options& options) {
   progress.finish();
   if (options.check_rest) checks.judge_rest();
 
-  Summary summary{"", checks.lost_objects(), simulation.hash()};
+  summary.lost_objects = checks.lost_objects();
+  summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.stats().device;
   print_report(std::cout, options, records, summary);
   if (csv.is_open()) {
     write_csv(csv, records);
     csv.close();
     if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
+  }
+  if (!options.snapshot.empty()) {
+    std::ofstream file(options.snapshot);
+    const std::vector<std::unique_ptr<Sheet>> none;
+    write_snapshot(file, scene, sheets ? sheets->all() : none);
+    file.close();
+    if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
   }
   return print_verdict(options, checks);
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
+#include "falling_objects/inflate.h"
 #include "falling_objects/placement.h"
+#include "falling_objects/sheet.h"
 
 namespace falling_objects {
 namespace {
@@ -23,10 +26,6 @@ dTriMeshDataID make_data(const TriangleMesh& mesh) {
                               static_cast<int>(mesh.vertex_count()), mesh.indices.data(),
                               static_cast<int>(mesh.indices.size()), 3 * sizeof(unsigned));
   return data;
-}
-
-void set_index(dGeomID geom, std::size_t index) {
-  dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::uintptr_t>(index)));
 }
 
 // The mesh is centred on its centre of mass but for rounding; ODE insists on exactly.
@@ -56,7 +55,21 @@ void set_up_world(dWorldID world) {
   dWorldSetAngularDamping(world, 0.02);
 }
 
+// Sheets come to rest on what is at rest only, and a body in a pile is never quite. One that sleeps
+// still collides, and wakes, with all that touch it, when it is pushed.
+void let_bodies_sleep(dWorldID world) {
+  dWorldSetAutoDisableFlag(world, 1);
+  dWorldSetAutoDisableLinearThreshold(world, 0.05);   // [m/s]
+  dWorldSetAutoDisableAngularThreshold(world, 0.15);  // [rad/s]
+  dWorldSetAutoDisableAverageSamplesCount(world, 10);
+  dWorldSetAutoDisableSteps(world, 20);
+}
+
 }  // namespace
+
+void set_index(dGeomID geom, std::size_t index) {
+  dGeomSetData(geom, reinterpret_cast<void*>(static_cast<std::uintptr_t>(index)));
+}
 
 std::size_t index_of(dGeomID geom) {
   return static_cast<std::size_t>(reinterpret_cast<std::uintptr_t>(dGeomGetData(geom)));
@@ -64,14 +77,19 @@ std::size_t index_of(dGeomID geom) {
 
 Scene::Scene(std::vector<NamedMesh> meshes, const Options& options,
              std::vector<std::string>& warnings)
-    : ground_(ground_half_size(static_cast<std::size_t>(options.objects)), options.seed),
+    : skins_(options.has_sheets()),
+      ground_(ground_half_size(static_cast<std::size_t>(options.objects)), options.seed),
       world_(dWorldCreate()),
       space_(dSweepAndPruneSpaceCreate(nullptr, kAxes)),
       ground_data_(make_data(ground_.mesh())) {
   set_up_world(world_);
   dRandSetSeed(static_cast<unsigned long>(options.seed));  // QuickStep shuffles its rows
-  dGeomID ground = dCreateTriMesh(space_, ground_data_, nullptr, nullptr, nullptr);
-  set_index(ground, static_cast<std::size_t>(options.objects));
+  if (skins_) {
+    ground_skin_ = inflate(ground_.mesh(), kSheetMargin);
+    ground_skin_data_ = make_data(ground_skin_);
+    let_bodies_sleep(world_);
+  }
+  add_geom(ground_data_, ground_skin_data_, nullptr, static_cast<std::size_t>(options.objects));
   add_shapes(std::move(meshes), warnings);
   add_objects(options);
 }
@@ -82,8 +100,12 @@ void Scene::add_shapes(std::vector<NamedMesh> meshes, std::vector<std::string>& 
   for (NamedMesh& named : meshes) {
     const bool closed = is_closed(named.mesh);
     Shape& shape = shapes_.emplace_back(
-        Shape{std::move(named.name), std::move(named.mesh), closed, nullptr, {}});
+        Shape{std::move(named.name), std::move(named.mesh), closed, nullptr, {}, {}, nullptr});
     shape.data = make_data(shape.mesh);
+    if (skins_) {
+      shape.skin = inflate(shape.mesh, kSheetMargin);
+      shape.skin_data = make_data(shape.skin);
+    }
     shape.mass = mass_of(shape);
     if (!closed) {
       warnings.push_back("the mesh '" + shape.name +
@@ -98,11 +120,9 @@ void Scene::add_objects(const Options& options) {
   for (const Placement& placement :
        place_objects(static_cast<std::size_t>(options.objects), shapes_.size(), ground_, random)) {
     const Shape& shape = shapes_[placement.shape];
-    Object object{placement.shape, dBodyCreate(world_),
-                  dCreateTriMesh(space_, shape.data, nullptr, nullptr, nullptr)};
-    set_index(object.geom, objects_.size());
+    Object object{placement.shape, dBodyCreate(world_), nullptr};
     dBodySetMass(object.body, &shape.mass);
-    dGeomSetBody(object.geom, object.body);
+    object.geom = add_geom(shape.data, shape.skin_data, object.body, objects_.size());
     const auto& [x, y, z] = placement.position;
     dBodySetPosition(object.body, x, y, z);
     const dQuaternion q{placement.rotation[0], placement.rotation[1], placement.rotation[2],
@@ -112,11 +132,34 @@ void Scene::add_objects(const Options& options) {
   }
 }
 
+bool Scene::touches_sheet(const dContactGeom& contact) const {
+  return std::max(index_of(contact.g1), index_of(contact.g2)) > objects_.size();
+}
+
+// The mesh, and its skin if it has one. Returns the mesh's.
+dGeomID Scene::add_geom(dTriMeshDataID data, dTriMeshDataID skin_data, dBodyID body,
+                        std::size_t index) {
+  const auto add = [&](dTriMeshDataID of, unsigned long category, unsigned long collide) {
+    dGeomID geom = dCreateTriMesh(space_, of, nullptr, nullptr, nullptr);
+    set_index(geom, index);
+    dGeomSetCategoryBits(geom, category);
+    dGeomSetCollideBits(geom, collide);
+    if (body != nullptr) dGeomSetBody(geom, body);
+    return geom;
+  };
+  if (skin_data != nullptr) add(skin_data, kSkinBit, kSheetBit);
+  return add(data, kMeshBit, kMeshBit);
+}
+
 Scene::~Scene() {
   dSpaceDestroy(space_);
   dWorldDestroy(world_);
-  for (const Shape& shape : shapes_) dGeomTriMeshDataDestroy(shape.data);
+  for (const Shape& shape : shapes_) {
+    dGeomTriMeshDataDestroy(shape.data);
+    if (shape.skin_data != nullptr) dGeomTriMeshDataDestroy(shape.skin_data);
+  }
   dGeomTriMeshDataDestroy(ground_data_);
+  if (ground_skin_data_ != nullptr) dGeomTriMeshDataDestroy(ground_skin_data_);
 }
 
 }  // namespace falling_objects

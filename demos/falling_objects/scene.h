@@ -8,13 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "falling_objects/gravity.h"
 #include "falling_objects/ground.h"
 #include "falling_objects/options.h"
 #include "falling_objects/shapes.h"
 
 namespace falling_objects {
 
-inline constexpr double kGravity = 9.81;  // [m/s^2]
+// What collides with what: meshes with meshes, and sheets with skins and with sheets.
+inline constexpr unsigned long kMeshBit = 1, kSkinBit = 2, kSheetBit = 4;
 
 struct Shape {
   std::string name;
@@ -22,6 +24,8 @@ struct Shape {
   bool closed;
   dTriMeshDataID data;  // one for all objects of the shape
   dMass mass;
+  TriangleMesh skin;  // with sheets only
+  dTriMeshDataID skin_data;
 };
 
 struct Object {
@@ -30,7 +34,8 @@ struct Object {
   dGeomID geom;
 };
 
-// dGeomGetData of an object's geom is its index; that of the ground is the number of objects.
+// dGeomGetData of an object's geom is its index; that of the ground is the number of objects. With
+// sheets, each has a second geom, its skin, of the same index.
 class Scene {
  public:
   // `meshes` are dropped in equal numbers. Warnings, a sentence each, are appended.
@@ -42,23 +47,31 @@ class Scene {
   dWorldID world() const { return world_; }
   dSpaceID space() const { return space_; }
   const Ground& ground() const { return ground_; }
+  const TriangleMesh& ground_skin() const { return ground_skin_; }
   const std::vector<Shape>& shapes() const { return shapes_; }
   const std::vector<Object>& objects() const { return objects_; }
   const Shape& shape_of(std::size_t object) const { return shapes_[objects_[object].shape]; }
+  // Sheets have the indices after that of the ground.
+  bool touches_sheet(const dContactGeom& contact) const;
 
  private:
   void add_shapes(std::vector<NamedMesh> meshes, std::vector<std::string>& warnings);
   void add_objects(const Options& options);
+  dGeomID add_geom(dTriMeshDataID data, dTriMeshDataID skin_data, dBodyID body, std::size_t index);
 
+  bool skins_;
   Ground ground_;
+  TriangleMesh ground_skin_;
   dWorldID world_;
   dSpaceID space_;
   dTriMeshDataID ground_data_;
+  dTriMeshDataID ground_skin_data_ = nullptr;
   std::vector<Shape> shapes_;
   std::vector<Object> objects_;
 };
 
-// The index that dGeomSetData stored.
+void set_index(dGeomID geom, std::size_t index);
+// The index that set_index stored.
 std::size_t index_of(dGeomID geom);
 
 }  // namespace falling_objects

@@ -7,11 +7,20 @@
 #include "falling_objects/speeds.h"
 
 namespace falling_objects {
+namespace {
 
-Simulation::Simulation(const Options& options, Scene& scene, Collision& collision)
+double ms_since(std::chrono::steady_clock::time_point start) {
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  return took.count();
+}
+
+}  // namespace
+
+Simulation::Simulation(const Options& options, Scene& scene, Collision& collision, Sheets* sheets)
     : options_(options),
       scene_(scene),
       collision_(collision),
+      sheets_(sheets),
       contacts_(options.max_contacts),
       compared_(options.max_contacts),
       joints_(dJointGroupCreate(0)) {}
@@ -21,7 +30,9 @@ Simulation::~Simulation() { dJointGroupDestroy(joints_); }
 StepRecord Simulation::step() {
   StepRecord record;
   record.step = steps_++;
+  if (sheets_ != nullptr) show_sheets(record);
   collide(record);
+  if (sheets_ != nullptr) move_sheets(record);
   advance(record);
   record.mean_speed = mean(speeds(scene_));
   return record;
@@ -54,6 +65,10 @@ void Simulation::collide(StepRecord& record) {
   record.colliding_pairs = contacts_.colliding_pairs();
   record.contacts = static_cast<long long>(contacts_.contacts().size());
   for (const dContactGeom& contact : contacts_.contacts()) {
+    if (scene_.touches_sheet(contact)) {
+      ++record.sheet_contacts;
+      continue;
+    }
     record.deepest_contact = std::max(record.deepest_contact, static_cast<double>(contact.depth));
   }
   hash_ = hash_contacts(contacts_.contacts(), hash_);
@@ -64,16 +79,31 @@ void Simulation::collide(StepRecord& record) {
   record.status = stats.status;
 }
 
+void Simulation::show_sheets(StepRecord& record) {
+  const auto start = std::chrono::steady_clock::now();
+  sheets_->show(1 / options_.hz);
+  record.cloth_ms += ms_since(start);
+}
+
+// The sheets follow the bodies, which the collider saw where they are now; what they push back with
+// acts in the step of the world that follows.
+void Simulation::move_sheets(StepRecord& record) {
+  const auto start = std::chrono::steady_clock::now();
+  sheets_->step(1 / options_.hz, contacts_.contacts());
+  record.cloth_ms += ms_since(start);
+  record.fastest_vertex = sheets_->fastest();
+}
+
 void Simulation::advance(StepRecord& record) {
   const auto start = std::chrono::steady_clock::now();
   advance_world(scene_, joints_, contacts_.contacts(), options_.hz);
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-  record.world_ms = took.count();
+  record.world_ms = ms_since(start);
 }
 
 void advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactGeom> contacts,
                    double hz) {
   for (const dContactGeom& geom : contacts) {
+    if (scene.touches_sheet(geom)) continue;  // Sheets::step's business
     dContact contact{};
     contact.geom = geom;
     contact.surface.mode = dContactApprox1;

@@ -8,6 +8,7 @@
 #include "falling_objects/contact_list.h"
 #include "falling_objects/options.h"
 #include "falling_objects/scene.h"
+#include "falling_objects/sheets.h"
 #include "falling_objects/step_record.h"
 
 namespace falling_objects {
@@ -18,7 +19,8 @@ void advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactG
 
 class Simulation {
  public:
-  Simulation(const Options& options, Scene& scene, Collision& collision);
+  // `sheets` may be null.
+  Simulation(const Options& options, Scene& scene, Collision& collision, Sheets* sheets);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -32,11 +34,14 @@ class Simulation {
 
  private:
   void collide(StepRecord& record);
+  void show_sheets(StepRecord& record);
+  void move_sheets(StepRecord& record);
   void advance(StepRecord& record);
 
   const Options& options_;
   Scene& scene_;
   Collision& collision_;
+  Sheets* sheets_;
   ContactList contacts_;
   ContactList compared_;
   dJointGroupID joints_;

@@ -22,6 +22,12 @@ struct StepRecord {
   double batch_ms = 0, ode_ms = 0;
   long long batch_contacts = 0, ode_contacts = 0;
 
+  // Only with sheets.
+  long long sheet_contacts = 0;
+  double cloth_ms = 0;                              // moving them, without colliding them
+  double fastest_vertex = 0;                        // of a sheet [m/s]
+  double deepest_vertex = -1, crossing_share = -1;  // as the oracle says [m]; negative: as below
+
   double mean_speed = 0;            // [m/s]
   double deepest_contact = 0;       // [m], as the collider says
   double deepest_penetration = -1;  // [m], as the oracle says; negative: not measured in this step

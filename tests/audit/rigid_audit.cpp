@@ -42,7 +42,7 @@ int audit(const falling_objects::Options& options, int first_step, int frames, i
   std::vector<std::string> warnings;
   falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
   falling_objects::Collision collision(options, scene.space());
-  falling_objects::Simulation simulation(options, scene, collision);
+  falling_objects::Simulation simulation(options, scene, collision, nullptr);
   const SceneAudit auditor(scene);
   falling_objects::ContactList contacts(options.max_contacts);
   Findings total;

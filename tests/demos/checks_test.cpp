@@ -103,21 +103,51 @@ TEST_F(DemoChecks, ReportsAPassInWhichTheDeviceFailed) {
 TEST_F(DemoChecks, TakesWhatIsSlowerThanAHalfStepOfFreeFallForAtRest) {
   const double half_step = kGravity / kHz / 2;
   for (std::size_t i = 0; i < 4; ++i) dBodySetLinearVel(body(i), 0, 0, -0.99 * half_step);
-  checks_.collect_speeds();
+  checks_.collect_speeds({});
   checks_.judge_rest();
   EXPECT_THAT(checks_.failures(), IsEmpty());
   Checks others(scene_, kHz);
   for (std::size_t i = 0; i < 4; ++i) dBodySetLinearVel(body(i), 0, 0, -1.01 * half_step);
-  others.collect_speeds();
+  others.collect_speeds({});
   others.judge_rest();
   EXPECT_THAT(others.failures(), ElementsAre(HasSubstr("not at rest")));
 }
 
 TEST_F(DemoChecks, SeesAllObjectsAtRestButOneThatFalls) {
   dBodySetLinearVel(body(0), 0, 0, -1.01 * kGravity / kHz);  // the mean is a quarter of it
-  checks_.collect_speeds();
+  checks_.collect_speeds({});
   checks_.judge_rest();
   EXPECT_THAT(checks_.failures(), ElementsAre(HasSubstr("95th percentile")));
+}
+
+TEST_F(DemoChecks, SeeASheetThatIsInAnObjectOrCrossesOne) {
+  Draping draping;
+  draping.triangles = 8192;
+  draping.crossing = 8;  // 0.098 %
+  draping.deepest = kVertexMayBeInside;
+  checks_.after_draping(draping);
+  EXPECT_THAT(checks_.failures(), IsEmpty());
+  draping.crossing = 9;
+  checks_.after_draping(draping);
+  EXPECT_THAT(checks_.failures(), ElementsAre(HasSubstr("9 of 8192")));
+  Checks others(scene_, kHz);
+  draping.crossing = 0;
+  draping.inside = 1;
+  others.after_draping(draping);
+  EXPECT_THAT(others.failures(), ElementsAre(HasSubstr("inside an object")));
+}
+
+TEST_F(DemoChecks, SeeTheOneVertexOfASheetThatMoves) {
+  StepRecord record;
+  record.fastest_vertex = kVertexMayMove;
+  checks_.collect_speeds(record);
+  checks_.judge_rest();
+  EXPECT_THAT(checks_.failures(), IsEmpty());
+  record.fastest_vertex = 1.01 * kVertexMayMove;
+  checks_.collect_speeds(record);
+  checks_.collect_speeds({});  // slower in the last step
+  checks_.judge_rest();
+  EXPECT_THAT(checks_.failures(), ElementsAre(HasSubstr("vertex of a sheet")));
 }
 
 TEST_F(DemoChecks, MeasuresObjectsInEachOtherAndInTheGround) {

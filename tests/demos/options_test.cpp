@@ -41,6 +41,17 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.prediction, dBatchPredictionPairScaled);
 }
 
+TEST(Options, AreThePapersSecondSceneByItsName) {
+  const Options o = parse({"--scene", "rigid-deformable"}).parsed.options;
+  EXPECT_EQ(o.objects, 216);
+  EXPECT_EQ(o.sheets, 36);
+  const Options small =
+      parse({"--scene", "rigid-deformable", "--objects", "8", "--sheets", "1"}).parsed.options;
+  EXPECT_EQ(small.objects, 8);
+  EXPECT_EQ(small.sheets, 1);
+  EXPECT_FALSE(parse({}).parsed.options.has_sheets());
+}
+
 TEST(Options, TakeEveryNameForItsValue) {
   const Options o = parse({"--collider", "ode", "--workload", "exact", "--prediction", "plain",
                            "--confidence", "0.5", "--device", "pocl", "--compare", "--check-rest"})
@@ -76,7 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{"--hz", "0"}, std::vector{"--max-contacts", "65"},
                     std::vector{"--collider", "none"}, std::vector{"--scene", "soft"},
                     std::vector{"--confidence", "-1"}, std::vector{"--steps", "-1"},
-                    std::vector{"--mesh"}, std::vector{"stray"}));
+                    std::vector{"--mesh"}, std::vector{"stray"}, std::vector{"--sheets", "2"},
+                    std::vector{"--scene", "rigid-deformable", "--compare"},
+                    std::vector{"--scene", "rigid-deformable", "--collider", "ode"}));
 
 TEST_P(WrongOptions, AreRefusedWithAMessageAndCode2) {
   const Outcome outcome = parse(GetParam());

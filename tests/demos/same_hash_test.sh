@@ -23,3 +23,13 @@ same "one thread" "$(POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 contact_ha
 same "two threads" "$(POCL_MAX_PTHREAD_COUNT=2 POCL_CPU_MAX_CU_COUNT=2 contact_hash)"
 same "exact workload" "$(contact_hash --workload exact)"
 same "under-predicted" "$(contact_hash --confidence 0.01)"
+
+# Sheets, which two threads solve: long enough for them to lie on objects and on each other.
+sheet_hash() {
+  "$program" --scene rigid-deformable --objects 4 --sheets 10 --steps 120 --quiet |
+    sed -n 's/^ *contact hash *//p'
+}
+expected=$(sheet_hash)
+[[ -n $expected ]] || { echo "no contact hash was printed with sheets" >&2; exit 1; }
+same "sheets once more" "$(sheet_hash)"
+same "sheets on one thread" "$(POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 sheet_hash)"
