@@ -35,6 +35,8 @@ struct Configuration {
   Configuration without(Word word) const { return {rays, words & ~unsigned{word}}; }
   // Gives the same bytes as every other one of which this is true.
   bool is_lossless() const { return !has(kPaper) && !has(kIgnore); }
+  // So slow that it takes part in some steps only.
+  bool is_sampled() const { return has(kCount) || has(kBasic); }
   std::string name() const;
   dBatchColliderParams params(const std::string& device) const;
 };

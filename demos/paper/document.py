@@ -26,10 +26,7 @@ def scenes_of(parts):
 
 def measured_speed_up(slow, fast):
     def measure(results):
-        ratios = results.speed_up(slow, fast)
-        if len(ratios) == 0:
-            raise Missing(f"no step of the scene '{results.scene}' has a pair to collide")
-        low, median, high = numpy.quantile(ratios, (0.1, 0.5, 0.9))
+        low, median, high = numpy.quantile(results.speed_up(slow, fast), (0.1, 0.5, 0.9))
         return f"**{median:.2f}** ({low:.2f} … {high:.2f})"
     return measure
 
@@ -97,8 +94,8 @@ def write_lanes(page, parts):
 def write_table1(page):
     def gain(exact, predicted):
         def measure(results):
-            saved = results.column(exact, "device_ms") - results.column(predicted, "device_ms")
-            low, median, high = numpy.quantile(saved, (0.1, 0.5, 0.9))
+            each = results.both(exact, predicted, lambda name: results.column(name, "device_ms"))
+            low, median, high = numpy.quantile(each[0] - each[1], (0.1, 0.5, 0.9))
             return f"{median:.3f} ms ({low:.3f} … {high:.3f})"
         return measure
 
@@ -159,7 +156,7 @@ def write_table2(page):
                          page.cell(scene, shown(name + "-plain-ignore", buffers))])
     page.add("## Errors of predictions (table 2)")
     page.add("Misprediction *ignore*, confidence 1.02: what exceeds the prediction of a buffer is "
-             "lost. Share of entries lost over the whole run, and by how much Eq. 1 (scaled by the "
+             "lost. Share of entries lost over all measured steps, and by how much Eq. 1 (scaled by the "
              "pairs) has less of it than Eq. 2. Counts like these are the same on any device but "
              "for the order of appending, which decides what is lost. Rays: the append buffers of rays. All entries: "
              "those of chunks, hits and contacts too; a chunk that is lost has no rays that could "
@@ -239,8 +236,8 @@ def write_machine(page):
         m, s = results.machine, results.summary
         page.add(f"    {m['command']}")
         page.add(f"Scene '{scene}': {s['objects']:,} objects, {s['steps']} steps at {s['hz']:g} Hz, "
-                 f"seed {s['seed']}, driven by `{s['driver']}`, work counted in every "
-                 f"{s['every']}th step. Device {m['device']} ({m['device_type']}), {m['platform']} "
+                 f"seed {s['seed']}, driven by `{s['driver']}`, what is slow "
+                 f"measured in every {s['every']}th step. Device {m['device']} ({m['device_type']}), {m['platform']} "
                  f"{m['driver']}, {m['opencl']}; {m['cpu']}, {m['cores']} cores; {m['compiler']}, "
                  f"{m['build_type']}, commit {m['commit']}, {m['date']}.")
 

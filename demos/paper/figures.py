@@ -38,14 +38,16 @@ def smoothed(values):
 
 def draw(results, title, slow, fast, papers, path):
     ratios = results.speed_up(slow, fast)
-    if len(ratios) == 0:
-        raise Missing(f"no step of the scene '{results.scene}' has a pair to collide")
     figure, axes = pyplot.subplots(figsize=(8, 4.6))
     for name, label, colour in ((slow, "without the pipeline", "tab:red"),
                                 (fast, "with the pipeline", "tab:blue")):
         seconds, ms = results.seconds(name), results.kernel_ms(name)
+        label = f"{label} ({name})"
+        if len(ms) < results.summary["steps"]:  # measured in some steps only
+            axes.plot(seconds, ms, "o-", color=colour, linewidth=0.7, markersize=3, label=label)
+            continue
         axes.plot(seconds, ms, color=colour, alpha=0.25, linewidth=0.7)
-        axes.plot(seconds, smoothed(ms), color=colour, linewidth=1.4, label=f"{label} ({name})")
+        axes.plot(seconds, smoothed(ms), color=colour, linewidth=1.4, label=label)
     axes.set_title(f"Scene '{results.scene}', {results.summary['objects']} objects:\n{title}",
                    fontsize=10)
     axes.set_xlabel("simulated time [s]")

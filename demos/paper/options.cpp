@@ -25,8 +25,9 @@ Configurations are 'full' or 'iterative' (rays), then any of
   exact        the exact workload instead of the predicted one
   plain        predictions by Eq. 2 instead of Eq. 1
   ignore       what exceeds a prediction is lost; confidence 1.02, as in the paper
-  count        the work of every work-item is counted; only in every K-th step, and in the two
-               before it, so that temporal data and predictions are what they always are
+  count        the work of every work-item is counted
+Those with basic or count are so slow that they are measured in every K-th step only (--every K);
+they collide in the two steps before too, so that temporal data and predictions are as always.
 
 DIR gets steps.csv (a row per step and configuration), work.csv (what was counted), machine.json
 and summary.json (what must be identical, and whether it was).
@@ -88,7 +89,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   run->add_option("--seed", scene.seed, "Of the placement and the ground")->capture_default_str();
-  run->add_option("--every", o.every, "Steps from one count of the work to the next")
+  run->add_option("--every", o.every, "Measure slow configurations in every K-th step")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
   CLI::Option* directory = run->add_option("--out", o.out, "Where the results go; made if missing");

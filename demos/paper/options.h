@@ -14,7 +14,7 @@ namespace paper {
 
 struct Options {
   falling_objects::Options scene;  // of these only what makes the scene and its steps
-  int every = 20;                  // steps from one count of the work to the next
+  int every = 20;                  // steps from one measurement of what is slow to the next
   std::string out;
   std::vector<Configuration> configurations;
   Configuration driver;  // one of `configurations`

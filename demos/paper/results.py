@@ -68,10 +68,22 @@ class Results:
         """The sum of kernel times of each step."""
         return sum(self.column(configuration, stage + "_ms") for stage in KERNEL_STAGES)
 
+    def both(self, first, second, measure):
+        """What `measure` says of either configuration, in the steps in which both were measured."""
+        steps = [self.column(name, "step") for name in (first, second)]
+        _, *places = numpy.intersect1d(*steps, assume_unique=True, return_indices=True)
+        if len(places[0]) == 0:
+            raise Missing(f"'{first}' and '{second}' were not measured in the same steps of the "
+                          f"scene '{self.scene}'")
+        return [measure(name)[place] for name, place in zip((first, second), places)]
+
     def speed_up(self, slow, fast):
         """Of each step in which there is a pair to collide."""
-        with_pairs = self.column(fast, "pairs") > 0
-        return (self.kernel_ms(slow) / self.kernel_ms(fast))[with_pairs]
+        slow_ms, fast_ms = self.both(slow, fast, self.kernel_ms)
+        pairs, _ = self.both(slow, fast, lambda name: self.column(name, "pairs"))
+        if not (pairs > 0).any():
+            raise Missing(f"no step of the scene '{self.scene}' has a pair to collide")
+        return (slow_ms / fast_ms)[pairs > 0]
 
     def work(self, configuration):
         """{kernel: {column: sum over the counted steps that were computed once}}."""

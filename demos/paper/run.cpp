@@ -109,8 +109,8 @@ Run::Run(const Options& options)
 std::vector<std::size_t> Run::collide(int step) {
   std::vector<std::size_t> order = order_in(step, contestants_.size());
   std::erase_if(order, [&](std::size_t i) {
-    return contestants_[i]->configuration().has(kCount) &&
-           !is_counted_or_warming_up(step, options_.every);
+    return contestants_[i]->configuration().is_sampled() &&
+           !is_measured_or_warming_up(step, options_.every);
   });
   for (const std::size_t i : order) contestants_[i]->collide(world_.space());
   return order;
@@ -121,17 +121,18 @@ void Run::record(int step, const std::vector<std::size_t>& order) {
   std::vector<std::optional<std::uint64_t>> hashes(contestants_.size());
   for (std::size_t place = 0; place < order.size(); ++place) {
     const Contestant& contestant = *contestants_[order[place]];
-    Totals& totals = totals_[order[place]];
+    const Configuration& configuration = contestant.configuration();
     hashes[order[place]] = contestant.hash();
+    if (configuration.is_sampled() && !is_measured(step, options_.every)) continue;
+    Totals& totals = totals_[order[place]];
     totals.add(contestant.stats(), settled);
     std::optional<Missed> missed;
-    if (!contestant.configuration().is_lossless()) {
+    if (!configuration.is_lossless()) {
       missed = compare_contacts(contestants_[reference_]->contacts(), contestant.contacts());
       totals.missed += *missed;
     }
     write_step(steps_.stream(), step, place, contestant, missed);
-    if (contestant.configuration().has(kCount) && is_counted(step, options_.every))
-      write_work(work_.stream(), step, contestant);
+    if (configuration.has(kCount)) write_work(work_.stream(), step, contestant);
   }
   agreement_.after_step(step, hashes);
 }

@@ -13,9 +13,9 @@ std::vector<std::size_t> order_in(int step, std::size_t count) {
   return order;
 }
 
-bool is_counted(int step, int every) { return (step + 1) % every == 0; }
+bool is_measured(int step, int every) { return (step + 1) % every == 0; }
 
-bool is_counted_or_warming_up(int step, int every) {
+bool is_measured_or_warming_up(int step, int every) {
   return every - 1 - step % every <= kWarmUpSteps;
 }
 

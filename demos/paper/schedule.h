@@ -11,11 +11,11 @@ namespace paper {
 // follows either neighbour equally often: whoever comes later finds warm caches.
 std::vector<std::size_t> order_in(int step, std::size_t count);
 
-// Counting is slow, so that it is done in the last of every `every` steps only. Before that its
-// collider takes part in two steps without being looked at: iterative rays start from what the step
-// before left behind, and predictions from its counts.
+// What is slow is measured in the last of every `every` steps only. Before that its collider takes
+// part in two steps without being measured: iterative rays start from what the step before left
+// behind, and predictions from its counts.
 inline constexpr int kWarmUpSteps = 2;
-bool is_counted(int step, int every);
-bool is_counted_or_warming_up(int step, int every);
+bool is_measured(int step, int every);
+bool is_measured_or_warming_up(int step, int every);
 
 }  // namespace paper
