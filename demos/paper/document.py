@@ -230,12 +230,17 @@ def write_verdicts(page):
     page.table(["scene", "claim", "comparisons", "result"], rows)
 
 
+def size_of(summary):
+    sheets = summary.get("sheets", 0)
+    return f"{summary['objects']:,} objects" + (f" and {sheets} sheets" if sheets else "")
+
+
 def write_machine(page):
     page.add("## Machine and commands")
     for scene, results in list(page.scenes.items()) + list(page.gpu.items()):
         m, s = results.machine, results.summary
         page.add(f"    {m['command']}")
-        page.add(f"Scene '{scene}': {s['objects']:,} objects, {s['steps']} steps at {s['hz']:g} Hz, "
+        page.add(f"Scene '{scene}': {size_of(s)}, {s['steps']} steps at {s['hz']:g} Hz, "
                  f"seed {s['seed']}, driven by `{s['driver']}`, what is slow "
                  f"measured in every {s['every']}th step. Device {m['device']} ({m['device_type']}), {m['platform']} "
                  f"{m['driver']}, {m['opencl']}; {m['cpu']}, {m['cores']} cores; {m['compiler']}, "

@@ -48,7 +48,7 @@ def draw(results, title, slow, fast, papers, path):
             continue
         axes.plot(seconds, ms, color=colour, alpha=0.25, linewidth=0.7)
         axes.plot(seconds, smoothed(ms), color=colour, linewidth=1.4, label=label)
-    axes.set_title(f"Scene '{results.scene}', {results.summary['objects']} objects:\n{title}",
+    axes.set_title(f"Scene '{results.scene}', {document.size_of(results.summary)}:\n{title}",
                    fontsize=10)
     axes.set_xlabel("simulated time [s]")
     axes.set_ylabel("kernel times of a step, summed [ms]")
