@@ -89,7 +89,6 @@ Configuration parse_configuration(std::string_view name) {
 }
 
 std::vector<Configuration> default_configurations(std::string_view scene) {
-  const std::vector<unsigned> sampled{0, kMonolithic, kExact, kIgnore, kPlain | kIgnore};
   const std::vector<unsigned> timed{0, kMonolithic, kExact, kPlain, kIgnore, kPlain | kIgnore};
   const std::vector<unsigned> counted{kCount, kMonolithic | kCount};
   std::vector<Configuration> result;
@@ -101,7 +100,7 @@ std::vector<Configuration> default_configurations(std::string_view scene) {
     // rays the paper says nothing here: they are the reference.
     add(Rays::kFull, 0, {0});
     add(Rays::kIterative, 0, timed);
-    add(Rays::kIterative, kBasic, sampled);
+    add(Rays::kIterative, kBasic, {0, kMonolithic, kExact});
     result.push_back({Rays::kIterative, kPaper});
     add(Rays::kIterative, 0, counted);
     add(Rays::kIterative, kBasic, counted);

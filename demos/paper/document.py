@@ -26,8 +26,9 @@ def scenes_of(parts):
 
 def measured_speed_up(slow, fast):
     def measure(results):
-        low, median, high = numpy.quantile(results.speed_up(slow, fast), (0.1, 0.5, 0.9))
-        return f"**{median:.2f}** ({low:.2f} … {high:.2f})"
+        ratios, of_sums = results.speed_up(slow, fast)
+        low, median, high = numpy.quantile(ratios, (0.1, 0.5, 0.9))
+        return f"**{median:.2f}** ({low:.2f} … {high:.2f}); {of_sums:.2f}"
     return measure
 
 
@@ -57,7 +58,8 @@ def write_speed_ups(page, parts, drawn):
     page.add("Without the pipeline over with it. *Predicted from divergence*: for how long groups "
              "of 32 and of 64 lanes in lockstep are busy, over all kernels that count, summed over "
              "the counted steps. *Measured*: the sum of kernel times (device events) of a step, "
-             "its ratio, the median of all steps and the 10th and 90th percentile.")
+             "its ratio, the median of all steps and the 10th and 90th percentile; then the ratio of "
+             "what all steps take together.")
     page.table(["", "paper", "predicted, 32 lanes", "predicted, 64 lanes",
                 "measured on this device", "measured on a GPU"], rows)
     for path in drawn.values():
@@ -76,12 +78,13 @@ def write_lanes(page, parts):
         for name in configurations:
             try:
                 work = page.scenes[scene].work(name + "-count")
+                steps = len(page.scenes[scene].counted_steps(name + "-count"))
             except Missing as missing:
                 page.report(str(missing))
                 continue
             for kernel, sums in work.items():
                 rows.append([f"{scene}: {name}", kernel.replace("_", " ")] +
-                            [f"{sums[column] // sums['steps']:,}" for column in ("items", "units")] +
+                            [f"{sums[column] // steps:,}" for column in ("items", "units")] +
                             [percent(sums["units"] / sums[f"lockstep{n}"], 1) if sums["units"]
                              else "idle" for n in (32, 64)])
     if rows:
@@ -125,42 +128,45 @@ def write_table1(page):
 
 
 def write_table2(page):
-    def share(results, name, buffers):
-        lost, total = results.missed(name, buffers)
+    def share(counts, results):
+        lost, total = counts
         if total == 0:
-            raise Missing(f"'{name}' has no ray in the scene '{results.scene}'")
+            raise Missing(f"nothing was predicted in the scene '{results.scene}'")
         return lost / total
 
-    def shown(name, buffers):
-        return lambda results: percent(share(results, name, buffers), 3)
+    def ignored(name, buffers):
+        return lambda results: [share(results.missed(name + words, buffers), results)
+                                for words in ("-ignore", "-plain-ignore")]
 
-    def reduction(name, buffers):
-        def measure(results):
-            scaled = share(results, name + "-ignore", buffers)
-            plain = share(results, name + "-plain-ignore", buffers)
-            return "nothing was missed" if plain == 0 else percent(1 - scaled / plain, 0)
-        return measure
+    def foreseen(name, buffers):
+        return lambda results: [share(results.foreseen(name, buffers, scaled), results)
+                                for scaled in (True, False)]
 
     rows = []
     for what, scene, papers, name in (
             ("rigid, full and iterative rays", "rigid", PAPER_REDUCTIONS[0], "iterative"),
-            ("rigid and deformable, full, iterative and basic rays", "rigid-deformable",
-             PAPER_REDUCTIONS[1], "iterative-basic"),
-            ("the same with refitted BVHs", "rigid-deformable", None, "iterative"),
+            ("rigid and deformable, full and iterative rays", "rigid-deformable",
+             PAPER_REDUCTIONS[1], "iterative"),
             ("rigid, full rays", "rigid", None, "full")):
-        for of, buffers in (("rays", RAY_BUFFERS), ("all entries", BUFFERS)):
+        for of, shares in (("rays", ignored(name, RAY_BUFFERS)),
+                           ("all entries", ignored(name, BUFFERS)),
+                           ("rays, from true counts", foreseen(name, RAY_BUFFERS))):
+            def reduction(results, shares=shares):
+                scaled, plain = shares(results)
+                return "nothing was lost" if plain == 0 else percent(1 - scaled / plain, 0)
             rows.append([what, of,
-                         percent(papers, 0) if papers and of == "rays" else "not in the paper",
-                         page.cell(scene, reduction(name, buffers)),
-                         page.cell(scene, shown(name + "-ignore", buffers)),
-                         page.cell(scene, shown(name + "-plain-ignore", buffers))])
+                         percent(papers, 0) if papers and of != "all entries"
+                         else "not in the paper",
+                         page.cell(scene, reduction)] +
+                        [page.cell(scene, lambda results, k=k: percent(shares(results)[k], 3))
+                         for k in (0, 1)])
     page.add("## Errors of predictions (table 2)")
     page.add("Misprediction *ignore*, confidence 1.02: what exceeds the prediction of a buffer is "
-             "lost. Share of entries lost over all measured steps, and by how much Eq. 1 (scaled by the "
-             "pairs) has less of it than Eq. 2. Counts like these are the same on any device but "
-             "for the order of appending, which decides what is lost. Rays: the append buffers of rays. All entries: "
+             "lost. Share of entries lost over the whole run, and by how much Eq. 1 (scaled by the "
+             "pairs) has less of it than Eq. 2. *Rays*: the append buffers of rays. *All entries*: "
              "those of chunks, hits and contacts too; a chunk that is lost has no rays that could "
-             "be counted.")
+             "be counted. *From true counts*: what either equation would have lost had the step "
+             "before lost nothing, worked out from the counts of the run that loses nothing.")
     page.table(["", "lost of", "reduction, paper", "reduction, here", "lost, Eq. 1", "lost, Eq. 2"],
                rows)
 
@@ -214,7 +220,7 @@ def write_refit(page):
         rows.append([what, page.cell(scene, measure)])
     page.add("## A refitted BVH against basic rays")
     page.add("Kernel times with basic rays over those with a BVH that is refitted on the device in "
-             "every step, deformation included; the median and the 10th and 90th percentile.")
+             "every step, deformation included, as above.")
     page.table(["", "basic over refit"], rows)
 
 

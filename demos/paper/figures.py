@@ -37,7 +37,7 @@ def smoothed(values):
 
 
 def draw(results, title, slow, fast, papers, path):
-    ratios = results.speed_up(slow, fast)
+    ratios, _ = results.speed_up(slow, fast)
     figure, axes = pyplot.subplots(figsize=(8, 4.6))
     for name, label, colour in ((slow, "without the pipeline", "tab:red"),
                                 (fast, "with the pipeline", "tab:blue")):
@@ -54,9 +54,8 @@ def draw(results, title, slow, fast, papers, path):
     axes.set_ylabel("kernel times of a step, summed [ms]")
     axes.set_ylim(bottom=0)
     axes.margins(x=0)
-    axes.legend(loc="upper left", fontsize=8)
-    axes.text(0.99, 0.03, f"speed-up: {numpy.median(ratios):.2f} here (median of steps), "
-              f"{papers:.2f} in the paper", transform=axes.transAxes, ha="right", fontsize=8)
+    axes.legend(fontsize=8, title_fontsize=8, title=f"speed-up: {numpy.median(ratios):.2f} here "
+                f"(median of steps), {papers:.2f} in the paper")
     figure.text(0.01, 0.01, f"{results.machine['device']}\n{results.machine['command']}",
                 fontsize=6, va="bottom")
     figure.tight_layout(rect=(0, 0.06, 1, 1))

@@ -13,6 +13,7 @@ KERNEL_STAGES = ("deform_step", "pair_step", "vertex_step", "iterative_rays", "b
                  "basic_rays", "monolithic", "contact_step")
 RAY_BUFFERS = ("rays_iterative", "rays_bvh", "rays_basic")
 BUFFERS = ("chunks_small", "chunks_high", "chunks_deformable") + RAY_BUFFERS + ("hits", "contacts")
+PAPER_CONFIDENCE = 1.02  # GRAPP section 5.4
 
 
 class Missing(Exception):
@@ -78,12 +79,12 @@ class Results:
         return [measure(name)[place] for name, place in zip((first, second), places)]
 
     def speed_up(self, slow, fast):
-        """Of each step in which there is a pair to collide."""
+        """Of each step in which there is a pair to collide, and of all of them together."""
         slow_ms, fast_ms = self.both(slow, fast, self.kernel_ms)
         pairs, _ = self.both(slow, fast, lambda name: self.column(name, "pairs"))
         if not (pairs > 0).any():
             raise Missing(f"no step of the scene '{self.scene}' has a pair to collide")
-        return (slow_ms / fast_ms)[pairs > 0]
+        return (slow_ms / fast_ms)[pairs > 0], slow_ms.sum() / fast_ms.sum()
 
     def work(self, configuration):
         """{kernel: {column: sum over the counted steps that were computed once}}."""
@@ -93,8 +94,7 @@ class Results:
                           f"'{configuration}'")
         total = {}
         for row in counted:
-            kernel = total.setdefault(row["kernel"], {"steps": 0})
-            kernel["steps"] += 1
+            kernel = total.setdefault(row["kernel"], {})
             for name in ("items", "units", "lockstep32", "lockstep64"):
                 kernel[name] = kernel.get(name, 0) + int(row[name])
         return total
@@ -112,13 +112,31 @@ class Results:
         return busy[0] / busy[1]
 
     def missed(self, configuration, buffers):
-        """Entries that did not fit, and all entries, of these buffers over the whole run."""
+        """Entries that did not fit, and all entries, of these buffers over all measured steps."""
         lost = total = 0
         for buffer in buffers:
             actual = self.column(configuration, "actual_" + buffer)
             capacity = self.column(configuration, "capacity_" + buffer)
             lost += numpy.maximum(actual - capacity, 0).sum()
             total += actual.sum()
+        return lost, total
+
+    def foreseen(self, configuration, buffers, scaled):
+        """As `missed`, had each step been predicted from the true counts of the one before, by
+        Eq. 1 (scaled) or Eq. 2. Of a configuration that misses nothing."""
+        steps = self.column(configuration, "step")
+        if len(steps) < 2 or (numpy.diff(steps) != 1).any():
+            raise Missing(f"'{configuration}' was not measured in every step of the scene "
+                          f"'{self.scene}'")
+        pairs = self.column(configuration, "pairs_computed")
+        known = pairs[:-1] > 0
+        ratio = pairs[1:][known] / pairs[:-1][known] if scaled else 1
+        lost = total = 0
+        for buffer in buffers:
+            actual = self.column(configuration, "actual_" + buffer)
+            predicted = numpy.ceil(actual[:-1][known] * ratio * PAPER_CONFIDENCE)
+            lost += numpy.maximum(actual[1:][known] - numpy.maximum(predicted, 1), 0).sum()
+            total += actual[1:][known].sum()
         return lost, total
 
 
