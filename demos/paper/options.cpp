@@ -13,6 +13,8 @@ namespace {
 using falling_objects::kExitOk;
 using falling_objects::kExitUsage;
 
+constexpr const char* kDeformableScene = "rigid-deformable";
+
 constexpr const char* kDescription =
     "Measures the library as GRAPP section 5 does. One configuration drives the simulation, all\n"
     "others collide the same poses in the same step. demos/paper/figures.py draws the results.";
@@ -80,11 +82,17 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.footer("paper run --help says more.");
   run->footer(kFooter);
   run->get_formatter()->column_width(34);
-  run->add_option("--scene", scene.scene, "rigid (default): 1,000 objects of four shapes")
-      ->check(CLI::IsMember({"rigid"}));
-  run->add_option("--objects", scene.objects, "How many objects")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  run->add_option("--scene", scene.scene,
+                  "rigid (default): 1,000 objects of four shapes; rigid-deformable: 216 of them, "
+                  "and 36 sheets of cloth that fall on them")
+      ->check(CLI::IsMember({"rigid", kDeformableScene}))
+      ->option_text("rigid|rigid-deformable");
+  const CLI::Option* objects =
+      run->add_option("--objects", scene.objects, "How many objects (default: 1000, or 216)")
+          ->check(CLI::Range(1, 1000000));
+  const CLI::Option* sheets =
+      run->add_option("--sheets", scene.sheets, "How many sheets (default: 0, or 36)")
+          ->check(CLI::Range(1, 1000));
   run->add_option("--steps", scene.steps, "How many steps, 60 a second")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
@@ -102,6 +110,11 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   run->add_flag("--list", o.list, "Print the configurations and stop");
   try {
     app.parse(argc, argv);
+    const bool deformable = scene.scene == kDeformableScene;
+    if (deformable && objects->empty()) scene.objects = 216;
+    if (deformable && sheets->empty()) scene.sheets = 36;
+    if (!deformable && scene.sheets > 0)
+      throw CLI::ValidationError("--sheets", "only with --scene rigid-deformable");
     if (!o.list && directory->count() == 0) throw CLI::RequiredError("--out");
     o.command = command_line(argc, argv);
     choose_configurations(names, driver, o);

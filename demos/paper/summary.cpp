@@ -67,11 +67,17 @@ void print_percent(std::ostream& out, const Json& share) {
 
 Json summarize(const Options& options, const Agreement& agreement,
                const std::vector<Result>& results) {
-  Json json{{"scene", options.scene.scene},    {"objects", options.scene.objects},
-            {"steps", options.scene.steps},    {"hz", options.scene.hz},
-            {"seed", options.scene.seed},      {"every", options.every},
-            {"driver", options.driver.name()}, {"settled_from", settled_from(options.scene.steps)},
-            {"identical", agreement.holds()},  {"verdicts", Json::array()}};
+  Json json{{"scene", options.scene.scene},
+            {"objects", options.scene.objects},
+            {"sheets", options.scene.sheets},
+            {"steps", options.scene.steps},
+            {"hz", options.scene.hz},
+            {"seed", options.scene.seed},
+            {"every", options.every},
+            {"driver", options.driver.name()},
+            {"settled_from", settled_from(options.scene.steps)},
+            {"identical", agreement.holds()},
+            {"verdicts", Json::array()}};
   for (const Verdict& verdict : agreement.verdicts())
     json["verdicts"].push_back(summarize(verdict, results));
   for (const Result& result : results) {

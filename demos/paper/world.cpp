@@ -18,15 +18,25 @@ falling_objects::Scene make_scene(const falling_objects::Options& options) {
 }  // namespace
 
 World::World(const falling_objects::Options& options)
-    : options_(options), scene_(make_scene(options)), joints_(dJointGroupCreate(0)) {}
+    : options_(options), scene_(make_scene(options)), joints_(dJointGroupCreate(0)) {
+  if (options.has_sheets())
+    sheets_ = std::make_unique<falling_objects::Sheets>(static_cast<std::size_t>(options.sheets),
+                                                        options.seed, scene_);
+}
 
 World::~World() { dJointGroupDestroy(joints_); }
 
-void World::introduce(dBatchColliderID) const {}
+void World::introduce(dBatchColliderID collider) const {
+  if (sheets_ != nullptr) sheets_->introduce(collider);
+}
 
-void World::prepare() { dSpaceClean(scene_.space()); }
+void World::prepare() {
+  if (sheets_ != nullptr) sheets_->show(1 / options_.hz);
+  dSpaceClean(scene_.space());
+}
 
 void World::advance(std::span<const dContactGeom> contacts) {
+  if (sheets_ != nullptr) sheets_->step(1 / options_.hz, contacts);
   falling_objects::advance_world(scene_, joints_, contacts, options_.hz);
 }
 

@@ -5,10 +5,12 @@
 #include <ode/ode.h>
 #include <ode_ext/ode_ext.h>
 
+#include <memory>
 #include <span>
 
 #include "falling_objects/options.h"
 #include "falling_objects/scene.h"
+#include "falling_objects/sheets.h"
 
 namespace paper {
 
@@ -23,7 +25,8 @@ class World {
   dSpaceID space() const { return scene_.space(); }
   // What a collider must be told of the scene before its first pass.
   void introduce(dBatchColliderID collider) const;
-  // Before the step's collisions: all boxes are brought up to date, whoever collides first.
+  // Before the step's collisions: sheets show where they are, and all boxes are brought up to date,
+  // whoever collides first.
   void prepare();
   // After them.
   void advance(std::span<const dContactGeom> contacts);
@@ -31,6 +34,7 @@ class World {
  private:
   const falling_objects::Options& options_;
   falling_objects::Scene scene_;
+  std::unique_ptr<falling_objects::Sheets> sheets_;  // null: none
   dJointGroupID joints_;
 };
 

@@ -230,6 +230,13 @@ TEST(PaperOptions, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.command, "paper run --out x");
 }
 
+TEST(PaperOptions, HaveThePapersSecondScene) {
+  const Options o = parse({"run", "--out", "x", "--scene", "rigid-deformable"}).parsed.options;
+  EXPECT_EQ(o.scene.objects, 216);
+  EXPECT_EQ(o.scene.sheets, 36);
+  EXPECT_EQ(o.configurations, default_configurations("rigid-deformable"));
+}
+
 TEST(PaperOptions, AddTheDriverToTheChosenConfigurations) {
   const Options o = parse({"run", "--out", "x", "--configurations", "iterative,full-exact",
                            "--driver", "full-monolithic"})
@@ -250,6 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(std::vector<const char*>{}, std::vector{"walk"}, std::vector{"run"},
                     std::vector{"run", "--out", "x", "--steps", "0"},
                     std::vector{"run", "--out", "x", "--scene", "soft"},
+                    std::vector{"run", "--out", "x", "--sheets", "3"},
                     std::vector{"run", "--out", "x", "--every", "0"},
                     std::vector{"run", "--out", "x", "--configurations", "fast"},
                     std::vector{"run", "--out", "x", "--driver", "full-count"},
@@ -304,6 +312,21 @@ TEST_F(PaperRun, EndsWithTheSameContactsInAllConfigurations) {
   // Six collide in each of 20 steps, the counting one is measured in every fourth.
   EXPECT_EQ(lines("steps.csv").size(), 1u + 20 * 6 + 5);
   EXPECT_GT(lines("work.csv").size(), 2u);
+}
+
+TEST_F(PaperRun, CollidesSheetsToo) {
+  Options options;
+  options.scene.scene = "rigid-deformable";
+  options.scene.objects = 2;
+  options.scene.sheets = 1;
+  options.scene.steps = 4;
+  options.scene.quiet = true;
+  options.every = 4;
+  options.out = folder_;
+  options.configurations = parse_all({"full", "iterative", "iterative-basic"});
+  options.driver = options.configurations[0];
+  EXPECT_EQ(run(options), kExitOk);
+  EXPECT_EQ(read("summary.json")["configurations"]["iterative-basic"]["steps"], 1);
 }
 
 TEST_F(PaperRun, SaysThatItCannotWrite) {
