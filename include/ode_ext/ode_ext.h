@@ -251,12 +251,13 @@ enum {
 };
 
 /**
- * The work of a kernel with params.count_work, in units of about one box test: a vertex looked at,
- * a node visited 1, a triangle tested 2. In lockstep a group of work-items takes as long as its
- * longest, and one branch after the other where they take different ones.
+ * The work of a kernel with params.count_work, in units of about one box test: a node visited and a
+ * place in a task 1 each, a vertex looked at and a triangle tested 2 each. In lockstep a group of
+ * work-items takes as long as its longest, and one branch after the other where they take different
+ * ones.
  */
 typedef struct dBatchWork {
-  long long items;      /**< work-items with input, and those launched in vain beside them */
+  long long items;      /**< work-items that had input */
   long long units;      /**< what they did, all together */
   long long lockstep32; /**< what groups of 32 in lockstep are busy for, times 32 */
   long long lockstep64; /**< the same for groups of 64 */

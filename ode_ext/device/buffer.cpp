@@ -52,6 +52,20 @@ void Buffer::reserve(std::size_t bytes) {
   capacity_ = size;
 }
 
+void Buffer::extend(std::size_t bytes) {
+  if (capacity_ > 0 && bytes <= capacity_) return;
+  const std::size_t old_capacity = std::exchange(capacity_, 0);
+  const MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
+  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
+  memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
+  if (old_capacity != 0)
+    device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
+                                            old_capacity, 0, nullptr, nullptr),
+                        "clEnqueueCopyBuffer");
+  fill_zero(size - old_capacity, old_capacity);
+  capacity_ = size;
+}
+
 void Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
   if (bytes == 0) return;
   device_->check_call(clEnqueueWriteBuffer(device_->queue(), memory_.get(), CL_FALSE, offset, bytes,

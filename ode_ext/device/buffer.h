@@ -21,6 +21,8 @@ class Buffer {
   // 0 bytes), as far as the device's largest buffer allows; never shrinks. Throws DeviceError; the
   // buffer then is empty (capacity 0), not half grown.
   void reserve(std::size_t bytes);
+  // The same, but what was in it stays, and all that is new is 0. Old and new need room at once.
+  void extend(std::size_t bytes);
   std::size_t capacity() const { return capacity_; }  // [bytes]
   cl_mem get() const { return memory_.get(); }
 

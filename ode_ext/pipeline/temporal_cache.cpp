@@ -12,9 +12,6 @@ constexpr std::uint32_t kStepsKept = 8;
 // 16 million chunks: 256 million vertices of all pairs, 256 MiB.
 constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
 
-// The buffers are cleared before it, so nothing in them carries the number of the step before it.
-constexpr std::uint32_t kFirstStep = 2;
-
 constexpr std::size_t kPoseBytes = 2 * sizeof(ox_relative_pose);
 constexpr std::size_t kEntryBytes = 2 * sizeof(ox_directory_entry);
 
@@ -34,8 +31,8 @@ TemporalCache::TemporalCache(Device& device)
       poses_(device),
       directory_(device),
       blocks_{Buffer(device), Buffer(device)} {
-  poses_.reserve(kPoseBytes);
-  directory_.reserve(kEntryBytes);
+  poses_.extend(kPoseBytes);
+  directory_.extend(kEntryBytes);
   reserve_blocks(1);
 }
 
@@ -51,7 +48,8 @@ void TemporalCache::begin(const Scene& scene) {
   host_links_.clear();
   for (const auto& pair : scene.pairs) host_links_.push_back(link(scene, pair));
   evict();
-  grow();
+  poses_.extend(slot_count_ * kPoseBytes);
+  directory_.extend(entry_count_ * kEntryBytes);
   upload();
 }
 
@@ -125,18 +123,6 @@ void TemporalCache::evict() {
   }
 }
 
-// A buffer that grows loses what was in it: every pair then starts anew.
-void TemporalCache::grow() {
-  const std::size_t poses = slot_count_ * kPoseBytes;
-  const std::size_t entries = entry_count_ * kEntryBytes;
-  if (poses <= poses_.capacity() && entries <= directory_.capacity() && step_ != kFirstStep) return;
-  poses_.reserve(poses);
-  directory_.reserve(entries);
-  poses_.fill_zero(poses_.capacity());
-  directory_.fill_zero(directory_.capacity());
-  for (ox_link& link : host_links_) link.known = 0;
-}
-
 void TemporalCache::reserve_blocks(std::uint64_t tasks) {
   blocks_[step_ & 1].reserve(tasks * OX_CHUNK_VERTICES * sizeof(ox_temporal));
   blocks_[1 - (step_ & 1)].reserve(sizeof(ox_temporal));
@@ -146,7 +132,10 @@ void TemporalCache::clear() {
   slots_.clear();
   free_.clear();
   slot_count_ = entry_count_ = 0;
-  step_ = kFirstStep - 1;
+  step_ = 1;
+  // What carries a number must not be taken for what a new step of that number wrote.
+  poses_.fill_zero(poses_.capacity());
+  directory_.fill_zero(directory_.capacity());
 }
 
 }  // namespace ode_ext

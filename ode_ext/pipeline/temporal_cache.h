@@ -68,7 +68,6 @@ class TemporalCache {
   bool place(std::uint32_t chunks, Place& place);
   void release(const Slot& slot, std::uint32_t ready);
   void evict();
-  void grow();
   void upload();
 
   Device* device_;
@@ -76,7 +75,7 @@ class TemporalCache {
   std::unordered_map<std::uint32_t, std::vector<Free>> free_;  // by the number of chunks
   std::uint32_t slot_count_ = 0;
   std::uint32_t entry_count_ = 0;
-  std::uint32_t step_ = 1;
+  std::uint32_t step_ = 1;  // 0 is in memory that nobody has written to
   std::vector<ox_link> host_links_;
   Buffer links_, poses_, directory_;
   std::array<Buffer, 2> blocks_;

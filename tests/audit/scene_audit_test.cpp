@@ -21,7 +21,8 @@ class SceneAuditTest : public ::testing::Test {
     scene_ = std::make_unique<falling_objects::Scene>(falling_objects::make_shapes(), options_,
                                                       warnings);
     collision_ = std::make_unique<falling_objects::Collision>(options_, scene_->space());
-    simulation_ = std::make_unique<falling_objects::Simulation>(options_, *scene_, *collision_);
+    simulation_ =
+        std::make_unique<falling_objects::Simulation>(options_, *scene_, *collision_, nullptr);
   }
   ~SceneAuditTest() override {
     simulation_.reset();

@@ -64,6 +64,26 @@ TEST(Buffer, ReadsWhatWasWrittenAtAnyOffset) {
   }
 }
 
+TEST(Buffer, KeepsWhatIsInItWhereItIsExtendedAndTheRestIsZero) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.extend(1);
+  std::vector<unsigned char> bytes(buffer.capacity(), 1);
+  buffer.read(bytes.data(), bytes.size());
+  device.finish();
+  EXPECT_EQ(bytes, std::vector<unsigned char>(bytes.size(), 0));
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i % 251 + 1);
+  buffer.write(bytes.data(), bytes.size());
+  const std::size_t before = buffer.capacity();
+  buffer.extend(before + 1);
+  ASSERT_GT(buffer.capacity(), before);
+  std::vector<unsigned char> extended(buffer.capacity(), 1);
+  buffer.read(extended.data(), extended.size());
+  device.finish();
+  bytes.resize(extended.size(), 0);
+  EXPECT_EQ(extended, bytes);
+}
+
 TEST(Buffer, FillsExactlyTheBytesAskedForWithZero) {
   Device device("");
   Buffer buffer(device);
