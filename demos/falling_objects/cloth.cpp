@@ -63,11 +63,14 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
   const double h = dt / kSmallSteps;
   const double kept = std::exp(-kDrag * h);
   start_ = positions_;
-  start_depths_.clear();
+  planes_.clear();
   bool woken = false;
   for (ClothContact& contact : contacts) {
-    const Vector x = positions_[contact.vertex] + dt * contact.velocity;
-    start_depths_.push_back(std::min(0.0, dot(contact.normal, x) - contact.offset));
+    const double speed = dot(contact.normal, contact.velocity);
+    const double height =
+        dot(contact.normal, positions_[contact.vertex]) + dt * speed - contact.offset;
+    planes_.push_back(
+        {contact.normal, contact.offset, speed, std::min(0.0, height), contact.vertex});
     contact.impulse = {};
     woken = woken || contact.wakes;
   }
@@ -80,7 +83,10 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
     }
     solve_distances();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      solve_contact(contacts[i], start_depths_[i], small * h, dt - small * h, h);
+      const Plane& plane = planes_[i];
+      const double level = plane.offset - (dt - small * h) * plane.speed +
+                           std::min(0.0, plane.start + kRise * small * h);
+      if (dot(plane.normal, positions_[plane.vertex]) < level) solve_contact(contacts[i], level, h);
     }
     hold_pins();
     for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -129,18 +135,15 @@ void Cloth::solve_links(unsigned columns, unsigned rows, int across, int along, 
   hold_pins();
 }
 
-void Cloth::solve_contact(ClothContact& contact, double start, double elapsed, double left,
-                          double h) {
+// `level`: where the plane is now.
+void Cloth::solve_contact(ClothContact& contact, double level, double h) {
   Vector& x = positions_[contact.vertex];
   Vector& before = previous_[contact.vertex];
-  const double plane = contact.offset - left * dot(contact.normal, contact.velocity) +
-                       std::min(0.0, start + kRise * elapsed);
-  const double correction = plane - dot(contact.normal, x);
-  if (correction <= 0) return;
+  const double correction = level - dot(contact.normal, x);
   x = x + correction * contact.normal;
   // What was below before this small step is lifted, not thrown.
   const double lifted =
-      std::clamp(plane - h * dot(contact.normal, contact.velocity) - dot(contact.normal, before),
+      std::clamp(level - h * dot(contact.normal, contact.velocity) - dot(contact.normal, before),
                  0.0, correction);
   before = before + lifted * contact.normal;
   const double pressed = correction - lifted;

@@ -59,7 +59,7 @@ class Cloth {
  private:
   void solve_distances();
   void solve_links(unsigned columns, unsigned rows, int across, int along, double stiffness);
-  void solve_contact(ClothContact& contact, double start, double elapsed, double left, double h);
+  void solve_contact(ClothContact& contact, double level, double h);
   void hold_pins();
   void wake();
   void settle(double dt);
@@ -71,7 +71,15 @@ class Cloth {
   std::vector<Vector> positions_, velocities_;
   std::vector<Vector> start_;     // positions when the step began
   std::vector<Vector> previous_;  // ... when the small step began
-  std::vector<double> start_depths_;
+  // Of a contact what it takes to see that nothing is to be done, which is what it mostly takes.
+  struct Plane {
+    Vector normal;
+    double offset;
+    double speed;  // along the normal [m/s]
+    double start;  // height of the vertex above it as the step begins if that is negative, else 0
+    std::uint32_t vertex;
+  };
+  std::vector<Plane> planes_;
   std::vector<Vector> last_ways_;  // that each vertex would have made in the last step
   double mean_speed_ = 0;          // [m/s]
   double calm_time_ = 0;           // [s] for which the sheet has been at rest as a whole

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "falling_objects/sheet.h"
+
 // ODE's own trimesh-trimesh collider. The batch collider replaces it in the whole process; to time
 // both in one run it is called by its exported (C++) name. Weak: an ODE built otherwise has none.
 extern "C" int ode_trimesh_trimesh(dGeomID o1, dGeomID o2, int flags, dContactGeom* contacts,
@@ -43,6 +45,7 @@ Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   params.workload = options.workload;
   params.prediction = options.prediction;
   params.trust_meshes = options.trust_meshes;
+  if (options.has_sheets()) params.open_thickness = kSheetReach;
   if (options.confidence > 0) params.confidence = static_cast<dReal>(options.confidence);
   batch_ = dBatchColliderCreate(&params);
   if (batch_ == nullptr) throw NoDevice{dBatchColliderGetLastErrorMessage()};

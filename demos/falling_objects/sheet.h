@@ -23,6 +23,10 @@ inline constexpr double kSheetSpacing = kSheetSize / kSheetQuads;
 // are stretched or pressed in a little.
 inline constexpr double kSheetMargin = 0.65 * kSheetSpacing;
 
+// How near two sheets see each other [m]. A sheet that falls on another at 1.6 m/s moves by 27 mm
+// in a step: it is seen at least once from one side or the other.
+inline constexpr double kSheetReach = 0.016;
+
 class Sheet {
  public:
   // Its geom has no body: impulses on it are the cloth's own business.
