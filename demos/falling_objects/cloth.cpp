@@ -26,9 +26,9 @@ constexpr double kRestSpeed = 0.03;
 // Contacts come and go from step to step, and a vertex between two of them would swing from one to
 // the other for ever. One that turns back in a step moves by half of what it would in the next, and
 // so on; one that does not gets a quarter of it back in every step, all of it within 0.3 s. A sheet
-// that is at rest as a whole gives back a fiftieth only, so that all swinging ends, until what it
-// lies on moves and wakes it.
-constexpr double kTurnedBack = 0.5, kWentOn = 1.25, kCreptOn = 1.02, kLeastEagerness = 1.0 / 64;
+// that is at rest as a whole gives nothing back, so that all swinging ends, until it is woken: when
+// what it lies on moves, or half of what it lay on is gone.
+constexpr double kTurnedBack = 0.5, kWentOn = 1.25, kLeastEagerness = 1.0 / 64;
 constexpr double kCalmSpeed = 0.05;  // [m/s] mean of a sheet that is at rest as a whole
 constexpr double kCalmAfter = 0.5;   // [s]
 
@@ -74,7 +74,7 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
     contact.impulse = {};
     woken = woken || contact.wakes;
   }
-  if (woken) wake();
+  if (woken || 2 * contacts.size() < calm_contacts_) wake();
   for (int small = 1; small <= kSmallSteps; ++small) {
     previous_ = positions_;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -162,11 +162,12 @@ void Cloth::hold_pins() {
 
 void Cloth::wake() {
   calm_time_ = 0;
+  calm_contacts_ = 0;
   std::fill(eagerness_.begin(), eagerness_.end(), 1.0);
 }
 
 void Cloth::settle(double dt) {
-  const double went_on = calm_time_ >= kCalmAfter ? kCreptOn : kWentOn;
+  const double went_on = calm_time_ >= kCalmAfter ? 1 : kWentOn;
   double sum = 0;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     const Vector way = positions_[i] - start_[i];
@@ -182,6 +183,7 @@ void Cloth::settle(double dt) {
   }
   mean_speed_ = sum / static_cast<double>(positions_.size()) / dt;
   calm_time_ = mean_speed_ < kCalmSpeed ? calm_time_ + dt : 0;
+  if (calm_time_ >= kCalmAfter) calm_contacts_ = std::max(calm_contacts_, planes_.size());
 }
 
 double Cloth::fastest(double dt) const {

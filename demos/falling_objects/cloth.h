@@ -83,6 +83,7 @@ class Cloth {
   std::vector<Vector> last_ways_;  // that each vertex would have made in the last step
   double mean_speed_ = 0;          // [m/s]
   double calm_time_ = 0;           // [s] for which the sheet has been at rest as a whole
+  std::size_t calm_contacts_ = 0;  // the most that it had while it was
   std::vector<double> eagerness_;  // what share of its way each makes, 0 to 1
   std::vector<std::size_t> pinned_;
 };

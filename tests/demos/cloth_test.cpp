@@ -131,6 +131,30 @@ TEST(Cloth, LeavesAPlaneThatFallsAwayFromIt) {
   EXPECT_LT(cloth.positions()[0].z, -0.2);
 }
 
+// Contacts that contradict each other from step to step, as those of neighbouring faces do.
+TEST(Cloth, StopsSwingingBetweenTwoPlanesAndFallsWhenBothAreGone) {
+  Cloth cloth = make_cloth(0.1);
+  const auto tilted = [&](int step) {
+    std::vector<ClothContact> planes = on_plane(cloth, 0.1);
+    for (ClothContact& plane : planes) {
+      plane.normal = unit(Vector{step % 2 == 0 ? 1.0 : -1.0, 0, 1});
+      plane.offset = dot(plane.normal, cloth.positions()[plane.vertex]) + 0.005;
+    }
+    return planes;
+  };
+  double fastest_at_first = 0;
+  for (int i = 0; i < 120; ++i) {
+    std::vector<ClothContact> planes = tilted(i);
+    cloth.step(kStep, planes);
+    if (i < 5) fastest_at_first = std::max(fastest_at_first, cloth.fastest(kStep));
+  }
+  EXPECT_GT(fastest_at_first, 0.1);
+  ASSERT_LT(cloth.fastest(kStep), 0.05);
+  const double height = cloth.positions()[0].z;
+  for (int i = 0; i < 30; ++i) cloth.step(kStep, {});
+  EXPECT_LT(cloth.positions()[0].z, height - 0.2);
+}
+
 TEST(Cloth, IsLiftedSlowlyAndNotThrownByAPlaneItIsBelow) {
   Cloth cloth = make_cloth(-0.02);
   double highest = -1;
