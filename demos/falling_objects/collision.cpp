@@ -44,6 +44,10 @@ Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   params.max_contacts = options.max_contacts;
   params.workload = options.workload;
   params.prediction = options.prediction;
+  params.rays = options.rays;
+  params.organisation = options.organisation;
+  params.deformable_target = options.deformable_target;
+  params.misprediction = options.misprediction;
   params.trust_meshes = options.trust_meshes;
   if (options.has_sheets()) params.open_thickness = kSheetReach;
   if (options.confidence > 0) params.confidence = static_cast<dReal>(options.confidence);
@@ -59,9 +63,12 @@ double Collision::collide(Collider collider, ContactList& contacts) {
   dSpaceClean(space_);
   const auto start = std::chrono::steady_clock::now();
   if (collider == Collider::kBatch) {
-    if (dBatchColliderSpaceCollide(batch_, space_, &contacts, &near_batched) < 0) {
-      throw std::runtime_error(dBatchColliderGetLastErrorMessage());
+    // 0: nothing was delivered, and there is more room now (--misprediction backtrack).
+    int result = 0;
+    while (result == 0) {
+      result = dBatchColliderSpaceCollide(batch_, space_, &contacts, &near_batched);
     }
+    if (result < 0) throw std::runtime_error(dBatchColliderGetLastErrorMessage());
   } else {
     dSpaceCollide(space_, &contacts, &near_stock);
   }

@@ -29,9 +29,9 @@ TEXT = (
     "**Iterative rays are exact.** Where the triangle met by walking cannot be proven to be the "
     "first one, the ray is cast by the BVH as well. The paper believes it, and drops vertices "
     "without temporal data; that rule is measured beside (`iterative-paper`).",
-    "**Temporal data** is kept by pair. Whenever its memory grows all of it is void for one step, in "
-    "which every ray is cast in full: rare once the pile is complete, but it puts spikes into "
-    "figure 6b and upsets the predictions behind table 2.",
+    "**Temporal data** is kept by pair, on the device; up to commit 1c67fba all of it was void for "
+    "one step whenever its memory grew, while the pile formed. Results of that commit have spikes "
+    "there in figure 6b, and their table 2 counts what the predictions then missed.",
     "**Small displacement** is decided per pair and by the mean edge length of the target "
     "(`displacement_limit`); the paper gives no threshold.",
     "**Contacts.** An open surface, a grazing hit and a vertex on the surface have rules that are "

@@ -38,6 +38,10 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.collider, Collider::kBatch);
   EXPECT_EQ(o.max_contacts, 16);
   EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
+  EXPECT_EQ(o.rays, dBatchRaysIterative);
+  EXPECT_EQ(o.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(o.deformable_target, dBatchDeformableRefit);
+  EXPECT_EQ(o.misprediction, dBatchMispredictionRedo);
   EXPECT_EQ(o.prediction, dBatchPredictionPairScaled);
 }
 
@@ -64,6 +68,19 @@ TEST(Options, TakeEveryNameForItsValue) {
   EXPECT_TRUE(o.compare);
   EXPECT_TRUE(o.check_rest);
   EXPECT_FALSE(o.check);
+}
+
+TEST(Options, NameEveryModeOfTheCollider) {
+  const Options o = parse({"--rays", "iterative-paper", "--organisation", "monolithic",
+                           "--deformable-target", "basic", "--misprediction", "backtrack"})
+                        .parsed.options;
+  EXPECT_EQ(o.rays, dBatchRaysIterativePaper);
+  EXPECT_EQ(o.organisation, dBatchOrganisationMonolithic);
+  EXPECT_EQ(o.deformable_target, dBatchDeformableBasic);
+  EXPECT_EQ(o.misprediction, dBatchMispredictionBacktrack);
+  EXPECT_EQ(parse({"--rays", "full"}).parsed.options.rays, dBatchRaysFull);
+  EXPECT_EQ(parse({"--misprediction", "ignore"}).parsed.options.misprediction,
+            dBatchMispredictionIgnore);
 }
 
 TEST(Options, CollectRepeatedMeshes) {
