@@ -111,6 +111,7 @@ def main():
         except Missing as missing:
             report(f"{name} is not drawn: {missing}")
     text = document.write(parts, scenes, gpu, drawn, report)
+    os.makedirs(os.path.dirname(arguments.doc) or ".", exist_ok=True)
     with open(arguments.doc, "w") as file:
         file.write(text)
     print(arguments.doc)
