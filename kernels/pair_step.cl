@@ -121,8 +121,10 @@ static void ox_store_pose(__global const ox_pair* pair, uint step,
 static uint ox_category(__global const ox_pair* pair, uint side, __global const ox_mesh* source,
                         __global const ox_mesh* target, float displacement_limit) {
   if (((source->flags | target->flags) & OX_MESH_DEFORMABLE) != 0u) return OX_CATEGORY_DEFORMABLE;
-  return pair->displacement[side] <= displacement_limit * target->mean_edge ? OX_CATEGORY_SMALL
-                                                                            : OX_CATEGORY_HIGH;
+  const float displacement = pair->displacement[side];  // infinite: not known
+  return displacement < INFINITY && displacement <= displacement_limit * target->mean_edge
+             ? OX_CATEGORY_SMALL
+             : OX_CATEGORY_HIGH;
 }
 
 // dense: null, or per pair the place of its first chunk among those of all pairs. Then a task is
@@ -147,7 +149,8 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     __global const ox_object* b = objects + pair_objects[2u * p + 1u];
     __global const ox_mesh* mesh_a = meshes + a->mesh;
     __global const ox_mesh* mesh_b = meshes + b->mesh;
-    if (mesh_a->chunk_count == 0u || mesh_b->chunk_count == 0u) continue;
+    const bool empty = mesh_a->chunk_count == 0u || mesh_b->chunk_count == 0u;
+    if (empty && is_dense == 0u) continue;
 
     __global ox_pair* pair = pairs + p;
     ox_relate(a, b, pair);
@@ -163,7 +166,7 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     // those of an open one that meet another may leave its box.
     const bool both_open = ((mesh_a->flags | mesh_b->flags) & OX_MESH_CLOSED) == 0u;
     const float reach = both_open ? ox_max(mesh_a->reach, mesh_b->reach) : 0.0f;
-    const bool bounded = ox_boxes_overlap(pair, mesh_a, mesh_b, epsilon + reach);
+    const bool bounded = !empty && ox_boxes_overlap(pair, mesh_a, mesh_b, epsilon + reach);
     __global const ox_link* link = links + p;
     const bool remembered = link->slot != OX_NONE;
     bool known = false;

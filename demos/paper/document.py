@@ -251,6 +251,8 @@ def write_machine(page):
                  f"measured in every {s['every']}th step. Device {m['device']} ({m['device_type']}), {m['platform']} "
                  f"{m['driver']}, {m['opencl']}; {m['cpu']}, {m['cores']} cores; {m['compiler']}, "
                  f"{m['build_type']}, commit {m['commit']}, {m['date']}.")
+        if results.note:
+            page.add(results.note)
 
 
 def write(parts, scenes, gpu, drawn, report):

@@ -39,7 +39,8 @@ def _json(path):
 
 
 class Results:
-    """One scene: a folder with steps.csv, work.csv, machine.json and summary.json."""
+    """One scene: a folder with steps.csv, work.csv, machine.json and summary.json, and perhaps a
+    note.txt: what whoever ran it has to say of the run."""
 
     def __init__(self, folder):
         self.scene = os.path.basename(os.path.normpath(folder))
@@ -51,6 +52,11 @@ class Results:
             self._work.setdefault(row["configuration"], []).append(row)
         self.machine = _json(os.path.join(folder, "machine.json"))
         self.summary = _json(os.path.join(folder, "summary.json"))
+        self.note = ""
+        note = os.path.join(folder, "note.txt")
+        if os.path.exists(note):
+            with open(note) as file:
+                self.note = " ".join(file.read().split())
 
     def require(self, *configurations):
         for name in configurations:

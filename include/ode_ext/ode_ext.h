@@ -39,14 +39,16 @@ extern "C" {
 /** Handle of a collider. 0 is "none": the collide functions then do what plain ODE does. */
 typedef struct dxBatchCollider *dBatchColliderID;
 
-/** How many work-groups a kernel is launched with (GRAPP section 4.2). Never changes a result. */
+/** How many work-groups a kernel is launched with (GRAPP section 4.2). Never changes a result but
+    what dBatchMispredictionIgnore loses. */
 enum {
   dBatchWorkloadPredicted =
       0,                  /**< predicted from the last pass; one read-back per pass (default) */
   dBatchWorkloadExact = 1 /**< the counter is read back before every launch */
 };
 
-/** How workloads and buffer sizes are predicted (GRAPP section 4.1). Never changes a result. */
+/** How workloads and buffer sizes are predicted (GRAPP section 4.1). Never changes a result but
+    what dBatchMispredictionIgnore loses and when dBatchMispredictionBacktrack delivers nothing. */
 enum {
   dBatchPredictionPairScaled = 0, /**< Eq. 1: last count * pairs now / pairs then * confidence */
   dBatchPredictionPlain = 1       /**< Eq. 2: last count * confidence */
@@ -62,13 +64,15 @@ enum {
                                   Misses contacts */
 };
 
-/** How rays at a deformable mesh are cast. Both give the same bytes. */
+/** How rays at a deformable mesh are cast. Both give the same bytes, unless rays are the paper's or
+    mispredictions are ignored. */
 enum {
   dBatchDeformableRefit = 0, /**< through a BVH refitted on the device in every pass (default) */
   dBatchDeformableBasic = 1  /**< against every triangle, as the paper */
 };
 
-/** How the work is cut into kernels. Both give the same bytes. */
+/** How the work is cut into kernels. Both give the same bytes, unless mispredictions are
+    ignored. */
 enum {
   dBatchOrganisationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
                                       between (default) */
@@ -98,7 +102,8 @@ typedef struct dBatchColliderParams {
   int trust_meshes;      /**< nonzero: meshes change only where the program says so through
                                 dBatchColliderTriMeshDataUpdate / ...Destroyed; saves hashing every
                                 mesh in every pass (default 0) */
-  dReal confidence;      /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only */
+  dReal confidence;      /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only,
+                                unless `misprediction` is not redo */
   dReal open_thickness;  /**< [m] how far below an open surface it is solid; 0 (default): the mean
                                 edge length of the mesh */
   int work_group_size;   /**< work-items per work-group, 1..device limit; 0 (default): 64 */
@@ -184,6 +189,8 @@ ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTri
  * ODE takes the bounding box of a mesh when it is built, and never again: build a mesh that will
  * move with two vertices at the corners of a box that holds every shape it can take, put them back,
  * and call dGeomTriMeshDataUpdate (dBatchStatusMeshLeftBox says when that box was too small).
+ * The mark goes by the handle: announce it with dBatchColliderTriMeshDataDestroyed when the mesh is
+ * destroyed, or another that gets its address has it too.
  */
 ODE_EXT_API void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider,
                                                         dTriMeshDataID data, int deformable);

@@ -70,7 +70,7 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
     // dropped it counts from the last time the vertex was cast in full.
     float moved = ox_displacement(pair, side, target, vertex);
     if (paper) moved += before.moved;
-    small = moved <= displacement_limit * target->mean_edge;
+    small = moved < INFINITY && moved <= displacement_limit * target->mean_edge;
     if (choice.memory != OX_NONE) temporal[choice.memory].moved = small ? moved : 0.0f;
   }
   if (small) choice.triangle = before.triangle;

@@ -123,6 +123,9 @@ static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const 
     // A crossing at the vertex itself is a matter of touching, one on an edge of which triangle; an
     // entry behind it proves the vertex inside, but not where it leaves.
     if (fabs(t) <= epsilon || !crossing.interior || (!back && t < 0.0f)) return false;
+    // Outside, but so close to the surface that rays in other directions might start on it.
+    const float slope = ox_dot(direction, vload3(0, triangles[crossing.triangle].normal));
+    if (t < 0.0f && fabs(t * slope) <= epsilon) return false;
     const float3 hit = ray->origin + t * direction;
     if (!ox_alone_between(triangles + crossing.triangle, isolations + crossing.triangle, direction,
                           ray->origin, hit, epsilon))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -132,7 +133,8 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   options.max_contacts_deformable = static_cast<std::uint32_t>(p.max_contacts_deformable);
   if (p.walk_limit != 0) options.walk_limit = static_cast<std::uint32_t>(p.walk_limit);
   if (p.displacement_limit > 0)
-    options.displacement_limit = static_cast<float>(p.displacement_limit);
+    options.displacement_limit = static_cast<float>(
+        std::min<dReal>(p.displacement_limit, std::numeric_limits<float>::max()));
   options.count_work = p.count_work != 0;
   if (p.work_group_size != 0)
     options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);

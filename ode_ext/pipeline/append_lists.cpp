@@ -32,29 +32,35 @@ void AppendLists::reserve(const ArrowCounts& counts) {
   for (std::size_t i = 0; i < kArrowCount; ++i)
     if (counts[i] > capacities_[i])
       capacities_[i] = std::min(counts[i] + counts[i] / 4, std::max(kMostRecords, counts[i]));
-  lay_out();
+  reserve_buffers();
 }
 
 void AppendLists::limit(const ArrowCounts& counts) {
   capacities_ = counts;
-  lay_out();
+  reserve_buffers();
 }
 
-void AppendLists::lay_out() {
+AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
   const auto after = [&](Arrow first, Arrow last) {
     std::uint64_t end = 0;
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
-      host_lists_[i] = {static_cast<ox_u32>(end), static_cast<ox_u32>(capacities_[i])};
-      end += capacities_[i];
+      host_lists_[i] = {static_cast<ox_u32>(end), static_cast<ox_u32>(room[i])};
+      end += room[i];
     }
     return end;
   };
-  tasks_.reserve(after(Arrow::kChunksSmall, Arrow::kChunksDeformable) * sizeof(ox_chunk_task));
-  rays_.reserve(after(Arrow::kRaysIterative, Arrow::kRaysBasic) * sizeof(ox_ray));
-  const std::uint64_t hits = after(Arrow::kHits, Arrow::kHits);
-  hits_.reserve(hits * sizeof(ox_hit));
-  candidates_.reserve(hits * sizeof(ox_candidate));
-  contacts_.reserve(after(Arrow::kContacts, Arrow::kContacts) * sizeof(ox_contact));
+  return {after(Arrow::kChunksSmall, Arrow::kChunksDeformable),
+          after(Arrow::kRaysIterative, Arrow::kRaysBasic), after(Arrow::kHits, Arrow::kHits),
+          after(Arrow::kContacts, Arrow::kContacts)};
+}
+
+void AppendLists::reserve_buffers() {
+  const Ends ends = lay_out(capacities_);
+  tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
+  rays_.reserve(ends.rays * sizeof(ox_ray));
+  hits_.reserve(ends.hits * sizeof(ox_hit));
+  candidates_.reserve(ends.hits * sizeof(ox_candidate));
+  contacts_.reserve(ends.contacts * sizeof(ox_contact));
 }
 
 bool AppendLists::overflowed(const ArrowCounts& counts) const {
@@ -68,7 +74,10 @@ std::uint64_t AppendLists::task_capacity() const {
          host_lists_[OX_LIST_CHUNKS_DEFORMABLE].capacity;
 }
 
-void AppendLists::begin() {
+void AppendLists::begin(const ArrowCounts& most) {
+  ArrowCounts room{};
+  for (std::size_t i = 0; i < kArrowCount; ++i) room[i] = std::min(capacities_[i], most[i]);
+  lay_out(room);
   counters_.fill_zero(kCounterBytes);
   lists_.write(host_lists_.data(), sizeof(host_lists_));
 }

@@ -27,11 +27,12 @@ class AppendLists {
     return host_lists_[static_cast<std::size_t>(list)].first;
   }
   bool overflowed(const ArrowCounts& counts) const;
-  // Records of all chunk lists together; their indices are below that.
+  // Records of all chunk lists of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
 
-  // Before a step: counters at zero, lists as reserved.
-  void begin();
+  // Before a step: counters at zero, lists as reserved, but none with more room than the step can
+  // `most` fill, so that the places of small steps are small numbers.
+  void begin(const ArrowCounts& most);
   // Enqueues the read of all counters into `target`.
   static constexpr std::size_t kCounterBytes =
       OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
@@ -46,7 +47,12 @@ class AppendLists {
   const Buffer& contacts() const { return contacts_; }
 
  private:
-  void lay_out();
+  // Lists of one kind beside one another, each with this room; the ends of their buffers.
+  struct Ends {
+    std::uint64_t tasks, rays, hits, contacts;
+  };
+  Ends lay_out(const ArrowCounts& room);
+  void reserve_buffers();
 
   ArrowCounts capacities_{};
   std::array<ox_list, kArrowCount> host_lists_{};

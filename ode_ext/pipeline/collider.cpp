@@ -78,6 +78,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   misprediction_ = has_history ? options_.misprediction : Misprediction::kRedo;
   const std::vector<Tile> tiles = cut_into_tiles(scene, options_.tile_vertices);
   temporal_ = &nothing_;
+  memory_ = memory;
   try {
     meshes_.set(scene.meshes);
     deforms_ = std::any_of(scene.meshes.begin(), scene.meshes.end(),
@@ -95,7 +96,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
     }
     for (const Tile tile : tiles)
       collide_tile(scene, tile, share(predicted, tile.count, scene.pairs.size()));
-  } catch (const DeviceError&) {
+  } catch (...) {
     // Whatever is still in flight must not write into memory that the next step reuses.
     try {
       device_.finish();
@@ -103,7 +104,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
     }
     take_kernel_times();  // of what ran; the next step starts afresh
     meshes_.forget();
-    if (memory != nullptr) memory->temporal.reset();
+    forget_temporal_data();
     throw;
   }
 
@@ -118,8 +119,15 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   return result_;
 }
 
+// What this step has left there may be half written: nobody is to start from it.
+void Collider::forget_temporal_data() {
+  temporal_ = &nothing_;
+  if (memory_ != nullptr) memory_->temporal.reset();
+}
+
 void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& expected) {
   ArrowCounts actual;
+  const auto work = report_.work;
   // A prediction may be as far off as it likes: it costs no more than the worst case would.
   const ArrowCounts most = most_records(scene, tile, options_);
   ArrowCounts predicted{};
@@ -128,24 +136,31 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
     ArrowCounts needed = predicted;
     for (;;) {
       reserve(needed);
-      actual = run_tile(scene, tile, predicted);
-      if (may_lose() || !lists_.overflowed(actual)) break;
+      actual = run_tile(scene, tile, predicted, most);
+      if (may_lose() || !lists_.overflowed(stored(actual))) break;
       // What comes after a list that overflowed has not seen everything, so its count is only a
       // lower bound and may overflow in the next round; each round mends at least one list.
-      for (std::size_t i = 0; i < kArrowCount; ++i) needed[i] = std::max(needed[i], actual[i]);
-      if (misprediction_ == Misprediction::kBacktrack) {
-        reserve(needed);
+      const ArrowCounts counts = stored(actual);
+      for (std::size_t i = 0; i < kArrowCount; ++i) needed[i] = std::max(needed[i], counts[i]);
+      report_.work = work;
+      // To backtrack, the true counts have to be known: it is run again, for them alone.
+      if (misprediction_ == Misprediction::kBacktrack)
         report_.backtracked = true;
-        break;
-      }
-      ++report_.redone;
+      else
+        ++report_.redone;
     }
   } catch (const DeviceError& error) {
-    if (tile.count < 2 || !is_out_of_memory(error.code())) throw;
-    // It does not fit: halves might, without temporal data.
-    const std::size_t half = tile.count / 2;
+    const bool remembered = remembers();
+    if (!is_out_of_memory(error.code()) || (tile.count < 2 && !remembered)) throw;
+    // It does not fit: it might without temporal data, or in halves.
     ++report_.redone;
-    temporal_ = &nothing_;
+    report_.work = work;
+    if (remembered) forget_temporal_data();
+    if (tile.count < 2) {
+      collide_tile(scene, tile, predicted);
+      return;
+    }
+    const std::size_t half = tile.count / 2;
     collide_tile(scene, {tile.first, half}, share(predicted, half, tile.count));
     collide_tile(scene, {tile.first + half, tile.count - half},
                  share(predicted, tile.count - half, tile.count));
@@ -153,7 +168,7 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
   }
   for (std::size_t i = 0; i < kArrowCount; ++i) {
     report_.actual[i] += actual[i];
-    if (may_lose() && actual[i] > lists_.capacities()[i])
+    if (may_lose() && stored(actual)[i] > lists_.capacities()[i])
       report_.missed += actual[i] - lists_.capacities()[i];
   }
   if (report_.backtracked) {
@@ -171,9 +186,10 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
 
 // GRAPP figure 1, top to bottom. Between the first launch and the last read-back nobody waits,
 // unless the exact workload is asked for.
-ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted) {
+ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted,
+                               const ArrowCounts& most) {
+  lists_.begin(most);
   upload(scene, tile);
-  lists_.begin();
   const bool dense = options_.organisation == Organisation::kMonolithic;
   steps_.pair.run(launch_for(tile.count), lists_, meshes_, pairs_, *temporal_, settings_, dense);
   if (dense)
@@ -229,7 +245,7 @@ ArrowCounts Collider::read_back(Tile tile, const ArrowCounts& predicted) {
   const ox_u32* counters = wait_for_counters();
   ArrowCounts actual{};
   for (std::size_t i = 0; i < kArrowCount; ++i) actual[i] = counters[i * OX_COUNTER_STRIDE];
-  if (lists_.overflowed(actual) && !may_lose()) return actual;
+  if (lists_.overflowed(stored(actual)) && !may_lose()) return actual;
   report_.pairs_bounded += counters[OX_COUNTER_BOUNDED * OX_COUNTER_STRIDE];
   report_.unproven += counters[OX_COUNTER_UNPROVEN * OX_COUNTER_STRIDE];
   report_.dropped += counters[OX_COUNTER_DROPPED * OX_COUNTER_STRIDE];
@@ -239,6 +255,15 @@ ArrowCounts Collider::read_back(Tile tile, const ArrowCounts& predicted) {
     device_.finish();
   }
   return actual;
+}
+
+// Of what was counted, what was to be stored: the monolithic organisation has no chunk lists and no
+// ray lists.
+ArrowCounts Collider::stored(const ArrowCounts& actual) const {
+  ArrowCounts counts = actual;
+  if (options_.organisation == Organisation::kMonolithic)
+    std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kHits), 0u);
+  return counts;
 }
 
 void Collider::upload(const Scene& scene, Tile tile) {
@@ -347,8 +372,8 @@ void Collider::warm_up() {
   reserve({});
   meshes_.set({});
   pairs_.objects.reserve(sizeof(ox_object));
+  lists_.begin({});
   upload(Scene{}, {0, 0});
-  lists_.begin();
   expect_work(1);
   const std::size_t local = options_.work_group_size;
   const bool is_pocl =

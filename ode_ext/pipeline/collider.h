@@ -41,12 +41,15 @@ class Collider {
 
  private:
   void collide_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted);
-  ArrowCounts run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted);
+  ArrowCounts run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted,
+                       const ArrowCounts& most);
   void run_pipelined(const ArrowCounts& predicted);
   void run_monolithic();
   ArrowCounts read_back(Tile tile, const ArrowCounts& predicted);
   void reserve(const ArrowCounts& counts);
   void upload(const Scene& scene, Tile tile);
+  ArrowCounts stored(const ArrowCounts& actual) const;
+  void forget_temporal_data();
   bool remembers() const { return temporal_ != &nothing_; }
   bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
 
@@ -76,6 +79,7 @@ class Collider {
   PairBuffers pairs_;
   Buffer works_;
   TemporalCache nothing_;                               // of steps that remember nothing
+  PassMemory* memory_ = nullptr;                        // of the step that runs
   TemporalCache* temporal_ = &nothing_;                 // of the step that runs
   Misprediction misprediction_ = Misprediction::kRedo;  // in the step that runs
   bool deforms_ = false;                                // whether a mesh of the step is deformable

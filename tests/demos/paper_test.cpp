@@ -284,7 +284,9 @@ class PaperRun : public testing::Test {
     return lines;
   }
 
-  std::string folder_ = testing::TempDir() + "/paper_run_test";
+  // One for each test: they may run at the same time.
+  std::string folder_ = testing::TempDir() + "/paper_run_" +
+                        testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(PaperRun, EndsWithTheSameContactsInAllConfigurations) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/collider.h"
+#include "pipeline/moving_scene.h"
 #include "pipeline/test_scene.h"
 
 namespace ode_ext::test {
@@ -130,6 +131,37 @@ TEST_F(DeviceFailure, OfASinglePairIsReportedWhateverTheCode) {
   EXPECT_THROW(collider.collide(scene.scene, nullptr), DeviceError);
   fault_injector::disarm();
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+}
+
+// What a step that failed, or was halved, left of its temporal data is not taken for whole by the
+// next one.
+TEST_F(DeviceFailure, LeavesNoTemporalDataHalfWritten) {
+  ColliderOptions full;
+  full.rays = Rays::kFull;
+  Collider reference(full);
+  MovingScene moving(smooth_meshes(), 6, 0.002, 78);
+  Collider collider({});
+  std::uint64_t iterative = 0;
+  for (const int code : {kCode, CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE}) {
+    for (int n = 1; n < 200; n += 3) {
+      PassMemory memory;
+      for (int i = 0; i < 2; ++i, moving.advance()) collider.collide(moving.scene(), &memory);
+      fault_injector::arm(n, code);
+      try {
+        collider.collide(moving.scene(), &memory);
+      } catch (const DeviceError&) {
+      }
+      fault_injector::disarm();
+      for (int i = 0; i < 2; ++i) {
+        moving.advance();
+        const Bits expected = bits_of(reference.collide(moving.scene(), nullptr));
+        ASSERT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected)
+            << "after call " << n << " failed with " << code;
+      }
+      iterative += collider.report().actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
+    }
+  }
+  EXPECT_GT(iterative, 1000u);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 // meet a wrong prediction lose what they say they lose.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "pipeline/collider.h"
 #include "pipeline/moving_scene.h"
 
@@ -95,6 +98,43 @@ INSTANTIATE_TEST_SUITE_P(Rays, Organisations,
                          testing::Values(Rays::kFull, Rays::kIterative, Rays::kIterativePaper),
                          name_of);
 
+TEST(Modes, MeetMeshesWithoutTriangles) {
+  MovingScene moving(smooth_meshes(), 20, 0.001, 28);
+  TriangleSoup broken = soup_of(make_cube(1));
+  broken[0].x = NAN;
+  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+    ColliderOptions options;
+    options.organisation = organisation;
+    Collider collider(options);
+    Collider whole({});
+    PassMemory memory;
+    collider.collide(moving.scene(), &memory);
+    Scene scene = moving.scene();
+    // In the place of a mesh that left tasks behind.
+    scene.meshes[1] = std::make_shared<const Mesh>(build_mesh(broken));
+    ASSERT_FALSE(scene.meshes[1]->finite);
+    EXPECT_EQ(bits_of(collider.collide(scene, &memory)), bits_of(whole.collide(scene, nullptr)));
+  }
+}
+
+TEST(Modes, LoseNothingToAnyDisplacementLimit) {
+  MovingScene moving(smooth_meshes(), 20, 0.001, 29);
+  Collider whole({});
+  for (const float limit : {0.0f, std::numeric_limits<float>::max()}) {
+    for (const Rays rays : {Rays::kFull, Rays::kIterative}) {
+      ColliderOptions options;
+      options.displacement_limit = limit;
+      options.rays = rays;
+      Collider collider(options);
+      PassMemory memory;
+      const Bits expected = bits_of(whole.collide(moving.scene(), nullptr));
+      EXPECT_EQ(bits_of(collider.collide(moving.scene(), nullptr)), expected);
+      for (int i = 0; i < 2; ++i)
+        EXPECT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected);
+    }
+  }
+}
+
 TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
   ColliderOptions options;
   options.misprediction = Misprediction::kIgnore;
@@ -125,6 +165,27 @@ TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
   EXPECT_EQ(report.missed, missed);
   EXPECT_GT(missed, 0u);
   EXPECT_EQ(report.redone, 0);
+}
+
+TEST(Misprediction, IsOfNoListThatTheMonolithicOrganisationDoesNotHave) {
+  ColliderOptions options;
+  options.organisation = Organisation::kMonolithic;
+  options.misprediction = Misprediction::kIgnore;
+  options.rays = Rays::kFull;
+  options.prediction = PredictionRule::kPlain;
+  options.confidence = 4.0;  // enough for hits and contacts of four times as many pairs
+  Collider collider(options);
+  Collider whole({});
+  PassMemory memory;
+  MovingScene moving(smooth_meshes(), 40, 0, 27);
+  const auto all = moving.scene().pairs;
+  moving.scene().pairs.resize(12);
+  collider.collide(moving.scene(), &memory);
+  moving.scene().pairs = all;
+  memory.history.counts[static_cast<std::size_t>(Arrow::kRaysBvh)] = 1;  // of a list that it lacks
+  EXPECT_EQ(bits_of(collider.collide(moving.scene(), &memory)),
+            bits_of(whole.collide(moving.scene(), nullptr)));
+  EXPECT_EQ(collider.report().missed, 0u);
 }
 
 TEST(Misprediction, ScaledByThePairsLosesLessWhereTheirNumberGrows) {

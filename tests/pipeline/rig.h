@@ -89,7 +89,7 @@ class Rig {
     pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
     lists_.reserve({chunks, chunks, chunks, vertices, vertices, vertices, vertices,
                     std::uint64_t{count} * max_contacts + 1});
-    lists_.begin();
+    lists_.begin(lists_.capacities());
     temporal_.begin_without(count);
     works_.reserve(sizeof(ox_work));
     pairs_.segments.fill_zero(count * sizeof(ox_u32));
