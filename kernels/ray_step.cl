@@ -40,6 +40,27 @@ __kernel void ray_iterative(__global volatile uint* counters, __global const ox_
   }
 }
 
+static void ox_cast_list(uint list, __global volatile uint* counters, __global const ox_list* lists,
+                         __global ox_ray* rays, __global const ox_pair* pairs,
+                         __global const ox_mesh* meshes, __global const ox_vertex* vertices,
+                         __global const ox_node* nodes, __global const ox_triangle* triangles,
+                         __global const ox_isolation* isolations, uint rays_mode, uint walk_limit,
+                         __global ox_temporal* temporal, __global volatile uint* pair_hits,
+                         __global ox_hit* hits, __global ox_work* works) {
+  const uint first = lists[list].first;
+  const uint count = ox_length(counters, lists, list);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    ox_ray ray = rays[first + i];
+    ox_outcome outcome;
+    ox_work work = {0u, 0u, 0u, 0u};
+    ox_cast_ray(list, &ray, pairs, meshes, vertices, nodes, triangles, isolations, rays_mode,
+                walk_limit, temporal, &outcome, &work);
+    ox_append_hit(counters, lists, &ray, &outcome, pair_hits, hits);
+    ox_note_work(works, i, &work);
+  }
+}
+
 __kernel void ray_bvh(__global volatile uint* counters, __global const ox_list* lists,
                       __global ox_ray* rays, __global const ox_pair* pairs,
                       __global const ox_mesh* meshes, __global const ox_vertex* vertices,
@@ -47,18 +68,8 @@ __kernel void ray_bvh(__global volatile uint* counters, __global const ox_list* 
                       __global const ox_isolation* isolations, uint rays_mode, uint walk_limit,
                       __global ox_temporal* temporal, __global volatile uint* pair_hits,
                       __global ox_hit* hits, __global ox_work* works) {
-  const uint first = lists[OX_LIST_RAYS_BVH].first;
-  const uint count = ox_length(counters, lists, OX_LIST_RAYS_BVH);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    ox_ray ray = rays[first + i];
-    ox_outcome outcome;
-    ox_work work = {0u, 0u, 0u, 0u};
-    ox_cast_ray(OX_LIST_RAYS_BVH, &ray, pairs, meshes, vertices, nodes, triangles, isolations,
-                rays_mode, walk_limit, temporal, &outcome, &work);
-    ox_append_hit(counters, lists, &ray, &outcome, pair_hits, hits);
-    ox_note_work(works, i, &work);
-  }
+  ox_cast_list(OX_LIST_RAYS_BVH, counters, lists, rays, pairs, meshes, vertices, nodes, triangles,
+               isolations, rays_mode, walk_limit, temporal, pair_hits, hits, works);
 }
 
 __kernel void ray_basic(__global volatile uint* counters, __global const ox_list* lists,
@@ -68,16 +79,6 @@ __kernel void ray_basic(__global volatile uint* counters, __global const ox_list
                         __global const ox_isolation* isolations, uint rays_mode, uint walk_limit,
                         __global ox_temporal* temporal, __global volatile uint* pair_hits,
                         __global ox_hit* hits, __global ox_work* works) {
-  const uint first = lists[OX_LIST_RAYS_BASIC].first;
-  const uint count = ox_length(counters, lists, OX_LIST_RAYS_BASIC);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    ox_ray ray = rays[first + i];
-    ox_outcome outcome;
-    ox_work work = {0u, 0u, 0u, 0u};
-    ox_cast_ray(OX_LIST_RAYS_BASIC, &ray, pairs, meshes, vertices, nodes, triangles, isolations,
-                rays_mode, walk_limit, temporal, &outcome, &work);
-    ox_append_hit(counters, lists, &ray, &outcome, pair_hits, hits);
-    ox_note_work(works, i, &work);
-  }
+  ox_cast_list(OX_LIST_RAYS_BASIC, counters, lists, rays, pairs, meshes, vertices, nodes, triangles,
+               isolations, rays_mode, walk_limit, temporal, pair_hits, hits, works);
 }

@@ -44,10 +44,10 @@ typedef struct {
 } ox_list;
 OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 
-// Which algorithms a step uses (options.h).
-#define OX_RAYS_ITERATIVE 1u  // where there is temporal data
-#define OX_RAYS_PAPER 2u      // and only there: without it, and without proof
-#define OX_RAYS_BASIC 4u      // deformable targets without their BVH
+// What a step does other than usual (options.h). Whether rays are iterative at all is decided by
+// whether pairs keep temporal data.
+#define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, without proof
+#define OX_RAYS_BASIC 2u  // deformable targets without their BVH
 
 #define OX_NONE 0xffffffffu
 

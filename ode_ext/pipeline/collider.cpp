@@ -19,7 +19,6 @@ std::uint64_t at(const ArrowCounts& counts, Arrow arrow) {
 
 StepSettings settings_of(const ColliderOptions& options) {
   StepSettings settings;
-  if (options.rays != Rays::kFull) settings.rays_mode |= OX_RAYS_ITERATIVE;
   if (options.rays == Rays::kIterativePaper) settings.rays_mode |= OX_RAYS_PAPER;
   if (options.deformable_target == DeformableTarget::kBasic) settings.rays_mode |= OX_RAYS_BASIC;
   settings.displacement_limit = options.displacement_limit;
@@ -408,32 +407,6 @@ void Collider::take_kernel_times() {
   report_.ms_basic_rays = take(steps_.basic);
   report_.ms_monolithic = take(steps_.monolithic);
   report_.ms_contact_step = take(steps_.contact);
-}
-
-// From place `first` of a list's buffer on.
-template <class T>
-static std::vector<T> read_records(Device& device, const Buffer& buffer, std::uint64_t first,
-                                   std::uint64_t count) {
-  std::vector<T> records(count);
-  buffer.read(records.data(), count * sizeof(T), first * sizeof(T));
-  device.finish();
-  return records;
-}
-
-std::uint64_t Collider::length(Arrow list) const {
-  return std::min(at(report_.actual, list), at(lists_.capacities(), list));
-}
-
-std::vector<ox_chunk_task> Collider::read_tasks(Arrow list) {
-  return read_records<ox_chunk_task>(device_, lists_.tasks(), lists_.first(list), length(list));
-}
-
-std::vector<ox_ray> Collider::read_rays(Arrow list) {
-  return read_records<ox_ray>(device_, lists_.rays(), lists_.first(list), length(list));
-}
-
-std::vector<ox_hit> Collider::read_hits() {
-  return read_records<ox_hit>(device_, lists_.hits(), 0, length(Arrow::kHits));
 }
 
 }  // namespace ode_ext

@@ -34,11 +34,6 @@ class Collider {
   const StepReport& report() const { return report_; }
   const DeviceInfo& device_info() const { return device_.info(); }
 
-  // For tests: what the last tile of the last step appended to a list, in whatever order.
-  std::vector<ox_chunk_task> read_tasks(Arrow list);
-  std::vector<ox_ray> read_rays(Arrow list);
-  std::vector<ox_hit> read_hits();
-
  private:
   void collide_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted);
   ArrowCounts run_tile(const Scene& scene, Tile tile, const ArrowCounts& predicted,
@@ -64,7 +59,6 @@ class Collider {
   void take_work(Worker worker, std::uint64_t items);
   // While work is counted: waits, and says how much input the last kernel had.
   std::uint64_t wait_if_counting(Arrow list);
-  std::uint64_t length(Arrow list) const;
 
   void warm_up();
   void take_kernel_times();
