@@ -10,15 +10,22 @@
 #define OX_NO_PATCH 0xffffffffu
 #define OX_TAKEN 0xfffffffeu
 
-// in: pair_hits. out: pair_segments, where the candidates of each pair start. item: 1 pair.
-// OX_COUNTER_SEGMENTS cannot overflow: it ends at the number of hits.
+// in: pair_hits, pair_crossings. out: where the candidates and the crossings of each pair start.
+// item: 1 pair. The counters cannot overflow: they end at the number of hits and three times that
+// of crossings (edge_contact.cl), and at the number of crossings.
 __kernel void contact_place(__global volatile uint* counters, __global const uint* pair_hits,
-                            uint pair_count, __global uint* pair_segments) {
+                            __global const uint* pair_crossings, uint pair_count,
+                            __global uint* pair_segments, __global uint* crossing_segments) {
   const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride)
-    if (pair_hits[p] != 0u)
-      pair_segments[p] =
-          atomic_add(counters + OX_COUNTER_SEGMENTS * OX_COUNTER_STRIDE, pair_hits[p]);
+  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
+    const uint crossings = pair_crossings[p];
+    const uint most = pair_hits[p] + 3u * crossings;
+    if (most != 0u)
+      pair_segments[p] = atomic_add(counters + OX_COUNTER_SEGMENTS * OX_COUNTER_STRIDE, most);
+    if (crossings != 0u)
+      crossing_segments[p] =
+          atomic_add(counters + OX_COUNTER_CROSSED * OX_COUNTER_STRIDE, crossings);
+  }
 }
 
 // in: hits. out: candidates, by pair, in the frame of B. item: 1 hit.
@@ -47,7 +54,7 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     vstore3(normal, 0, candidate->normal);
     candidate->depth = hit->depth;
     candidate->t = hit->t;
-    candidate->side_kind = side << 3 | hit->kind;
+    candidate->side_kind = (side != 0u ? OX_HIT_SIDE : 0u) | hit->kind;
     candidate->vertex = hit->vertex;
     candidate->triangle = hit->triangle;
     candidate->patch = OX_NO_PATCH;
@@ -60,12 +67,13 @@ static uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_H
 // By side and place; by the order of the vertices, which for a deformed mesh tells of the shape it
 // was built in, only where rounding has put two in one place.
 static bool ox_key_less(__global const ox_candidate* a, __global const ox_candidate* b) {
-  const uint side_a = a->side_kind >> 3;
-  const uint side_b = b->side_kind >> 3;
+  const uint side_a = a->side_kind & OX_HIT_SIDE;
+  const uint side_b = b->side_kind & OX_HIT_SIDE;
   if (side_a != side_b) return side_a < side_b;
   for (uint k = 0u; k < 3u; ++k)
     if (a->position[k] != b->position[k]) return a->position[k] < b->position[k];
-  return a->vertex < b->vertex;
+  if (a->vertex != b->vertex) return a->vertex < b->vertex;
+  return a->triangle < b->triangle;
 }
 
 static bool ox_deeper(__global const ox_candidate* a, __global const ox_candidate* b) {
@@ -100,8 +108,9 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
       candidates[i].patch = patch;
 }
 
+// With edge rays every region has a contact, and what lies beyond a source's exit says nothing more.
 static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
-                      uint max_contacts, uint* taken) {
+                      uint max_contacts, bool edges, uint* taken) {
   // Contacts within the source's exit say most; those beyond it speak only where there are none,
   // and touches only where a pair has nothing else.
   uint kind = OX_HIT_TOUCHING;
@@ -129,7 +138,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
-  while (kind == OX_HIT_INSIDE &&
+  while (kind == OX_HIT_INSIDE && !edges &&
          n < max_contacts) {  // deep vertices in a region with none of those
     uint best = count;
     for (uint i = 0u; i < count; ++i) {
@@ -157,6 +166,8 @@ static void ox_store_contact(__global const ox_candidate* candidate, __global ox
   contact->vertex = candidate->vertex;
   contact->triangle = candidate->triangle;
   contact->depth = candidate->depth;
+  vstore3(vload3(0, candidate->position), 0, contact->position);
+  vstore3(vload3(0, candidate->normal), 0, contact->normal);
 }
 
 // Room for `count` contacts of pair p; less where the list is full.
@@ -175,7 +186,7 @@ __kernel void contact_reduce(__global volatile uint* counters, __global const ox
                              __global const ox_pair* pairs, __global const ox_mesh* meshes,
                              __global const uint* pair_hits, __global const uint* pair_segments,
                              uint pair_count, __global ox_candidate* candidates, uint max_contacts,
-                             uint max_deformable, __global ox_range* pair_ranges,
+                             uint max_deformable, uint rays_mode, __global ox_range* pair_ranges,
                              __global ox_contact* contacts) {
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
@@ -202,8 +213,8 @@ __kernel void contact_reduce(__global volatile uint* counters, __global const ox
     // Contacts closer than 2 % of the smaller mesh's radius hold it up no better than one.
     const float merge = 0.02f * ox_min(a->radius, b->radius);
     uint taken[OX_MAX_CONTACTS];
-    const uint n =
-        ox_reduce(mine, count, merge * merge, deformable ? max_deformable : max_contacts, taken);
+    const uint n = ox_reduce(mine, count, merge * merge, deformable ? max_deformable : max_contacts,
+                             (rays_mode & OX_RAYS_EDGES) != 0u, taken);
     const uint room = ox_place_contacts(counters, lists, n, pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
       ox_store_contact(mine + taken[k], contacts + pair_ranges[p].first + k);

@@ -307,6 +307,19 @@ __kernel void deform_exits(__global const ox_move* moves, uint move_count,
 }
 
 // centre +- half_size holds the box; the radius is rounded up from at most 8 roundings.
+static void ox_store_box(float3 lo, float3 hi, __global ox_chunk* chunk) {
+  const float3 centre = 0.5f * lo + 0.5f * hi;
+  const float3 above = hi - centre;
+  const float3 below = centre - lo;
+  // 2^-23 of a float is at least its last digit.
+  const float3 half_size =
+      (1.0f + 0x1p-23f) *
+      (float3)(ox_max(above.x, below.x), ox_max(above.y, below.y), ox_max(above.z, below.z));
+  vstore3(centre, 0, chunk->centre);
+  vstore3(half_size, 0, chunk->half_size);
+  chunk->radius = (1.0f + 0x1p-20f) * ox_norm(half_size);
+}
+
 __kernel void deform_chunks(__global const ox_move* moves, uint move_count,
                             __global const uint* all_starts, uint starts_first,
                             __global const ox_vertex* vertices, __global ox_chunk* chunks) {
@@ -327,18 +340,31 @@ __kernel void deform_chunks(__global const ox_move* moves, uint move_count,
       if (vertex->exit != INFINITY) reach = ox_max(reach, vertex->exit);
       moved = ox_max(moved, vertex->moved);
     }
-    const float3 centre = 0.5f * lo + 0.5f * hi;
-    const float3 above = hi - centre;
-    const float3 below = centre - lo;
-    // 2^-23 of a float is at least its last digit.
-    const float3 half_size =
-        (1.0f + 0x1p-23f) *
-        (float3)(ox_max(above.x, below.x), ox_max(above.y, below.y), ox_max(above.z, below.z));
-    vstore3(centre, 0, chunk->centre);
-    vstore3(half_size, 0, chunk->half_size);
-    chunk->radius = (1.0f + 0x1p-20f) * ox_norm(half_size);
+    ox_store_box(lo, hi, chunk);
     chunk->reach = reach;
     chunk->moved = moved;
+  }
+}
+
+// The chunks of edges.
+__kernel void deform_edge_chunks(__global const ox_move* moves, uint move_count,
+                                 __global const uint* all_starts, uint starts_first,
+                                 __global const ox_vertex* vertices, __global const ox_edge* edges,
+                                 __global ox_chunk* chunks) {
+  __global const uint* starts = all_starts + starts_first;
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
+    const uint m = ox_move_of(starts, move_count, i);
+    __global ox_chunk* chunk = chunks + moves[m].shape.edge_chunk_first + (i - starts[m]);
+    float3 lo = (float3)(INFINITY);
+    float3 hi = (float3)(-INFINITY);
+    for (uint k = 0u; k < 2u * chunk->count; ++k) {
+      const uint vertex = edges[chunk->first + k / 2u].vertex[k & 1u];
+      const float3 p = vload3(0, vertices[vertex].position);
+      lo = (float3)(ox_min(p.x, lo.x), ox_min(p.y, lo.y), ox_min(p.z, lo.z));
+      hi = (float3)(ox_max(p.x, hi.x), ox_max(p.y, hi.y), ox_max(p.z, hi.z));
+    }
+    ox_store_box(lo, hi, chunk);
   }
 }
 

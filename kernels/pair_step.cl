@@ -5,11 +5,13 @@
 // out   pairs: the relative transform and the displacement of every pair whose oriented boxes
 //       overlap
 //       tasks: runs of vertices whose box reaches the target's, in three lists: rigid pairs with
-//       small displacement, with high displacement, pairs with a deformable mesh
+//       small displacement, with high displacement, pairs with a deformable mesh; and runs of
+//       edges, in a fourth
 //       poses, directory: what the next step needs to find its temporal data
-//       pair_hits, pair_ranges: cleared
+//       pair_hits, pair_crossings, pair_ranges: cleared
 // item  1 pair (grid-stride)
-// may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE
+// may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE,
+// OX_LIST_CHUNKS_EDGES
 #include "shared/append.h"
 #include "shared/cull.h"
 
@@ -127,8 +129,28 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
              : OX_CATEGORY_HIGH;
 }
 
-// dense: null, or per pair the place of its first chunk among those of all pairs. Then a task is
-// written for every chunk, at its own place, and those with nothing to do say so.
+// The runs of edges of one mesh of a pair. `place`: of the first task, if every run has its own.
+static void ox_append_edges(__global volatile uint* counters, __global const ox_list* lists,
+                            uint pair_side, __global const ox_pair* pair, bool bounded,
+                            __global const ox_mesh* source, __global const ox_mesh* target,
+                            __global const ox_chunk* chunks, __global const uint* grids, bool dense,
+                            uint place, __global ox_chunk_task* tasks) {
+  for (uint k = 0u; k < source->edge_chunk_count; ++k) {
+    const uint chunk = source->edge_chunk_first + k;
+    if (dense) tasks[place + k].chunk = OX_NONE;
+    if (!bounded || !ox_keep_chunk(pair, pair_side & 1u, target, chunks + chunk, grids)) continue;
+    const uint slot = dense ? place + k : ox_append(counters, lists, OX_LIST_CHUNKS_EDGES);
+    if (slot == OX_NONE) continue;
+    tasks[slot].pair_side = pair_side;
+    tasks[slot].chunk = chunk;
+    tasks[slot].previous = OX_NONE;
+    tasks[slot].category = OX_LIST_CHUNKS_EDGES;
+  }
+}
+
+// dense_first: used if is_dense. Per pair the places of its first chunk of vertices and of its
+// first chunk of edges among those of all pairs. Then a task is written for every chunk, at its own
+// place, and those with nothing to do say so.
 __kernel void pair_step(__global volatile uint* counters, __global const ox_list* lists,
                         __global const ox_object* objects, __global const ox_mesh* meshes,
                         __global const ox_chunk* chunks, __global const uint* grids,
@@ -136,12 +158,14 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
                         uint pair_count, uint step, uint rays_mode, float displacement_limit,
                         __global ox_relative_pose* poses, __global ox_directory_entry* directory,
                         __global ox_pair* pairs, __global uint* pair_hits,
-                        __global ox_range* pair_ranges, uint is_dense,
-                        __global const uint* dense_first, __global ox_chunk_task* tasks) {
+                        __global uint* pair_crossings, __global ox_range* pair_ranges,
+                        uint is_dense, __global const uint* dense_first,
+                        __global ox_chunk_task* tasks) {
   const uint parity = step & 1u;  // what is read and what is written: a step may be run again
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     pair_hits[p] = 0u;
+    pair_crossings[p] = 0u;
     pair_ranges[p].first = 0u;
     pair_ranges[p].count = 0u;
 
@@ -198,7 +222,14 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     }
     if (!bounded && is_dense == 0u) continue;
 
-    uint place = is_dense != 0u ? dense_first[p] : 0u;
+    if ((rays_mode & OX_RAYS_EDGES) != 0u) {
+      const uint first = is_dense != 0u ? dense_first[2u * p + 1u] : 0u;
+      ox_append_edges(counters, lists, p << 1, pair, bounded, mesh_a, mesh_b, chunks, grids,
+                      is_dense != 0u, first, tasks);
+      ox_append_edges(counters, lists, p << 1 | 1u, pair, bounded, mesh_b, mesh_a, chunks, grids,
+                      is_dense != 0u, first + mesh_a->edge_chunk_count, tasks);
+    }
+    uint place = is_dense != 0u ? dense_first[2u * p] : 0u;
     for (uint side = 0u; side < 2u; ++side) {
       __global const ox_mesh* source = side == 0u ? mesh_a : mesh_b;
       __global const ox_mesh* target = side == 0u ? mesh_b : mesh_a;

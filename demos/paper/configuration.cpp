@@ -63,6 +63,7 @@ dBatchColliderParams Configuration::params(const std::string& device) const {
     params.misprediction = dBatchMispredictionIgnore;
     params.confidence = static_cast<dReal>(kPapersConfidence);
   }
+  params.edges = dBatchEdgesOff;  // the paper has none
   params.count_work = has(kCount);
   return params;
 }

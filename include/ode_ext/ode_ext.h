@@ -91,6 +91,14 @@ enum {
                                       space has room for it */
 };
 
+/** Whether edges are cast besides vertices. */
+enum {
+  dBatchEdgesOn = 0, /**< yes (default): every region in which two surfaces overlap gets a contact,
+                          edges that meet edges one along their common normal */
+  dBatchEdgesOff = 1 /**< as the paper: what only edges know of goes unnoticed, which in a settled
+                          pile is one colliding pair in ten */
+};
+
 /** Creation parameters. Fill with dBatchColliderParamsInit, then change what you need. */
 typedef struct dBatchColliderParams {
   size_t struct_size;    /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
@@ -120,6 +128,7 @@ typedef struct dBatchColliderParams {
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
   int count_work; /**< nonzero: count the work of every work-item (see dBatchWork); slow */
+  int edges;      /**< dBatchEdges... */
 } dBatchColliderParams;
 
 /** Sets struct_size and the defaults. NULL is ignored. */
@@ -219,13 +228,17 @@ enum {
   dBatchBufferChunksSmall = 0,      /**< rigid, small displacement */
   dBatchBufferChunksHigh = 1,       /**< rigid, high displacement */
   dBatchBufferChunksDeformable = 2, /**< one of the two is deformable */
-  /* vertex step -> ray step, by algorithm */
-  dBatchBufferRaysIterative = 3, /**< from the triangle met last */
-  dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
-  dBatchBufferRaysBasic = 5,     /**< every triangle */
-  dBatchBufferHits = 6,          /**< ray step -> contact step */
-  dBatchBufferContacts = 7,      /**< contact step -> host */
-  dBatchBufferCount = 8
+  dBatchBufferChunksEdges = 3,      /**< runs of up to 16 edges, of all pairs */
+  /* vertex step and edge step -> ray step, by algorithm */
+  dBatchBufferRaysIterative = 4, /**< from the triangle met last */
+  dBatchBufferRaysBvh = 5,       /**< BVH traversal; also what iterative rays hand on */
+  dBatchBufferRaysBasic = 6,     /**< every triangle */
+  dBatchBufferRaysEdges = 7,     /**< edges as segments, through the BVH */
+  /* ray step -> contact step */
+  dBatchBufferHits = 8,      /**< of vertex rays */
+  dBatchBufferCrossings = 9, /**< of edges with triangles */
+  dBatchBufferContacts = 10, /**< contact step -> host */
+  dBatchBufferCount = 11
 };
 
 /** The timed stages of a pass. */
@@ -233,18 +246,21 @@ enum {
   dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
   dBatchStageMeshes = 1,     /**< hashing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
-                                  next seven */
+                                  next ten */
   dBatchStagePairStep = 3,
   dBatchStageVertexStep = 4,    /**< of all categories */
   dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
   dBatchStageBvhRays = 6,
   dBatchStageBasicRays = 7,
   dBatchStageMonolithic = 8, /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
-  dBatchStageContactStep = 9,
-  dBatchStageDevice = 10, /**< first upload to last read-back, host clock */
-  dBatchStageExport = 11, /**< storing the answers, host */
-  dBatchStagePass = 12,   /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 13
+  dBatchStageEdgeStep = 9,
+  dBatchStageEdgeRays = 10,
+  dBatchStageEdgeContacts = 11, /**< what crossings say that vertices do not */
+  dBatchStageContactStep = 12,
+  dBatchStageDevice = 13, /**< first upload to last read-back, host clock */
+  dBatchStageExport = 14, /**< storing the answers, host */
+  dBatchStagePass = 15,   /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageCount = 16
 };
 
 /** The kernels whose work is counted on demand. */
@@ -254,7 +270,9 @@ enum {
   dBatchKernelBvhRays = 2,
   dBatchKernelBasicRays = 3,
   dBatchKernelMonolithic = 4,
-  dBatchKernelCount = 5
+  dBatchKernelEdgeStep = 5,
+  dBatchKernelEdgeRays = 6,
+  dBatchKernelCount = 7
 };
 
 /**

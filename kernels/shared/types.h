@@ -25,17 +25,21 @@ typedef float ox_f32;
 #define OX_LIST_CHUNKS_SMALL 0u       // of rigid pairs that moved little
 #define OX_LIST_CHUNKS_HIGH 1u        // of rigid pairs that moved far, or are new
 #define OX_LIST_CHUNKS_DEFORMABLE 2u  // of pairs with a deformable mesh
-#define OX_LIST_RAYS_ITERATIVE 3u
-#define OX_LIST_RAYS_BVH 4u
-#define OX_LIST_RAYS_BASIC 5u
-#define OX_LIST_HITS 6u
-#define OX_LIST_CONTACTS 7u
-#define OX_LIST_COUNT 8u
-#define OX_COUNTER_BOUNDED 8u    // pairs whose bounding volumes overlap
-#define OX_COUNTER_SEGMENTS 9u   // candidates handed out to pairs
-#define OX_COUNTER_UNPROVEN 10u  // iterative rays that had to be cast in full
-#define OX_COUNTER_DROPPED 11u   // vertices dropped for want of temporal data
-#define OX_COUNTER_COUNT 12u
+#define OX_LIST_CHUNKS_EDGES 3u       // runs of edges, of all pairs
+#define OX_LIST_RAYS_ITERATIVE 4u
+#define OX_LIST_RAYS_BVH 5u
+#define OX_LIST_RAYS_BASIC 6u
+#define OX_LIST_RAYS_EDGES 7u
+#define OX_LIST_HITS 8u
+#define OX_LIST_CROSSINGS 9u
+#define OX_LIST_CONTACTS 10u
+#define OX_LIST_COUNT 11u
+#define OX_COUNTER_BOUNDED 11u   // pairs whose bounding volumes overlap
+#define OX_COUNTER_SEGMENTS 12u  // candidates handed out to pairs
+#define OX_COUNTER_CROSSED 13u   // crossings handed out to pairs
+#define OX_COUNTER_UNPROVEN 14u  // iterative rays that had to be cast in full
+#define OX_COUNTER_DROPPED 15u   // vertices dropped for want of temporal data
+#define OX_COUNTER_COUNT 16u
 
 // Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
 typedef struct {
@@ -48,6 +52,7 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 // whether pairs keep temporal data.
 #define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, without proof
 #define OX_RAYS_BASIC 2u  // deformable targets without their BVH
+#define OX_RAYS_EDGES 4u  // edge rays are cast too
 
 #define OX_NONE 0xffffffffu
 
@@ -77,6 +82,7 @@ typedef struct {
   ox_u32 chunk_first, chunk_count;
   ox_u32 node_first, node_count;
   ox_u32 triangle_first, triangle_count;
+  ox_u32 edge_chunk_first, edge_chunk_count;
   ox_u32 grid_first;       // word index of the occupancy bits
   ox_u32 clearance_first;  // word index of the clearance steps, four to a word
   ox_u32 grid_cells[3];
@@ -92,7 +98,7 @@ typedef struct {
   ox_f32 reach;          // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;          // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 120, ox_mesh_is_120_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 128, ox_mesh_is_128_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -102,8 +108,9 @@ typedef struct {
 } ox_vertex;
 OX_STATIC_ASSERT(sizeof(ox_vertex) == 32, ox_vertex_is_32_bytes);
 
+// A run of vertices, or of edges (reach and moved are 0 then).
 typedef struct {
-  ox_u32 first, count;  // vertices, index into all of them
+  ox_u32 first, count;  // index into all of them
   ox_f32 centre[3];
   ox_f32 half_size[3];
   ox_f32 radius;  // of the box about its centre
@@ -112,6 +119,13 @@ typedef struct {
   ox_u32 padding;
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
+
+// An edge that is worth casting. All indices count over all meshes.
+typedef struct {
+  ox_u32 vertex[2];
+  ox_u32 triangle[2];  // at it, in the order of the leaves; the second is OX_NONE at a border
+} ox_edge;
+OX_STATIC_ASSERT(sizeof(ox_edge) == 16, ox_edge_is_16_bytes);
 
 typedef struct {
   ox_f32 lo[3];
@@ -225,6 +239,8 @@ OX_STATIC_ASSERT(sizeof(ox_work) == 16, ox_work_is_16_bytes);
 #define OX_HIT_NONE 3u
 #define OX_HIT_KIND 3u
 #define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side
+#define OX_HIT_SIDE 8u      // of side 1
+#define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own
 
 typedef struct {
   ox_u32 pair_side;
@@ -238,14 +254,32 @@ typedef struct {
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 
+// Where an edge of one mesh crosses the surface of the other. The first four fields are what its
+// ray finds; the rest is filled in where the crossings of a pair are brought together.
+typedef struct {
+  ox_u32 pair_side;
+  ox_u32 edge;
+  ox_u32 triangle;  // crossed, over all triangles
+  ox_f32 t;         // [m] along the edge, from its first vertex
+  ox_u32 leaves;    // whether the edge leaves the target here: a back face
+  ox_u32 slot;      // how many crossings of this pair were appended before it
+  ox_u32 facet;     // of the triangle
+  ox_u32 other;     // the crossing at the other end of its chord, among those of the pair; OX_NONE
+  ox_f32 other_t;   // [m] the other end of the chord, the stretch of the edge inside the target
+  ox_u32 region;    // OX_REGION_...
+  ox_f32 position[3];  // in the frame of B
+  ox_u32 padding[3];
+} ox_edge_crossing;
+OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
+
 // A hit among those of its pair, in the frame of B.
 typedef struct {
   ox_f32 position[3];
   ox_f32 depth;
   ox_f32 normal[3];  // into A
   ox_f32 t;
-  ox_u32 side_kind;  // side << 3 | kind
-  ox_u32 vertex;
+  ox_u32 side_kind;  // OX_HIT_..., with OX_HIT_SIDE
+  ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
   ox_u32 triangle;
   ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch
@@ -254,12 +288,15 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 
 typedef struct {
-  ox_u32 side_kind;  // as in ox_candidate
+  ox_u32 side_kind;  // as in ox_candidate, and so are the others
   ox_u32 vertex;
   ox_u32 triangle;
   ox_f32 depth;
+  ox_f32 position[3];
+  ox_f32 normal[3];
+  ox_u32 padding[2];
 } ox_contact;
-OX_STATIC_ASSERT(sizeof(ox_contact) == 16, ox_contact_is_16_bytes);
+OX_STATIC_ASSERT(sizeof(ox_contact) == 48, ox_contact_is_48_bytes);
 
 // The contacts of a pair: `count` from `first` on. first is meaningless where count is 0.
 typedef struct {

@@ -96,6 +96,7 @@ void check(const dBatchColliderParams& p) {
                  "dBatchOrganisation");
   check_constant("misprediction", p.misprediction, dBatchMispredictionBacktrack,
                  "dBatchMisprediction");
+  check_constant("edges", p.edges, dBatchEdgesOff, "dBatchEdges");
   if (p.max_contacts_deformable < 0 ||
       p.max_contacts_deformable > static_cast<int>(ode_ext::kMaxContacts))
     refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
@@ -136,6 +137,7 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
     options.displacement_limit = static_cast<float>(
         std::min<dReal>(p.displacement_limit, std::numeric_limits<float>::max()));
   options.count_work = p.count_work != 0;
+  options.edges = p.edges == dBatchEdgesOn;
   if (p.work_group_size != 0)
     options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
   if (p.initial_capacity != 0)

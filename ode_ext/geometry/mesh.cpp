@@ -7,6 +7,7 @@
 
 #include "geometry/embedded.h"
 #include "geometry/exit_distance.h"
+#include "geometry/facets.h"
 #include "geometry/measures.h"
 #include "geometry/normals.h"
 #include "geometry/topology.h"
@@ -58,12 +59,17 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
+    mesh.edges = edges(mesh.triangles, {});
+    mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
     return mesh;
   }
 
   Normals normals = compute_normals(mesh.vertices, mesh.triangles);
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
+  mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
+  mesh.edges = edges(mesh.triangles, mesh.facets);
+  mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);

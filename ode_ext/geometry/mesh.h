@@ -11,6 +11,7 @@
 #include "geometry/box.h"
 #include "geometry/bvh.h"
 #include "geometry/clearance_grid.h"
+#include "geometry/edges.h"
 #include "geometry/isolation.h"
 #include "geometry/neighbours.h"
 #include "geometry/occupancy_grid.h"
@@ -52,6 +53,11 @@ struct Mesh {
   std::vector<Vec3f> face_normals;
   // The triangles across each triangle's edges.
   std::vector<Neighbours> neighbours;
+  // For each triangle the one that stands for its facet (facets.h); empty for a deformable mesh,
+  // whose triangles are facets each.
+  std::vector<std::uint32_t> facets;
+  std::vector<Edge> edges;  // between facets
+  std::vector<EdgeChunk> edge_chunks;
   // Of each triangle, if asked for; empty unless the mesh is closed and is_embedded (embedded.h).
   std::vector<Isolation> isolation;
 

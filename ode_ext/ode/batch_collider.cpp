@@ -374,6 +374,9 @@ void BatchCollider::note_report() {
   stats_.ms[dBatchStageBvhRays] = report.ms_bvh_rays;
   stats_.ms[dBatchStageBasicRays] = report.ms_basic_rays;
   stats_.ms[dBatchStageMonolithic] = report.ms_monolithic;
+  stats_.ms[dBatchStageEdgeStep] = report.ms_edge_step;
+  stats_.ms[dBatchStageEdgeRays] = report.ms_edge_rays;
+  stats_.ms[dBatchStageEdgeContacts] = report.ms_edge_contacts;
   stats_.ms[dBatchStageContactStep] = report.ms_contact_step;
   stats_.ms[dBatchStageDevice] = report.ms_total;
 }

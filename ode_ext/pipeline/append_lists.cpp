@@ -8,6 +8,7 @@ namespace {
 
 static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SMALL &&
               static_cast<std::size_t>(Arrow::kRaysIterative) == OX_LIST_RAYS_ITERATIVE &&
+              static_cast<std::size_t>(Arrow::kRaysEdges) == OX_LIST_RAYS_EDGES &&
               static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
               kArrowCount == OX_LIST_COUNT);
 
@@ -23,6 +24,9 @@ AppendLists::AppendLists(Device& device)
       rays_(device),
       hits_(device),
       candidates_(device),
+      crossings_(device),
+      gathered_crossings_(device),
+      crossing_order_(device),
       contacts_(device) {
   counters_.reserve(kCounterBytes);
   lists_.reserve(sizeof(host_lists_));
@@ -49,9 +53,9 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
     }
     return end;
   };
-  return {after(Arrow::kChunksSmall, Arrow::kChunksDeformable),
-          after(Arrow::kRaysIterative, Arrow::kRaysBasic), after(Arrow::kHits, Arrow::kHits),
-          after(Arrow::kContacts, Arrow::kContacts)};
+  return {after(Arrow::kChunksSmall, Arrow::kChunksEdges),
+          after(Arrow::kRaysIterative, Arrow::kRaysEdges), after(Arrow::kHits, Arrow::kHits),
+          after(Arrow::kCrossings, Arrow::kCrossings), after(Arrow::kContacts, Arrow::kContacts)};
 }
 
 void AppendLists::reserve_buffers() {
@@ -59,7 +63,10 @@ void AppendLists::reserve_buffers() {
   tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
   rays_.reserve(ends.rays * sizeof(ox_ray));
   hits_.reserve(ends.hits * sizeof(ox_hit));
-  candidates_.reserve(ends.hits * sizeof(ox_candidate));
+  candidates_.reserve((ends.hits + 3 * ends.crossings) * sizeof(ox_candidate));
+  crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
+  gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
+  crossing_order_.reserve(ends.crossings * sizeof(ox_u32));
   contacts_.reserve(ends.contacts * sizeof(ox_contact));
 }
 

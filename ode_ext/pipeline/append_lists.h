@@ -27,7 +27,7 @@ class AppendLists {
     return host_lists_[static_cast<std::size_t>(list)].first;
   }
   bool overflowed(const ArrowCounts& counts) const;
-  // Records of all chunk lists of this step together; their indices are below that.
+  // Records of all lists of vertex chunks of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
 
   // Before a step: counters at zero, lists as reserved, but none with more room than the step can
@@ -43,20 +43,25 @@ class AppendLists {
   Buffer& tasks() { return tasks_; }
   const Buffer& rays() const { return rays_; }
   const Buffer& hits() const { return hits_; }
-  const Buffer& candidates() const { return candidates_; }  // one per hit
+  // One per hit, three per crossing (edge_contact.cl).
+  const Buffer& candidates() const { return candidates_; }
+  const Buffer& crossings() const { return crossings_; }
+  const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
+  const Buffer& crossing_order() const { return crossing_order_; }
   const Buffer& contacts() const { return contacts_; }
 
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
   struct Ends {
-    std::uint64_t tasks, rays, hits, contacts;
+    std::uint64_t tasks, rays, hits, crossings, contacts;
   };
   Ends lay_out(const ArrowCounts& room);
   void reserve_buffers();
 
   ArrowCounts capacities_{};
   std::array<ox_list, kArrowCount> host_lists_{};
-  Buffer counters_, lists_, tasks_, rays_, hits_, candidates_, contacts_;
+  Buffer counters_, lists_, tasks_, rays_, hits_, candidates_, crossings_, gathered_crossings_,
+      crossing_order_, contacts_;
 };
 
 }  // namespace ode_ext

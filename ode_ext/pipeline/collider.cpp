@@ -21,6 +21,7 @@ StepSettings settings_of(const ColliderOptions& options) {
   StepSettings settings;
   if (options.rays == Rays::kIterativePaper) settings.rays_mode |= OX_RAYS_PAPER;
   if (options.deformable_target == DeformableTarget::kBasic) settings.rays_mode |= OX_RAYS_BASIC;
+  if (options.edges) settings.rays_mode |= OX_RAYS_EDGES;
   settings.displacement_limit = options.displacement_limit;
   settings.walk_limit = options.walk_limit;
   settings.max_contacts = options.max_contacts;
@@ -196,8 +197,8 @@ ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts&
   else
     run_pipelined(predicted);
   settle_workload();
-  steps_.contact.run(launch_for(tile.count), launch(Arrow::kHits, predicted), lists_, meshes_,
-                     pairs_, settings_);
+  steps_.contact.run(launch_for(tile.count), launch(Arrow::kHits, predicted),
+                     launch(Arrow::kCrossings, predicted), lists_, meshes_, pairs_, settings_);
   return read_back(tile, predicted);
 }
 
@@ -213,6 +214,12 @@ void Collider::run_pipelined(const ArrowCounts& predicted) {
   vertices(Arrow::kChunksHigh);
   if (deforms_) vertices(Arrow::kChunksDeformable);
 
+  if (options_.edges) {
+    expect_work(OX_CHUNK_VERTICES * at(lists_.capacities(), Arrow::kChunksEdges));
+    steps_.edge.run(launch(Arrow::kChunksEdges, predicted), lists_, meshes_, pairs_, works_);
+    take_work(Worker::kEdgeStep, OX_CHUNK_VERTICES * wait_if_counting(Arrow::kChunksEdges));
+  }
+
   const auto rays = [&](RayStep& step, Arrow list, Worker worker) {
     expect_work(at(lists_.capacities(), list));
     step.run(launch(list, predicted), lists_, meshes_, pairs_, *temporal_, settings_, works_);
@@ -226,13 +233,18 @@ void Collider::run_pipelined(const ArrowCounts& predicted) {
   rays(steps_.bvh, Arrow::kRaysBvh, Worker::kBvhRays);
   if (deforms_ && options_.deformable_target == DeformableTarget::kBasic)
     rays(steps_.basic, Arrow::kRaysBasic, Worker::kBasicRays);
+  if (options_.edges) {
+    expect_work(at(lists_.capacities(), Arrow::kRaysEdges));
+    steps_.edge_rays.run(launch(Arrow::kRaysEdges, predicted), lists_, meshes_, pairs_, works_);
+    take_work(Worker::kEdgeRays, wait_if_counting(Arrow::kRaysEdges));
+  }
 }
 
 void Collider::run_monolithic() {
   const std::uint64_t items = std::uint64_t{dense_tasks_} * OX_CHUNK_VERTICES;
   expect_work(items);
-  steps_.monolithic.run(launch_for(items), lists_, dense_tasks_, meshes_, pairs_, *temporal_,
-                        settings_, works_);
+  steps_.monolithic.run(launch_for(items), lists_, dense_vertex_tasks_, dense_tasks_, meshes_,
+                        pairs_, *temporal_, settings_, works_);
   take_work(Worker::kMonolithic, items);
 }
 
@@ -268,15 +280,21 @@ ArrowCounts Collider::stored(const ArrowCounts& actual) const {
 void Collider::upload(const Scene& scene, Tile tile) {
   host_members_.clear();
   host_dense_first_.clear();
-  dense_tasks_ = 0;
+  cl_uint vertex_tasks = 0, edge_tasks = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
-    host_dense_first_.push_back(dense_tasks_);
+    host_dense_first_.push_back(vertex_tasks);
+    host_dense_first_.push_back(edge_tasks);
     for (const std::uint32_t object : scene.pairs[i]) {
       host_members_.push_back(object);
-      const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
-      dense_tasks_ += static_cast<cl_uint>(topology(mesh).chunks.size());
+      const Mesh& mesh = topology(*scene.meshes[scene.objects[object].mesh]);
+      vertex_tasks += static_cast<cl_uint>(mesh.chunks.size());
+      if (options_.edges) edge_tasks += static_cast<cl_uint>(mesh.edge_chunks.size());
     }
   }
+  for (std::size_t i = 1; i < host_dense_first_.size(); i += 2)
+    host_dense_first_[i] += vertex_tasks;  // those of edges come after all of vertices
+  dense_vertex_tasks_ = vertex_tasks;
+  dense_tasks_ = vertex_tasks + edge_tasks;
   pairs_.reserve(tile.count);
   read_ranges_.reserve(tile.count * sizeof(ox_range));
   pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
@@ -285,7 +303,7 @@ void Collider::upload(const Scene& scene, Tile tile) {
   if (options_.organisation == Organisation::kMonolithic) {
     pairs_.dense_first.write(host_dense_first_.data(), host_dense_first_.size() * sizeof(ox_u32));
     lists_.tasks().reserve(dense_tasks_ * sizeof(ox_chunk_task));
-    tasks = dense_tasks_;
+    tasks = dense_vertex_tasks_;
   }
   if (remembers()) temporal_->reserve_blocks(tasks);
 }
@@ -336,7 +354,7 @@ Launch Collider::launch(Arrow list, const ArrowCounts& predicted) {
   if (exact)
     items = static_cast<const ox_u32*>(
         read_counters_.data())[static_cast<std::size_t>(list) * OX_COUNTER_STRIDE];
-  if (list <= Arrow::kChunksDeformable) items *= OX_CHUNK_VERTICES;
+  if (list <= Arrow::kChunksEdges) items *= OX_CHUNK_VERTICES;
   // A few groups for every compute unit cost nothing where there is no history yet. The paper
   // launches what is predicted, and no more.
   if (!exact && !may_lose())
@@ -383,8 +401,10 @@ void Collider::warm_up() {
     steps_.vertex.run(category, wide, lists_, meshes_, pairs_, nothing_, settings_, works_);
   for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
     step->run(wide, lists_, meshes_, pairs_, nothing_, settings_, works_);
-  steps_.monolithic.run(wide, lists_, 0, meshes_, pairs_, nothing_, settings_, works_);
-  steps_.contact.run(wide, wide, lists_, meshes_, pairs_, settings_);
+  steps_.edge.run(wide, lists_, meshes_, pairs_, works_);
+  steps_.edge_rays.run(wide, lists_, meshes_, pairs_, works_);
+  steps_.monolithic.run(wide, lists_, 0, 0, meshes_, pairs_, nothing_, settings_, works_);
+  steps_.contact.run(wide, wide, wide, lists_, meshes_, pairs_, settings_);
   meshes_.warm_up(wide);
   device_.finish();
   take_kernel_times();
@@ -392,13 +412,14 @@ void Collider::warm_up() {
 
 // A clock that cannot be read is no reason to lose contacts: that time is 0 then.
 void Collider::take_kernel_times() {
-  const auto take = [](auto& step) {
+  const auto read = [](auto take_milliseconds) {
     try {
-      return step.take_milliseconds();
+      return take_milliseconds();
     } catch (const DeviceError&) {
       return 0.0;
     }
   };
+  const auto take = [&](auto& step) { return read([&] { return step.take_milliseconds(); }); };
   report_.ms_deform_step = take(meshes_);
   report_.ms_pair_step = take(steps_.pair);
   report_.ms_vertex_step = take(steps_.vertex);
@@ -406,6 +427,9 @@ void Collider::take_kernel_times() {
   report_.ms_bvh_rays = take(steps_.bvh);
   report_.ms_basic_rays = take(steps_.basic);
   report_.ms_monolithic = take(steps_.monolithic);
+  report_.ms_edge_step = take(steps_.edge);
+  report_.ms_edge_rays = take(steps_.edge_rays);
+  report_.ms_edge_contacts = read([&] { return steps_.contact.take_edge_milliseconds(); });
   report_.ms_contact_step = take(steps_.contact);
 }
 

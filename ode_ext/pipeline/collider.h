@@ -81,7 +81,7 @@ class Collider {
 
   std::vector<ox_object> host_objects_;
   std::vector<ox_u32> host_members_, host_dense_first_;
-  cl_uint dense_tasks_ = 0;
+  cl_uint dense_vertex_tasks_ = 0, dense_tasks_ = 0;
   std::vector<ox_work> host_works_;
   PairContacts result_;
   StepReport report_;

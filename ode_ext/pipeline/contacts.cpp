@@ -7,12 +7,37 @@
 namespace ode_ext {
 namespace {
 
+// The program's index of a triangle of the device's.
+std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
+                              std::uint32_t triangle) {
+  const Mesh& built = topology(meshes.mesh(mesh));
+  return built.source_triangle[built.bvh.order[triangle - meshes.place(mesh).triangle_first]];
+}
+
+// One that has its position and normal with it, in the frame of the second object.
+Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
+                 const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
+  const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
+  const Scene::Object& b = scene.objects[pair[1]];
+  const auto vector = [](const ox_f32(&v)[3]) { return Vec3d(Vec3f{v[0], v[1], v[2]}); };
+  const Vec3d normal = b.pose.turn(vector(contact.normal));
+  Contact result;
+  result.position = b.pose.place(vector(contact.position));
+  result.normal = (1.0 / length(normal)) * normal;
+  result.depth = static_cast<double>(contact.depth);
+  result.triangles[side] = source_triangle(meshes, scene.objects[pair[side]].mesh, contact.vertex);
+  result.triangles[1 - side] =
+      source_triangle(meshes, scene.objects[pair[1 - side]].mesh, contact.triangle);
+  return result;
+}
+
 Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
                    const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
-  const std::uint32_t side = contact.side_kind >> 3;
+  const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
   const Scene::Object& source = scene.objects[pair[side]];
   const Scene::Object& target = scene.objects[pair[1 - side]];
   const Mesh& target_mesh = meshes.mesh(target.mesh);
+  if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.place(source.mesh).vertex_first;
   const std::uint32_t triangle =
       topology(target_mesh).bvh.order[contact.triangle - meshes.place(target.mesh).triangle_first];

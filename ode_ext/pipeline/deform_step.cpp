@@ -27,6 +27,7 @@ DeformStep::DeformStep(Program& program)
       nodes_(program, "deform_nodes"),
       exits_(program, "deform_exits"),
       chunks_(program, "deform_chunks"),
+      edge_chunks_(program, "deform_edge_chunks"),
       meshes_(program, "deform_meshes"),
       rest_(program, "deform_rest"),
       moves_(program.device()),
@@ -60,12 +61,13 @@ void DeformStep::warm_up(Launch wide, const DeviceMeshes& meshes) {
   upload(starts_, host_starts_);
   upload(positions_, std::vector<Vec3f>{});
   const Items none{0, 0};
-  launch({none, none, none, none, none, {none}}, meshes, &wide);
+  launch({none, none, none, none, none, none, {none}}, meshes, &wide);
 }
 
 double DeformStep::take_milliseconds() {
   double sum = 0;
-  for (Kernel* kernel : {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &meshes_, &rest_})
+  for (Kernel* kernel :
+       {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &edge_chunks_, &meshes_, &rest_})
     sum += kernel->take_milliseconds();
   return sum;
 }
@@ -97,6 +99,8 @@ DeformStep::Work DeformStep::plan(const std::vector<MeshMove>& moves) {
                              }));
   work.chunks = append_starts(
       moves, unless_resting([](const auto& move) { return move.record.shape.chunk_count; }));
+  work.edge_chunks = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.shape.edge_chunk_count; }));
   work.rest = append_starts(
       moves, [](const MeshMove& move) { return move.rests ? move.record.vertex_count : 0; });
 
@@ -132,6 +136,8 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
   run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
   run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
       meshes.chunks());
+  run(edge_chunks_, work.edge_chunks.count, starts_, work.edge_chunks.starts_first,
+      meshes.vertices(), meshes.edges(), meshes.chunks());
   run(meshes_, host_moves_.size(), meshes.chunks(), meshes.records());
 }
 

@@ -48,6 +48,16 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   return record;
 }
 
+ox_chunk to_record(const EdgeChunk& chunk, std::uint32_t edge_first) {
+  ox_chunk record{};
+  record.first = edge_first + chunk.first;
+  record.count = chunk.count;
+  store(record.centre, centre(chunk.box));
+  store(record.half_size, half_size(chunk.box));
+  record.radius = std::nextafter(length(half_size(chunk.box)), INFINITY);
+  return record;
+}
+
 // A ray origin inside the box and the slab distances carry together less than 16 roundings of
 // coordinates up to the extent (ray_step.cl); a box this much larger is never missed for them.
 ox_node to_record(const BvhNode& node, float extent) {
@@ -149,6 +159,8 @@ DeviceMeshes::DeviceMeshes(Program& program)
       vertices_(program.device()),
       nodes_(program.device()),
       triangles_(program.device()),
+      edges_(program.device()),
+      facets_(program.device()),
       isolations_(program.device()),
       grids_(program.device()),
       topologies_(program.device()) {}
@@ -189,6 +201,8 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_vertices_.clear();
   host_nodes_.clear();
   host_triangles_.clear();
+  host_edges_.clear();
+  host_facets_.clear();
   host_isolations_.clear();
   host_grids_.clear();
   host_topologies_.clear();
@@ -209,6 +223,8 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.node_count = static_cast<ox_u32>(built.bvh.nodes.size());
   record.triangle_first = static_cast<ox_u32>(host_triangles_.size());
   record.triangle_count = static_cast<ox_u32>(built.triangles.size());
+  record.edge_chunk_first = record.chunk_first + record.chunk_count;
+  record.edge_chunk_count = static_cast<ox_u32>(built.edge_chunks.size());
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
   record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
   record.block_side = built.clearance.block_side;
@@ -232,6 +248,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
+  append_edges(built, vertex_first);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
@@ -240,6 +257,8 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   for (const std::uint32_t triangle : built.bvh.order) {
     host_triangles_.push_back(to_record(built, triangle, places));
     const Isolation isolation = built.isolation.empty() ? Isolation{} : built.isolation[triangle];
+    host_facets_.push_back(record.triangle_first +
+                           places[built.facets.empty() ? triangle : built.facets[triangle]]);
     host_isolations_.push_back({isolation.within_10, isolation.within_30, isolation.within_60});
   }
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);
@@ -250,6 +269,22 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
     }
   host_grids_.insert(host_grids_.end(), built.grid.bits.begin(), built.grid.bits.end());
   append_bytes(host_grids_, built.clearance.steps);
+}
+
+void DeviceMeshes::append_edges(const Mesh& mesh, std::uint32_t vertex_first) {
+  const auto first = static_cast<std::uint32_t>(host_edges_.size());
+  const auto triangle_first = static_cast<std::uint32_t>(host_triangles_.size());
+  for (const EdgeChunk& chunk : mesh.edge_chunks) host_chunks_.push_back(to_record(chunk, first));
+  const std::vector<std::uint32_t> places = places_in_leaves(mesh);
+  for (const Edge& edge : mesh.edges) {
+    ox_edge record{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::uint32_t triangle = edge.triangles[k];
+      record.vertex[k] = vertex_first + edge.vertices[k];
+      record.triangle[k] = triangle == kNone ? OX_NONE : triangle_first + places[triangle];
+    }
+    host_edges_.push_back(record);
+  }
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
@@ -281,6 +316,8 @@ void DeviceMeshes::upload() {
   upload_all(vertices_, host_vertices_);
   upload_all(nodes_, host_nodes_);
   upload_all(triangles_, host_triangles_);
+  upload_all(edges_, host_edges_);
+  upload_all(facets_, host_facets_);
   upload_all(isolations_, host_isolations_);
   upload_all(grids_, host_grids_);
   upload_all(topologies_, host_topologies_);

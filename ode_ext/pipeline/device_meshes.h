@@ -47,6 +47,9 @@ class DeviceMeshes {
   const Buffer& vertices() const { return vertices_; }
   const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
+  const Buffer& edges() const { return edges_; }
+  // Of each triangle, over all triangles: the one that stands for its facet.
+  const Buffer& facets() const { return facets_; }
   const Buffer& isolations() const { return isolations_; }
   const Buffer& grids() const { return grids_; }
   const Buffer& topologies() const { return topologies_; }  // see ox_move
@@ -63,6 +66,7 @@ class DeviceMeshes {
   void rebuild(const MeshList& meshes);
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
+  void append_edges(const Mesh& mesh, std::uint32_t vertex_first);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
 
@@ -75,13 +79,16 @@ class DeviceMeshes {
   std::vector<ox_vertex> host_vertices_;
   std::vector<ox_node> host_nodes_;
   std::vector<ox_triangle> host_triangles_;
+  std::vector<ox_edge> host_edges_;
+  std::vector<ox_u32> host_facets_;
   std::vector<ox_isolation> host_isolations_;
   std::vector<ox_u32> host_grids_;
   std::vector<ox_u32> host_topologies_;
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
-  Buffer records_, chunks_, vertices_, nodes_, triangles_, isolations_, grids_, topologies_;
+  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, facets_, isolations_, grids_,
+      topologies_;
 };
 
 }  // namespace ode_ext

@@ -13,13 +13,16 @@ enum class Arrow : std::size_t {
   kChunksSmall,
   kChunksHigh,
   kChunksDeformable,
+  kChunksEdges,
   kRaysIterative,
   kRaysBvh,
   kRaysBasic,
+  kRaysEdges,
   kHits,
+  kCrossings,
   kContacts
 };
-inline constexpr std::size_t kArrowCount = 8;
+inline constexpr std::size_t kArrowCount = 11;
 using ArrowCounts = std::array<std::uint64_t, kArrowCount>;
 
 enum class PredictionRule { kPairScaled, kPlain };

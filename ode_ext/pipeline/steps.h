@@ -4,6 +4,7 @@
 
 #include "device/program.h"
 #include "pipeline/contact_step.h"
+#include "pipeline/edge_step.h"
 #include "pipeline/monolithic_step.h"
 #include "pipeline/pair_step.h"
 #include "pipeline/ray_step.h"
@@ -15,15 +16,19 @@ struct Steps {
   explicit Steps(Program& program)
       : pair(program),
         vertex(program),
+        edge(program),
         iterative(program, "ray_iterative"),
         bvh(program, "ray_bvh"),
         basic(program, "ray_basic"),
+        edge_rays(program),
         monolithic(program),
         contact(program) {}
 
   PairStep pair;
   VertexStep vertex;
+  EdgeStep edge;
   RayStep iterative, bvh, basic;
+  EdgeRayStep edge_rays;
   MonolithicStep monolithic;
   ContactStep contact;
 };

@@ -22,8 +22,19 @@ std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices
   return tiles;
 }
 
+namespace {
+
+std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
+  const Mesh& a = topology(*scene.meshes[scene.objects[pair[0]].mesh]);
+  const Mesh& b = topology(*scene.meshes[scene.objects[pair[1]].mesh]);
+  return std::uint64_t{a.edges.size()} * b.triangles.size() +
+         std::uint64_t{b.edges.size()} * a.triangles.size();
+}
+
+}  // namespace
+
 ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
-  std::uint64_t chunks = 0, vertices = 0, contacts = 0;
+  std::uint64_t chunks = 0, vertices = 0, edge_chunks = 0, edges = 0, crossings = 0, contacts = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
     std::uint64_t of_pair = 0;
     bool deformable = false;
@@ -31,16 +42,24 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
       const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
       deformable = deformable || mesh.deformable;
       chunks += topology(mesh).chunks.size();
+      if (options.edges) {
+        edge_chunks += topology(mesh).edge_chunks.size();
+        edges += topology(mesh).edges.size();
+      }
       of_pair += mesh.vertices.size();
     }
     vertices += of_pair;
+    if (options.edges) crossings += most_crossings(scene, scene.pairs[i]);
     if (!deformable)
       contacts += options.max_contacts;
     else
-      contacts += options.max_contacts_deformable != 0 ? options.max_contacts_deformable : of_pair;
+      contacts += options.max_contacts_deformable != 0
+                      ? options.max_contacts_deformable
+                      : of_pair + (options.edges ? 3 * most_crossings(scene, scene.pairs[i]) : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
-  return {chunks, chunks, chunks, vertices, vertices, vertices, vertices, contacts};
+  return {chunks,   chunks, chunks,   edge_chunks, vertices, vertices,
+          vertices, edges,  vertices, crossings,   contacts};
 }
 
 ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {

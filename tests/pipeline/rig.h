@@ -45,7 +45,7 @@ class Rig {
       steps_.vertex.run(category, launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
     for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
       step->run(launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
-    steps_.contact.run(launch, launch, lists_, meshes_, pairs_, settings_);
+    steps_.contact.run(launch, launch, launch, lists_, meshes_, pairs_, settings_);
     return read_back();
   }
 
@@ -87,7 +87,7 @@ class Rig {
     pairs_.objects.reserve(host_objects_.size() * sizeof(ox_object));
     pairs_.objects.write(host_objects_.data(), host_objects_.size() * sizeof(ox_object));
     pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
-    lists_.reserve({chunks, chunks, chunks, vertices, vertices, vertices, vertices,
+    lists_.reserve({chunks, chunks, chunks, 1, vertices, vertices, vertices, 1, vertices, 1,
                     std::uint64_t{count} * max_contacts + 1});
     lists_.begin(lists_.capacities());
     temporal_.begin_without(count);

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edge contacts: what the crossings of edges say that vertices do not. Contacts where edges meet
+// edges, one at least in every region of overlap, and the way out for what is wholly inside.
+//
+// in    crossings, candidates of vertices, pairs, meshes, vertices, edges, nodes, triangles, facets
+// out   candidates, and per pair their number
+// item  1 crossing; 1 pair (grid-stride)
+// may overflow: none; a pair has room for three candidates per crossing: one of two edges, one at
+// each end of its chord
+#include "shared/edge_axis.h"
+#include "shared/way_out.h"
+
+// in: crossings. out: those of each pair together, as they are needed. item: 1 crossing.
+__kernel void crossing_gather(__global const uint* counters, __global const ox_list* lists,
+                              __global const ox_edge_crossing* crossings,
+                              __global const ox_pair* pairs, __global const ox_vertex* vertices,
+                              __global const ox_edge* edges, __global const uint* facets,
+                              __global const uint* crossing_segments,
+                              __global ox_edge_crossing* gathered, __global uint* order) {
+  const uint count = ox_length(counters, lists, OX_LIST_CROSSINGS);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    ox_edge_crossing crossing = crossings[i];
+    const uint p = crossing.pair_side >> 1;
+    const uint side = crossing.pair_side & 1u;
+    __global const ox_edge* edge = edges + crossing.edge;
+    float3 a = vload3(0, vertices[edge->vertex[0]].position);
+    float3 b = vload3(0, vertices[edge->vertex[1]].position);
+    if (side == 0u) {
+      a = ox_place(pairs + p, 0u, a);
+      b = ox_place(pairs + p, 0u, b);
+    }
+    const float3 d = b - a;
+    const float3 position = a + crossing.t * (d / sqrt(ox_dot(d, d)));
+    crossing.position[0] = position.x;
+    crossing.position[1] = position.y;
+    crossing.position[2] = position.z;
+    crossing.facet = facets[crossing.triangle];
+    crossing.other = OX_NONE;
+    crossing.other_t = 0.0f;
+    crossing.region = OX_REGION_UNKNOWN;
+    gathered[crossing_segments[p] + crossing.slot] = crossing;
+    order[crossing_segments[p] + crossing.slot] = crossing.slot;
+  }
+}
+
+// What the hits of the vertices of one mesh say.
+typedef struct {
+  uint inside, fallback;
+} ox_hit_count;
+
+static ox_hit_count ox_count_hits(const ox_edge_pair* p, uint side) {
+  ox_hit_count count = {0u, 0u};
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    const uint kind = p->candidates[i].side_kind;
+    if (((kind & OX_HIT_SIDE) != 0u) != (side != 0u)) continue;
+    if ((kind & OX_HIT_KIND) == OX_HIT_INSIDE) ++count.inside;
+    if ((kind & OX_HIT_KIND) == OX_HIT_FALLBACK) ++count.fallback;
+  }
+  return count;
+}
+
+static bool ox_has_hit(const ox_edge_pair* p, uint side, uint vertex) {
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    __global const ox_candidate* c = p->candidates + i;
+    if (c->vertex == vertex && (c->side_kind & OX_HIT_POINT) == 0u &&
+        (c->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
+        ((c->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u))
+      return true;
+  }
+  return false;
+}
+
+// A vertex in contact covers the region it is in.
+static void ox_cover_by_vertices(const ox_edge_pair* p) {
+  for (uint side = 0u; side < 2u; ++side) {
+    const ox_hit_count hits = ox_count_hits(p, side);
+    if (hits.inside == 0u) continue;
+    const bool sheets = ((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u;
+    // Inside a closed target every vertex has a hit.
+    const bool all =
+        (p->mesh[1u - side]->flags & OX_MESH_CLOSED) != 0u && hits.fallback == 0u && !sheets;
+    for (uint i = 0u; i < p->count; ++i) {
+      __global ox_edge_crossing* c = p->crossings + i;
+      if (ox_side(c) != side) continue;
+      bool covered;
+      if (sheets) {  // on which side of it an edge is inside nobody knows
+        covered = ox_has_hit(p, side, p->edges[c->edge].vertex[0]) ||
+                  ox_has_hit(p, side, p->edges[c->edge].vertex[1]);
+      } else {
+        const uint vertex = ox_inner_vertex(p, c);
+        covered = vertex != OX_NONE && (all || ox_has_hit(p, side, vertex));
+      }
+      if (covered) c->region = OX_REGION_COVERED;
+    }
+  }
+}
+
+// Whether the chord of c crosses a facet at `edge` before c too: the pair of edges was looked at
+// there.
+static bool ox_was_paired(const ox_edge_pair* p, __global const ox_edge_crossing* c, uint edge) {
+  if (c->other == OX_NONE) return false;
+  __global const ox_edge_crossing* other = p->crossings + c->other;
+  return (other->t < c->t || (other->t == c->t && other->triangle < c->triangle)) &&
+         ox_is_at_facet(p, edge, other->facet);
+}
+
+// Contacts of an edge of A and one of B each of which crosses a facet at the other.
+static void ox_pair_edges(ox_edge_pair* p) {
+  const uint most = p->candidate_count + p->count;
+  for (uint k = 0u; k < p->count; ++k) {
+    __global ox_edge_crossing* a = p->crossings + p->order[k];
+    if (ox_side(a) != 0u) return;
+    for (uint f = 0u; f < 2u; ++f) {
+      const uint facet = ox_facet_at(p, a->edge, f);
+      if (facet == OX_NONE || (f == 1u && facet == ox_facet_at(p, a->edge, 0u))) continue;
+      for (uint n = ox_find_facet(p, 1u, facet); ox_crosses(p, n, 1u, facet); ++n) {
+        __global ox_edge_crossing* b = p->crossings + p->order[n];
+        if (!ox_is_at_facet(p, b->edge, a->facet) || ox_was_paired(p, a, b->edge) ||
+            ox_was_paired(p, b, a->edge))
+          continue;
+        const ox_wedge wedge_a = ox_wedge_of(p, a);
+        const ox_wedge wedge_b = ox_wedge_of(p, b);
+        ox_point point;
+        if (!ox_edge_contact(&wedge_a, &wedge_b, &point)) continue;
+        a->region = OX_REGION_COVERED;
+        b->region = OX_REGION_COVERED;
+        if (p->candidate_count < most)
+          ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0],
+                       point.position, point.normal, point.depth);
+      }
+    }
+  }
+}
+
+// Rays that look for a way out, per region and side: from the middles of so many chords at most.
+#define OX_MOST_CHORDS 8u
+
+static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
+                         __global const ox_edge_crossing* c, __global const ox_node* nodes,
+                         ox_way_out* best) {
+  const uint side = ox_side(c);
+  // The faces at its ends are what rays along the chord would meet, were it not too short for them.
+  ox_try_way(p, region, vertices, side, c->triangle, best);
+  if (c->other != OX_NONE)
+    ox_try_way(p, region, vertices, side, p->crossings[c->other].triangle, best);
+  const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
+  const float3 along = ox_line_of(p, side, c->edge).along;
+  float3 normal = (float3)(0.0f);
+  for (uint k = 0u; k < 2u; ++k) {
+    const uint triangle = p->edges[c->edge].triangle[k];
+    if (triangle != OX_NONE) normal += ox_normal_in_b(p, side, triangle);
+  }
+  const float3 binormal =
+      (float3)(along.y * normal.z - along.z * normal.y, along.z * normal.x - along.x * normal.z,
+               along.x * normal.y - along.y * normal.x);
+  for (uint k = 0u; k < (c->other == OX_NONE ? 6u : 4u); ++k) {
+    float3 direction = k < 2u ? normal : k < 4u ? binormal : along;
+    if ((k & 1u) != 0u) direction = -direction;
+    const float length2 = ox_dot(direction, direction);
+    if (length2 < 1.0e-12f) continue;  // the faces at the edge are back to back
+    ox_try_way(p, region, vertices, side,
+               ox_exit_face(p, side, middle, direction / sqrt(length2), nodes), best);
+  }
+}
+
+// Contacts for a region in a closed target: the ends of its chords, those at least half as deep as
+// the deepest.
+static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
+                               __global const ox_node* nodes) {
+  ox_way_out best = ox_no_way_out();
+  uint looked[2] = {0u, 0u};
+  for (uint k = 0u; k < p->count; ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->order[k];
+    if (c->region != region || (c->leaves != 0u && c->other != OX_NONE) ||
+        looked[ox_side(c)] == OX_MOST_CHORDS ||
+        (p->mesh[1u - ox_side(c)]->flags & OX_MESH_CLOSED) == 0u)
+      continue;
+    ++looked[ox_side(c)];
+    ox_try_chord(p, region, vertices, c, nodes, &best);
+  }
+  if (best.triangle == OX_NONE) return;
+  const float3 normal = best.side == 0u ? best.normal : -best.normal;
+  for (uint k = 0u; k < p->count; ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->order[k];
+    if (c->region != region || ox_side(c) != best.side) continue;
+    // The far end of a chord speaks for itself, unless it is a vertex.
+    for (uint end = 0u; end < (c->other == OX_NONE ? 2u : 1u); ++end) {
+      const float3 point = ox_chord_end(p, c, end);
+      const float depth = ox_depth_below(&best, point);
+      if (depth >= 0.5f * best.depth)
+        ox_add_point(p, best.side, p->edges[c->edge].triangle[0], best.triangle, point, normal,
+                     depth);
+    }
+  }
+  if (vertices) ox_lead_vertices_out(p, &best);
+}
+
+// A contact for a region in an open target, where its shallowest crossing is. Nothing is known of
+// what is beyond the target's thickness.
+static void ox_push_region_back(ox_edge_pair* p, uint region) {
+  uint best = OX_NONE;
+  float best_depth = INFINITY;
+  float3 best_normal = (float3)(0.0f);
+  for (uint k = 0u; k < p->count; ++k) {
+    const uint i = p->order[k];
+    __global const ox_edge_crossing* c = p->crossings + i;
+    if (c->region != region) continue;
+    const uint side = ox_side(c);
+    __global const ox_mesh* target = p->mesh[1u - side];
+    if ((target->flags & OX_MESH_CLOSED) != 0u) continue;
+    ox_way_out way = ox_through(p, side, c->triangle);
+    float depth;
+    if ((target->flags & OX_MESH_TWO_SIDED) != 0u) {  // the shorter end is beyond
+      const ox_line line = ox_line_of(p, side, c->edge);
+      const float end = c->t < 0.5f * line.length ? 0.0f : line.length;
+      depth = ox_depth_below(&way, line.from + end * line.along);
+      if (depth < 0.0f) {
+        depth = -depth;
+        way.normal = -way.normal;
+      }
+    } else {
+      ox_measure(p, region, false, INFINITY, &way);
+      depth = way.depth;
+    }
+    depth = ox_min(depth, target->reach);
+    if (depth < best_depth) {
+      best = i;
+      best_depth = depth;
+      best_normal = side == 0u ? way.normal : -way.normal;
+    }
+  }
+  if (best == OX_NONE) return;
+  __global const ox_edge_crossing* c = p->crossings + best;
+  ox_add_point(p, ox_side(c), p->edges[c->edge].triangle[0], c->triangle, vload3(0, c->position),
+               best_normal, best_depth);
+}
+
+static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) {
+  ox_spread_region(p, OX_REGION_COVERED);
+  uint region = OX_REGION_FIRST;
+  bool covered = false;
+  for (uint k = 0u; k < p->count; ++k) {
+    __global ox_edge_crossing* c = p->crossings + p->order[k];
+    covered = covered || c->region == OX_REGION_COVERED;
+    if (c->region != OX_REGION_UNKNOWN) continue;
+    c->region = region;
+    ox_spread_region(p, region++);
+  }
+  for (uint r = OX_REGION_FIRST; r < region; ++r) {
+    const uint before = p->candidate_count;
+    // Where it is the only one, all vertices beyond their own exit belong to it.
+    const bool vertices = !covered && region == OX_REGION_FIRST + 1u;
+    ox_lead_region_out(p, r, vertices, nodes);
+    if (p->candidate_count == before) ox_push_region_back(p, r);
+  }
+}
+
+// Rays that look for a way out of what holds the whole mesh.
+#define OX_MOST_VERTICES 64u
+
+// Nothing crosses, yet vertices are inside: all of the mesh is, or the two coincide.
+static void ox_lead_mesh_out(ox_edge_pair* p, uint side, uint fallback, uint vertex_first,
+                             __global const ox_node* nodes) {
+  ox_way_out best = ox_no_way_out();
+  // By their place in the mesh, which does not depend on the order of the hits.
+  const uint every = (fallback + OX_MOST_VERTICES - 1u) / OX_MOST_VERTICES;
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    __global const ox_candidate* c = p->candidates + i;
+    if (!ox_is_fallback(p, i, side) || (c->vertex - vertex_first) % every != 0u) continue;
+    float3 outward = -vload3(0, p->vertices[c->vertex].direction);
+    if (side == 0u) outward = ox_turn(p->pair, 0u, outward);
+    const float3 from = vload3(0, c->position);
+    ox_try_way(p, OX_NONE, true, side, c->triangle, &best);
+    ox_try_way(p, OX_NONE, true, side, ox_exit_face(p, side, from, outward, nodes), &best);
+  }
+  if (best.triangle != OX_NONE) ox_lead_vertices_out(p, &best);
+}
+
+// item: 1 pair.
+__kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mesh* meshes,
+                            __global const ox_chunk* chunks, __global const ox_vertex* vertices,
+                            __global const ox_edge* edges, __global const ox_node* nodes,
+                            __global const ox_triangle* triangles, __global const uint* facets,
+                            __global const uint* pair_crossings,
+                            __global const uint* crossing_segments, uint pair_count,
+                            __global ox_edge_crossing* crossings, __global uint* order,
+                            __global uint* pair_hits, __global const uint* pair_segments,
+                            __global ox_candidate* candidates) {
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < pair_count; i += stride) {
+    const uint crossed = pair_crossings[i];
+    if (crossed == 0u && pair_hits[i] == 0u) continue;
+    ox_edge_pair pair;
+    pair.pair = pairs + i;
+    pair.mesh[0] = meshes + pairs[i].mesh[0];
+    pair.mesh[1] = meshes + pairs[i].mesh[1];
+    pair.vertices = vertices;
+    pair.edges = edges;
+    pair.triangles = triangles;
+    pair.facets = facets;
+    pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
+    pair.order = order + (crossed == 0u ? 0u : crossing_segments[i]);
+    pair.count = crossed;
+    pair.candidates = candidates + pair_segments[i];
+    pair.candidate_count = pair_hits[i];
+    if (crossed == 0u) {
+      for (uint side = 0u; side < 2u; ++side) {
+        const ox_hit_count hits = ox_count_hits(&pair, side);
+        if (hits.fallback != 0u && hits.inside == 0u)
+          ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first,
+                           nodes);
+      }
+      continue;
+    }
+    ox_sort_crossings(&pair, false);
+    ox_find_chords(&pair);
+    ox_sort_crossings(&pair, true);
+    ox_cover_by_vertices(&pair);
+    ox_pair_edges(&pair);
+    ox_lead_regions_out(&pair, nodes);
+    pair_hits[i] = pair.candidate_count;
+  }
+}

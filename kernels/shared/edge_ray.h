@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edges cast as segments: every triangle of the target that an edge of the source crosses. Device
+// only.
+//
+// In general position two surfaces intersect exactly where an edge of one crosses a face of the
+// other, so what vertex rays miss (edges that meet edges or cut across faces) is found here.
+#ifndef ODE_EXT_KERNELS_SHARED_EDGE_RAY_H
+#define ODE_EXT_KERNELS_SHARED_EDGE_RAY_H
+
+#include "shared/append.h"
+#include "shared/cull.h"
+#include "shared/full_ray.h"
+
+// An edge in the frame of the target.
+typedef struct {
+  float3 from, direction;  // direction: unit
+  float length;
+} ox_segment;
+
+static inline ox_segment ox_segment_of(__global const ox_pair* pair, uint side,
+                                       __global const ox_vertex* vertices,
+                                       __global const ox_edge* edge) {
+  ox_segment segment;
+  segment.from = ox_place(pair, side, vload3(0, vertices[edge->vertex[0]].position));
+  const float3 to = ox_place(pair, side, vload3(0, vertices[edge->vertex[1]].position));
+  const float3 along = to - segment.from;
+  segment.length = sqrt(ox_dot(along, along));
+  segment.direction = segment.length > 0.0f ? along / segment.length : (float3)(0.0f);
+  return segment;
+}
+
+// Whether a cell of the grid that the box touches is not wholly outside. Boxes of many cells are
+// not looked at.
+static inline bool ox_may_reach_inside(__global const ox_mesh* mesh, __global const uint* grids,
+                                       float3 lo, float3 hi) {
+  const float low[3] = {lo.x, lo.y, lo.z};
+  const float high[3] = {hi.x, hi.y, hi.z};
+  uint first[3], count[3];
+  uint cells = 1u;
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    const float last = (float)mesh->grid_cells[axis] - 1.0f;
+    const float a = (low[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
+    const float b = (high[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
+    first[axis] = (uint)ox_min(ox_max(a, 0.0f), last);
+    count[axis] = (uint)ox_min(ox_max(b, 0.0f), last) - first[axis] + 1u;
+    cells *= count[axis];
+  }
+  if (cells > 64u) return true;
+  for (uint z = first[2]; z < first[2] + count[2]; ++z)
+    for (uint y = first[1]; y < first[1] + count[1]; ++y)
+      for (uint x = first[0]; x < first[0] + count[0]; ++x) {
+        const uint bit = (z * mesh->grid_cells[1] + y) * mesh->grid_cells[0] + x;
+        if ((grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) != 0u) return true;
+      }
+  return false;
+}
+
+// Edges of a deformable mesh may be flat in its present shape: those are not cast (facets.h).
+static inline bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
+  if (edge->triangle[1] == OX_NONE) return false;
+  const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -
+                   vload3(0, triangles[edge->triangle[1]].normal);
+  return ox_dot(d, d) < 1.0e-6f;  // 0.06 degrees
+}
+
+// Whether the edge can cross the surface of the target.
+static inline bool ox_keep_edge(__global const ox_pair* pair, uint side,
+                                __global const ox_mesh* meshes, __global const ox_vertex* vertices,
+                                __global const ox_triangle* triangles, __global const ox_edge* edge,
+                                __global const uint* grids) {
+  __global const ox_mesh* source = meshes + pair->mesh[side];
+  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+  if ((source->flags & OX_MESH_DEFORMABLE) != 0u && ox_is_flat(triangles, edge)) return false;
+  const float epsilon = pair->epsilon;
+  const float3 p = ox_place(pair, side, vload3(0, vertices[edge->vertex[0]].position));
+  const float3 q = ox_place(pair, side, vload3(0, vertices[edge->vertex[1]].position));
+  const float3 middle = 0.5f * (p + q);
+  const float3 half_size = fabs(0.5f * (q - p)) + epsilon;
+  const float3 d = fabs(middle - vload3(0, target->box_centre));
+  const float3 limit = half_size + vload3(0, target->box_half);
+  if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
+  return (target->flags & OX_MESH_GRID) == 0u ||
+         ox_may_reach_inside(target, grids, middle - half_size, middle + half_size);
+}
+
+// Every place where the segment crosses the target, a little beyond its ends too: edges that meet
+// in a vertex are cast one by one, and none of them may leave it to the other.
+static inline void ox_cast_edge(__global volatile uint* counters, __global const ox_list* lists,
+                                uint pair_side, uint edge_index, __global const ox_pair* pairs,
+                                __global const ox_mesh* meshes, __global const ox_vertex* vertices,
+                                __global const ox_edge* edges, __global const ox_node* all_nodes,
+                                __global const ox_triangle* triangles,
+                                __global volatile uint* pair_crossings,
+                                __global ox_edge_crossing* crossings, uint* work) {
+  __global const ox_pair* pair = pairs + (pair_side >> 1);
+  const uint side = pair_side & 1u;
+  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+  const ox_segment segment = ox_segment_of(pair, side, vertices, edges + edge_index);
+  if (segment.length == 0.0f) return;
+  const float from = -pair->epsilon;
+  const float limit = segment.length + pair->epsilon;
+  const ox_cast cast = ox_cast_from(segment.from, segment.direction);
+  __global const ox_node* nodes = all_nodes + target->node_first;
+  for (uint n = 0u; n < target->node_count;) {
+    __global const ox_node* node = nodes + n;
+    *work += OX_WORK_NODE;
+    const float3 t_lo = (vload3(0, node->lo) - cast.origin) * cast.inverse;
+    const float3 t_hi = (vload3(0, node->hi) - cast.origin) * cast.inverse;
+    const float enter = ox_max(ox_max(ox_min(t_lo.x, t_hi.x), ox_min(t_lo.y, t_hi.y)),
+                               ox_max(ox_min(t_lo.z, t_hi.z), from));
+    const float leave = ox_min(ox_min(ox_max(t_lo.x, t_hi.x), ox_max(t_lo.y, t_hi.y)),
+                               ox_min(ox_max(t_lo.z, t_hi.z), limit));
+    if (enter > leave) {
+      n = node->skip;
+      continue;
+    }
+    const uint first = target->triangle_first + (node->leaf >> 3);
+    const uint count = node->leaf & 7u;
+    *work += count * OX_WORK_TRIANGLE;
+    for (uint k = first; k < first + count; ++k) {
+      __global const ox_triangle* triangle = triangles + k;
+      float t;
+      bool back;
+      if (!ox_meets(&cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c),
+                    &t, &back) ||
+          !(t >= from && t <= limit))
+        continue;
+      const uint slot = ox_append(counters, lists, OX_LIST_CROSSINGS);
+      if (slot == OX_NONE) continue;
+      __global ox_edge_crossing* crossing = crossings + slot;
+      crossing->pair_side = pair_side;
+      crossing->edge = edge_index;
+      crossing->triangle = k;
+      crossing->t = t;
+      crossing->leaves = back ? 1u : 0u;
+      crossing->slot = atomic_inc(pair_crossings + (pair_side >> 1));
+    }
+    ++n;
+  }
+}
+
+// The edge of a place in a task; OX_NONE: there is none, or it cannot cross the target.
+static inline uint ox_choose_edge(__global const ox_chunk_task* task, uint lane,
+                                  __global const ox_pair* pairs, __global const ox_mesh* meshes,
+                                  __global const ox_chunk* chunks,
+                                  __global const ox_vertex* vertices,
+                                  __global const ox_triangle* triangles,
+                                  __global const ox_edge* edges, __global const uint* grids,
+                                  uint* work) {
+  *work += 1u;
+  if (task->chunk == OX_NONE) return OX_NONE;
+  __global const ox_chunk* chunk = chunks + task->chunk;
+  if (lane >= chunk->count) return OX_NONE;
+  const uint edge = chunk->first + lane;
+  *work += 2u;
+  return ox_keep_edge(pairs + (task->pair_side >> 1), task->pair_side & 1u, meshes, vertices,
+                      triangles, edges + edge, grids)
+             ? edge
+             : OX_NONE;
+}
+
+#endif

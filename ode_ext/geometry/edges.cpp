@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/edges.h"
+
+#include <algorithm>
+
+#include "geometry/directed_edges.h"
+#include "geometry/mesh.h"
+#include "geometry/ray_cast.h"
+
+namespace ode_ext {
+
+std::vector<Edge> edges(const std::vector<Triangle>& triangles,
+                        const std::vector<std::uint32_t>& facets) {
+  std::vector<Edge> result;
+  const std::vector<DirectedEdge> sides = sorted_edges(triangles);
+  for (std::size_t i = 0; i < sides.size();) {
+    const DirectedEdge& a = sides[i];
+    const bool paired = i + 1 < sides.size() && same_edge(a, sides[i + 1]);
+    Edge edge{{a.low, a.high}, {a.side / 3, paired ? sides[i + 1].side / 3 : kNone}};
+    // By the direction in which they run the edge, not by their numbers.
+    if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
+    i += paired ? 2 : 1;
+    if (paired && !facets.empty() && facets[edge.triangles[0]] == facets[edge.triangles[1]])
+      continue;
+    result.push_back(edge);
+  }
+  return result;
+}
+
+std::vector<EdgeChunk> cut_into_chunks(const std::vector<Edge>& edges,
+                                       const std::vector<Vec3f>& vertices) {
+  std::vector<EdgeChunk> chunks;
+  const auto total = static_cast<std::uint32_t>(edges.size());
+  for (std::uint32_t first = 0; first < total; first += kChunkVertices) {
+    EdgeChunk chunk{first, std::min(kChunkVertices, total - first), empty_box()};
+    for (std::uint32_t i = first; i < first + chunk.count; ++i)
+      for (const std::uint32_t vertex : edges[i].vertices)
+        chunk.box = grown(chunk.box, vertices[vertex]);
+    chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+}  // namespace ode_ext
