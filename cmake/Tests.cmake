@@ -10,7 +10,8 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
      tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp
-     tests/audit/scene_audit.cpp)
+     tests/audit/scene_audit.cpp tests/stability/*.cpp)
+list(FILTER test_sources EXCLUDE REGEX "/contact_stability\\.cpp$")
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
@@ -33,6 +34,15 @@ add_executable(rigid_audit EXCLUDE_FROM_ALL tests/audit/rigid_audit.cpp tests/au
 ode_ext_compile_options(rigid_audit)
 target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 fcl Eigen3::Eigen)
+
+# Do bodies rest, slide and stand on the contacts? Minutes; the tests try its parts.
+file(GLOB stability_sources CONFIGURE_DEPENDS tests/stability/*.cpp)
+list(FILTER stability_sources EXCLUDE REGEX "_test\\.cpp$")
+add_executable(contact_stability ${stability_sources})
+ode_ext_compile_options(contact_stability)
+target_link_libraries(contact_stability PRIVATE
+  ode_ext_core ode_ext_test_support falling_objects_parts CLI11::CLI11
+  nlohmann_json::nlohmann_json)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
