@@ -33,6 +33,10 @@ struct Trial {
 const std::vector<Trial>& trials() {
   static const std::vector<Trial> all{
       {"towers", "Stacks of cubes stand wherever ODE's boxes do", run_towers},
+      {"slope", "A box holds on a slope or slides, by the angle of friction", run_slope},
+      {"slide", "A box slides over many triangles and does not feel their edges", run_slide},
+      {"throws", "Non-convex bodies that meet gain no energy", run_throws},
+      {"rest", "Single bodies lie still", run_rest},
   };
   return all;
 }

@@ -172,6 +172,26 @@ TestMesh make_tetrahedron(double edge) {
   return mesh;
 }
 
+TestMesh make_cylinder(double radius, double height, int sides) {
+  TestMesh mesh;
+  const auto count = static_cast<unsigned>(sides);
+  for (const double z : {-height / 2, height / 2}) {
+    for (int i = 0; i < sides; ++i) {
+      const double a = 2 * pi * i / sides;
+      add_vertex(mesh, {radius * std::cos(a), radius * std::sin(a), z});
+    }
+  }
+  const unsigned bottom = add_vertex(mesh, {0, 0, -height / 2});
+  const unsigned top = add_vertex(mesh, {0, 0, height / 2});
+  for (unsigned i = 0; i < count; ++i) {
+    const unsigned j = (i + 1) % count;
+    add_quad(mesh, i, j, count + j, count + i);
+    add_triangle(mesh, bottom, j, i);
+    add_triangle(mesh, top, count + i, count + j);
+  }
+  return mesh;
+}
+
 TestMesh make_l(double size) {
   TestMesh mesh;
   const double outline[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};

@@ -49,6 +49,7 @@ TestMesh make_rod(double length, double width);             // along x, square s
 TestMesh make_icosphere(double radius, int subdivisions);   // 20 * 4^subdivisions triangles
 TestMesh make_torus(double ring, double tube, int around, int across);  // about z
 TestMesh make_tetrahedron(double edge);                                 // regular, centred
+TestMesh make_cylinder(double radius, double height, int sides);        // a prism about z
 TestMesh make_l(double size);  // a concave prism: a 2 x 2 square less one quarter, about 0
 TestMesh make_sheet(double size, int n);  // open, in z = 0, facing +z
 TestMesh make_triangle(double size);      // one triangle in z = 0, facing +z

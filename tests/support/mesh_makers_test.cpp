@@ -49,6 +49,7 @@ TEST(MeshMakers, MakeClosedOutwardSolidsOfTheRightVolume) {
       {"sphere", make_icosphere(1, 3), 1280, 4 * pi / 3, 0.05},
       {"torus", make_torus(1, 0.4, 24, 16), 768, 2 * pi * pi * 0.16, 0.13},
       {"tetrahedron", make_tetrahedron(1), 4, 1 / (6 * std::sqrt(2.0)), exact},
+      {"cylinder", make_cylinder(1, 2, 100), 400, 100 * std::sin(2 * pi / 100), exact * 8},
       {"L", make_l(2), 20, 3, exact * 3},
   };
   for (const Solid& solid : solids) {
