@@ -24,36 +24,55 @@ PenetrationMeter::PenetrationMeter(const Scene& scene)
   }
 }
 
-PenetrationMeter::Result PenetrationMeter::measure() const {
-  const std::size_t count = scene_.objects().size();
+std::vector<Pose> PenetrationMeter::poses() const {
   std::vector<Pose> poses;
   for (const Object& object : scene_.objects()) poses.push_back(pose_of(object.body));
+  return poses;
+}
 
-  Result result;
-  // What is neither deeper than all so far nor deeper than allowed need not be known exactly.
-  const auto look_at = [&](std::size_t i, const Mesh& other, const Pose& pose, std::size_t j,
-                           double allowed) {
-    const double floor = std::min(result.deepest, allowed);
-    const double depth =
-        penetration(shapes_[scene_.objects()[i].shape], poses[i], other, pose, floor);
-    result.deepest = std::max(result.deepest, depth);
-    if (depth > allowed) result.too_deep.push_back({i, j, depth, allowed});
-  };
+template <class Visit>
+void PenetrationMeter::for_each_pair(const std::vector<Pose>& poses, Visit visit) const {
+  const std::size_t count = scene_.objects().size();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t shape_i = scene_.objects()[i].shape;
     const Mesh& mesh = shapes_[shape_i];
     if (!mesh.closed()) continue;
-    look_at(i, ground_, Pose{}, count, half_thinnest_[shape_i]);
+    visit(i, count, ground_, Pose{}, half_thinnest_[shape_i]);
     for (std::size_t j = i + 1; j < count; ++j) {
       const std::size_t shape_j = scene_.objects()[j].shape;
       const Mesh& other = shapes_[shape_j];
       const Vector apart = poses[i].position - poses[j].position;
       const double reach = mesh.radius() + other.radius();
       if (!other.closed() || dot(apart, apart) > reach * reach) continue;
-      look_at(i, other, poses[j], j, std::min(half_thinnest_[shape_i], half_thinnest_[shape_j]));
+      visit(i, j, other, poses[j], std::min(half_thinnest_[shape_i], half_thinnest_[shape_j]));
     }
   }
+}
+
+PenetrationMeter::Result PenetrationMeter::measure() const {
+  const std::vector<Pose> poses = this->poses();
+  Result result;
+  for_each_pair(poses, [&](std::size_t i, std::size_t j, const Mesh& other, const Pose& pose,
+                           double allowed) {
+    // What is neither deeper than all so far nor deeper than allowed need not be known exactly.
+    const double floor = std::min(result.deepest, allowed);
+    const double depth =
+        penetration(shapes_[scene_.objects()[i].shape], poses[i], other, pose, floor);
+    result.deepest = std::max(result.deepest, depth);
+    if (depth > allowed) result.too_deep.push_back({i, j, depth, allowed});
+  });
   return result;
+}
+
+std::vector<double> PenetrationMeter::all_depths() const {
+  const std::vector<Pose> poses = this->poses();
+  std::vector<double> depths;
+  for_each_pair(
+      poses, [&](std::size_t i, std::size_t, const Mesh& other, const Pose& pose, double) {
+        const double depth = penetration(shapes_[scene_.objects()[i].shape], poses[i], other, pose);
+        if (depth > 0) depths.push_back(depth);
+      });
+  return depths;
 }
 
 }  // namespace falling_objects

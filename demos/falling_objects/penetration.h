@@ -28,8 +28,16 @@ class PenetrationMeter {
   };
   // At the current poses. Open meshes have no inside: left out.
   Result measure() const;
+  // The depth [m] of every pair of which one has a vertex inside the other. Slower: measure() need
+  // not know most of them.
+  std::vector<double> all_depths() const;
 
  private:
+  // Calls visit(i, j, mesh j, pose j, allowed) for each pair that may touch.
+  template <class Visit>
+  void for_each_pair(const std::vector<ode_ext::oracle::Pose>& poses, Visit visit) const;
+  std::vector<ode_ext::oracle::Pose> poses() const;
+
   const Scene& scene_;
   std::vector<ode_ext::oracle::Mesh> shapes_;
   std::vector<double> half_thinnest_;  // of the shapes [m]

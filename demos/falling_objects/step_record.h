@@ -16,7 +16,8 @@ struct StepRecord {
   long long rays = 0;
   unsigned status = 0;    // dBatchStatus... bits
   double collide_ms = 0;  // the driving collider, callbacks included
-  double world_ms = 0;
+  double world_ms = 0;    // contact joints and solver
+  double solver_ms = 0;   // dWorldQuickStep alone
   std::array<double, dBatchStageCount> stage_ms{};
   // Only with --compare: both colliders at the same poses.
   double batch_ms = 0, ode_ms = 0;

@@ -153,6 +153,7 @@ TEST_F(DemoChecks, SeeTheOneVertexOfASheetThatMoves) {
 TEST_F(DemoChecks, MeasuresObjectsInEachOtherAndInTheGround) {
   const PenetrationMeter meter(scene_);
   EXPECT_EQ(meter.measure().deepest, 0);
+  EXPECT_TRUE(meter.all_depths().empty());
   const dReal* p = dBodyGetPosition(body(0));
   dBodySetPosition(body(1), p[0], p[1], p[2]);
   const PenetrationMeter::Result both = meter.measure();
@@ -160,6 +161,7 @@ TEST_F(DemoChecks, MeasuresObjectsInEachOtherAndInTheGround) {
   EXPECT_EQ(both.too_deep[0].object, 0u);
   EXPECT_EQ(both.too_deep[0].other, 1u);
   EXPECT_EQ(both.deepest, both.too_deep[0].depth);
+  EXPECT_EQ(meter.all_depths(), std::vector<double>{both.deepest});
   dBodySetPosition(body(1), 0, 0, scene_.ground().height(0, 0));
   ASSERT_EQ(meter.measure().too_deep.size(), 1u);
   EXPECT_EQ(meter.measure().too_deep[0].other, 4u);  // the ground

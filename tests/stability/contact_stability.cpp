@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "falling_objects/collision.h"
 #include "stability/trials.h"
 
 namespace ode_ext::stability {
@@ -37,6 +38,7 @@ const std::vector<Trial>& trials() {
       {"slide", "A box slides over many triangles and does not feel their edges", run_slide},
       {"throws", "Non-convex bodies that meet gain no energy", run_throws},
       {"rest", "Single bodies lie still", run_rest},
+      {"settled", "A thousand objects lie in a bowl", run_settled},
   };
   return all;
 }
@@ -62,6 +64,12 @@ int main(int argc, char** argv) {
   app.add_option("--max-contacts", options.max_contacts, "Contacts per pair at most")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
+  app.add_option("--objects", options.objects, "How many fall, of settled")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  app.add_option("--steps", options.steps, "How many steps, of settled")
+      ->check(CLI::Range(3, 1000000))
+      ->capture_default_str();
   app.add_flag("--quick", options.quick, "Fewer and shorter runs");
   app.add_option("--json", json, "Write all figures to this file");
   app.add_flag("--check", check, "Exit with 1 where a target is missed");
@@ -76,6 +84,9 @@ int main(int argc, char** argv) {
     }
     if (!json.empty()) report.write(json);
     return check && !report.all_met() ? 1 : 0;
+  } catch (const falling_objects::NoDevice& error) {
+    std::cerr << error.message << '\n';
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
