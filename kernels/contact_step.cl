@@ -108,6 +108,24 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
       candidates[i].patch = patch;
 }
 
+// Two contacts contradict one another if they push opposite ways and a way out by one of them leads
+// deeper into the other: what lies between their places along the normal is less than their depth.
+// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) Equal bodies
+// in one place have as many ways out as faces; the first one taken stands.
+static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b) {
+  const float3 normal = vload3(0, a->normal);
+  if (ox_dot(normal, vload3(0, b->normal)) > -0.5f) return false;
+  const float apart = ox_dot(vload3(0, a->position) - vload3(0, b->position), normal);
+  return fabs(apart) < ox_max(a->depth, b->depth);
+}
+
+static bool ox_is_contradicted(__global const ox_candidate* candidates, uint candidate,
+                               const uint* taken, uint n) {
+  for (uint k = 0u; k < n; ++k)
+    if (ox_contradicts(candidates + candidate, candidates + taken[k])) return true;
+  return false;
+}
+
 // With edge rays every region has a contact, and what lies beyond a source's exit says nothing more.
 static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
                       uint max_contacts, bool edges, uint* taken) {
@@ -124,6 +142,10 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_deeper(candidates + i, candidates + best)))
         best = i;
     if (best == count) break;
+    if (edges && ox_is_contradicted(candidates, best, taken, n)) {
+      candidates[best].patch = OX_TAKEN;
+      continue;
+    }
     ox_open_patch(candidates, count, best, n);
     ox_take(candidates, count, best);
     taken[n++] = best;
@@ -135,6 +157,10 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_farther(candidates + i, candidates + best)))
         best = i;
     if (best == count || candidates[best].distance2 <= merge2) break;
+    if (edges && ox_is_contradicted(candidates, best, taken, n)) {
+      candidates[best].patch = OX_TAKEN;
+      continue;
+    }
     ox_take(candidates, count, best);
     taken[n++] = best;
   }

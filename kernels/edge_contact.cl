@@ -256,6 +256,34 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
   }
 }
 
+// A vertex beyond its own exit that leaves the way a contact does is deeper in the same matter: it
+// counts as well (the foremost corner of a plate whose end is pressed into a wall). 25.8 degrees, as
+// for patches. One whose surface runs along the target's on both sides (nearest.h) says nothing.
+static void ox_admit_fallbacks(const ox_edge_pair* p) {
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    __global ox_candidate* c = p->candidates + i;
+    const uint side = (c->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
+    if (!ox_is_fallback(p, i, side) ||
+        c->t <= p->vertices[c->vertex].exit + 2.0f * p->pair->epsilon)
+      continue;
+    const float3 normal = vload3(0, c->normal);
+    for (uint k = 0u; k < p->candidate_count; ++k) {
+      __global const ox_candidate* d = p->candidates + k;
+      if ((d->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
+          ox_dot(normal, vload3(0, d->normal)) > 0.9f) {
+        c->distance2 = 0.0f;  // marked, so that it admits no others
+        break;
+      }
+    }
+  }
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    __global ox_candidate* c = p->candidates + i;
+    if (c->distance2 != 0.0f) continue;
+    c->distance2 = INFINITY;
+    c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_INSIDE;
+  }
+}
+
 // Rays that look for a way out of what holds the whole mesh.
 #define OX_MOST_VERTICES 64u
 
@@ -319,6 +347,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     ox_cover_by_vertices(&pair);
     ox_pair_edges(&pair);
     ox_lead_regions_out(&pair, nodes);
+    ox_admit_fallbacks(&pair);
     pair_hits[i] = pair.candidate_count;
   }
 }
