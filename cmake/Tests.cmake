@@ -8,6 +8,14 @@ find_package(fcl REQUIRED)
 find_package(ccd REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
+# All of contact_accuracy but main, once for the program and once for its tests.
+file(GLOB accuracy_sources CONFIGURE_DEPENDS tests/accuracy/*.cpp)
+list(FILTER accuracy_sources EXCLUDE REGEX "(/main|_test)\\.cpp$")
+add_library(contact_accuracy_parts OBJECT ${accuracy_sources})
+ode_ext_compile_options(contact_accuracy_parts)
+target_link_libraries(contact_accuracy_parts PUBLIC
+  ode_ext_test_support nlohmann_json::nlohmann_json)
+
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
      tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp
      tests/audit/scene_audit.cpp tests/stability/bench.cpp tests/stability/ground.cpp
@@ -18,8 +26,8 @@ if(test_sources)
   target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(ode_ext_tests PRIVATE
     ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
-    $<TARGET_NAME_IF_EXISTS:paper_parts>
-    nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen ${CMAKE_DL_LIBS})
+    $<TARGET_NAME_IF_EXISTS:paper_parts> contact_accuracy_parts nlohmann_json::nlohmann_json
+    GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen ${CMAKE_DL_LIBS})
   # Half of what compiling a test takes is this header.
   target_precompile_headers(ode_ext_tests PRIVATE <gtest/gtest.h>)
   # A fixed seed: a run that fails must fail again. For other seeds run bin/ode_ext_tests itself.
@@ -43,6 +51,12 @@ ode_ext_compile_options(contact_stability)
 target_link_libraries(contact_stability PRIVATE
   ode_ext_core ode_ext_test_support falling_objects_parts CLI11::CLI11
   nlohmann_json::nlohmann_json)
+
+# How true are the contacts, against oracles and beside ODE's own collider? Half a minute; the tests judge its trials.
+add_executable(contact_accuracy tests/accuracy/main.cpp tests/support/ccd_oracle.cpp)
+ode_ext_compile_options(contact_accuracy)
+target_link_libraries(contact_accuracy PRIVATE
+  ode_ext::ode_ext contact_accuracy_parts ode_ext_test_support CLI11::CLI11 ccd)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)

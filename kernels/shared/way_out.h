@@ -102,8 +102,7 @@ static inline void ox_measure(const ox_edge_pair* p, uint region, bool vertices,
   }
   for (uint i = 0u; i < p->candidate_count && vertices && way->depth <= limit; ++i)
     if (ox_is_fallback(p, i, way->side))
-      way->depth =
-          ox_max(way->depth, ox_depth_below(way, vload3(0, p->candidates[i].position)));
+      way->depth = ox_max(way->depth, ox_depth_below(way, vload3(0, p->candidates[i].position)));
 }
 
 static inline bool ox_is_better(const ox_edge_pair* p, const ox_way_out* a, const ox_way_out* b) {
