@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/failures.h"
 #include "accuracy/measures.h"
 #include "accuracy/rounding.h"
 #include "accuracy/trial.h"
@@ -162,12 +163,12 @@ Outcome measure(const std::vector<Case>& cases, const Share& box_box_differing,
   for (const Case& c : cases) geoms.push_back(c.geoms);
   const auto answers = contestant.collide(geoms);
   Share none, too_deep, opposing;
-  nlohmann::json failures = nlohmann::json::array();
+  Failures failures;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& c = cases[i];
     const auto fail = [&](Share& share, bool failed, const std::string& what) {
       share.count(failed);
-      if (failed) failures.push_back(c.name + ": " + what);
+      if (failed) failures.add(c.name + ": " + what, c.geoms);
     };
     if (c.depth > kTouching) fail(none, answers[i].empty(), "no contact");
     if (answers[i].empty()) continue;
@@ -183,7 +184,7 @@ Outcome measure(const std::vector<Case>& cases, const Share& box_box_differing,
            {"(cases)", static_cast<double>(cases.size())},
            {"(of these overlapping)", static_cast<double>(none.all)},
            {"(pairs of boxes of whose depth dBoxBox says another)", number(box_box_differing)}},
-          {{"failures", failures}}};
+          {{"failures", failures.json()}}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/failures.h"
 #include "accuracy/known_pair.h"
 #include "accuracy/measures.h"
 #include "accuracy/polygon.h"
@@ -56,11 +57,18 @@ Measure prepare_cubes(const Options& options, test::OdeWorld& world) {
     for (const Stack& stack : stacks) geoms.push_back(stack.pair.geoms);
     const auto answers = contestant.collide(geoms);
     Share too_deep, askew, none, held_up;
+    Failures failures;
     for (std::size_t i = 0; i < stacks.size(); ++i) {
+      const KnownPair& pair = stacks[i].pair;
       none.count(answers[i].empty());
+      if (answers[i].empty()) failures.add("no contact", pair.geoms);
       for (const dContactGeom& c : answers[i]) {
-        too_deep.count(exceeds(c.depth, 2 * kOverlap));
-        askew.count(is_askew(c, stacks[i].pair.direction));
+        const bool is_too_deep = exceeds(c.depth, 2 * kOverlap);
+        const bool askew_or_not = is_askew(c, pair.direction);
+        too_deep.count(is_too_deep);
+        askew.count(askew_or_not);
+        if (is_too_deep || askew_or_not)
+          failures.add(describe(&c, pair.direction, pair.depth), pair.geoms);
       }
       for (const Point2& corner : stacks[i].shared) held_up.count(is_held_up(corner, answers[i]));
     }
@@ -69,7 +77,8 @@ Measure prepare_cubes(const Options& options, test::OdeWorld& world) {
                     {"normals more than 5 degrees off [%]", askew.percent(), at_most(1)},
                     {"pairs without a contact [%]", none.percent(), at_most(0)},
                     {"corners held up [%]", held_up.percent()},
-                    {"contacts per pair", contacts}}};
+                    {"contacts per pair", contacts}},
+                   {{"failures", failures.json()}}};
   };
 }
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/failures.h"
 #include "accuracy/known_pair.h"
 #include "accuracy/measures.h"
 #include "accuracy/trial.h"
@@ -79,12 +80,16 @@ std::vector<KnownPair> press(const Options& options, Laid (*lay)(test::Random&),
 }
 
 void measure(const char* name, const std::vector<KnownPair>& pairs, Contestant& contestant,
-             std::vector<Figure>& figures) {
+             std::vector<Figure>& figures, Failures& failures) {
   const auto answers = contestant.collide(geoms_of(pairs));
   Share none, askew, wrong_depth;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const dContactGeom* deepest = deepest_of(answers[i]);
     none.count(deepest == nullptr);
+    if (deepest == nullptr || is_askew(*deepest, pairs[i].direction)) {
+      failures.add(std::string(name) + ": " + describe(deepest, pairs[i].direction, pairs[i].depth),
+                   pairs[i].geoms);
+    }
     if (deepest == nullptr) continue;
     askew.count(is_askew(*deepest, pairs[i].direction));
     wrong_depth.count(exceeds(std::fabs(deepest->depth / pairs[i].depth - 1), 0.1));
@@ -101,8 +106,10 @@ Measure prepare_plate(const Options& options, test::OdeWorld& world) {
   return [in = press(options, laid_in, world),
           on = press(options, edge_on, world)](Contestant& contestant) {
     Outcome outcome;
-    measure("laid in", in, contestant, outcome.figures);
-    measure("edge on", on, contestant, outcome.figures);
+    Failures failures;
+    measure("laid in", in, contestant, outcome.figures, failures);
+    measure("edge on", on, contestant, outcome.figures, failures);
+    outcome.details = {{"failures", failures.json()}};
     return outcome;
   };
 }

@@ -6,7 +6,7 @@
 namespace ode_ext::accuracy {
 namespace {
 
-constexpr std::size_t kNamed = 10;  // failed cases that are named
+constexpr std::size_t kNamed = 5;  // failures that are named
 
 bool is_met(const Figure& figure) { return !figure.target || figure.target->met_by(figure.value); }
 
@@ -20,12 +20,15 @@ std::string text_of(const Figure& figure) {
 }
 
 void print_failures(const nlohmann::json& details, std::FILE* out) {
-  if (!details.contains("failures")) return;
+  if (!details.is_object() || !details.contains("failures")) return;
   const auto& failures = details.at("failures");
-  const std::size_t named = std::min(kNamed, failures.size());
-  for (std::size_t i = 0; i < named; ++i)
-    std::fprintf(out, "    ode_ext: %s\n", failures[i].get<std::string>().c_str());
-  if (named < failures.size()) std::fprintf(out, "    and %zu more\n", failures.size() - named);
+  const auto count = failures.at("count").get<std::size_t>();
+  const std::size_t named = std::min(kNamed, count);
+  for (std::size_t i = 0; i < named; ++i) {
+    const auto what = failures.at("first")[i].at("what").get<std::string>();
+    std::fprintf(out, "    ode_ext: %s\n", what.c_str());
+  }
+  if (named < count) std::fprintf(out, "    and %zu more\n", count - named);
 }
 
 }  // namespace

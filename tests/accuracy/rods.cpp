@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "accuracy/failures.h"
 #include "accuracy/known_pair.h"
 #include "accuracy/measures.h"
 #include "accuracy/trial.h"
@@ -44,16 +45,21 @@ Measure prepare_rods(const Options& options, test::OdeWorld& world) {
     const auto answers = contestant.collide(geoms_of(pairs));
     Share none, askew, wrong_depth;
     std::vector<double> angles, depths;
+    Failures failures;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       none.count(answers[i].empty());
       for (const dContactGeom& c : answers[i]) {
         angles.push_back(degrees_between(test::normal(c), pairs[i].direction));
         askew.count(exceeds(angles.back(), kWrongAngle));
       }
-      if (const dContactGeom* deepest = deepest_of(answers[i])) {
+      const dContactGeom* deepest = deepest_of(answers[i]);
+      if (deepest != nullptr) {
         depths.push_back(100 * std::fabs(deepest->depth / pairs[i].depth - 1));
         wrong_depth.count(exceeds(depths.back(), 10));
       }
+      if (deepest == nullptr || exceeds(depths.back(), 10) ||
+          is_askew(*deepest, pairs[i].direction))
+        failures.add(describe(deepest, pairs[i].direction, pairs[i].depth), pairs[i].geoms);
     }
     const double contacts = static_cast<double>(askew.all) / static_cast<double>(pairs.size());
     return Outcome{{{"pairs without a contact [%]", none.percent(), at_most(0)},
@@ -61,7 +67,8 @@ Measure prepare_rods(const Options& options, test::OdeWorld& world) {
                     {"normals off at worst [degrees]", worst(angles)},
                     {"deepest more than 10 % off [%]", wrong_depth.percent(), at_most(0)},
                     {"deepest off at worst [%]", worst(depths)},
-                    {"contacts per pair", contacts}}};
+                    {"contacts per pair", contacts}},
+                   {{"failures", failures.json()}}};
   };
 }
 

@@ -3,6 +3,7 @@
 // contact by its depth, at most five times, with fresh contacts each time.
 #include <memory>
 
+#include "accuracy/failures.h"
 #include "accuracy/measures.h"
 #include "accuracy/pressed_pair.h"
 #include "accuracy/trial.h"
@@ -114,19 +115,28 @@ Measure prepare_separation(const Options& options, test::OdeWorld& world) {
   return [made = make_scenes(options, world)](Contestant& contestant) {
     const auto courses = push_apart(made->scenes, contestant);
     Share none, apart, at_once, short_way;
+    Failures failures;
     for (std::size_t i = 0; i < courses.size(); ++i) {
       const Course& course = courses[i];
       none.count(course.stuck && course.moves == 0);
       apart.count(course.apart);
       at_once.count(course.apart && course.moves == 1);
-      short_way.count(course.apart && course.way <= kLongestWay * made->scenes[i].pair.out.depth);
+      const Scene& scene = made->scenes[i];
+      short_way.count(course.apart && course.way <= kLongestWay * scene.pair.out.depth);
+      test::set_pose(scene.geoms.first, scene.pair.pa);  // as it was, for whoever looks at it
+      if (!course.apart) {
+        failures.add(std::to_string(course.moves) + " moves and " +
+                         (course.stuck ? "no contact, but not apart" : "not apart"),
+                     scene.geoms);
+      }
     }
     return Outcome{
         {{"apart after five moves [%]", apart.percent(), at_least(99)},
          {"on a way of at most 1.5 times the shortest [%]", short_way.percent(), at_least(95)},
          {"apart after the first move [%]", at_once.percent()},
          {"pairs without a contact [%]", none.percent()},
-         {"(libccd differs from the truth [%])", made->libccd_differing.percent()}}};
+         {"(libccd differs from the truth [%])", made->libccd_differing.percent()}},
+        {{"failures", failures.json()}}};
   };
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far off the deepest contact is, for every ordered pair of some convex shapes: 1 % and 10 % of
 // the smaller size into each other, and for balls against what the formula says.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "accuracy/failures.h"
 #include "accuracy/measures.h"
 #include "accuracy/pressed_pair.h"
 #include "accuracy/trial.h"
@@ -24,18 +26,31 @@ struct Cell {
 };
 
 // What a cell, or all of them together, is off by.
-struct Errors {
+class Errors {
+ public:
   Share none;
   std::vector<double> depths, angles, counts;  // [%], [degrees], contacts per pair
+  double too_deep = 0;                         // [%] the worst
+  nlohmann::json worst_pair;                   // by depth
 
   void add(const KnownPair& pair, const test::Contacts& contacts) {
     none.count(contacts.empty());
     counts.push_back(static_cast<double>(contacts.size()));
     const dContactGeom* deepest = deepest_of(contacts);
+    const double off = deepest == nullptr ? -100 : 100 * (deepest->depth / pair.depth - 1);
+    if (worst_pair.empty() || exceeds(std::fabs(off), worst_)) {
+      worst_ = std::fabs(off);
+      worst_pair = poses_of(pair.geoms);
+      worst_pair["what"] = describe(deepest, pair.direction, pair.depth);
+    }
     if (deepest == nullptr) return;
-    depths.push_back(100 * std::fabs(deepest->depth / pair.depth - 1));
+    depths.push_back(std::fabs(off));
+    too_deep = std::max(too_deep, off);
     angles.push_back(degrees_between(test::normal(*deepest), pair.direction));
   }
+
+ private:
+  double worst_ = 0;
 };
 
 struct Shape {
@@ -130,7 +145,8 @@ nlohmann::json row_of(const Cell& cell, const Errors& errors) {
           {"depth_worst", worst(errors.depths)},
           {"angle_99", percentile(errors.angles, 99)},
           {"angle_worst", worst(errors.angles)},
-          {"contacts", mean(errors.counts)}};
+          {"contacts", mean(errors.counts)},
+          {"worst_pair", errors.worst_pair}};
 }
 
 void add_figures(double share, const Errors& errors, std::vector<Figure>& figures) {
@@ -138,6 +154,7 @@ void add_figures(double share, const Errors& errors, std::vector<Figure>& figure
   figures.push_back({start + "pairs without a contact [%]", errors.none.percent()});
   figures.push_back({start + "depth off, 99th percentile [%]", percentile(errors.depths, 99)});
   figures.push_back({start + "depth off, worst [%]", worst(errors.depths)});
+  figures.push_back({start + "depth too deep, worst [%]", errors.too_deep});
   figures.push_back(
       {start + "angle off, 99th percentile [degrees]", percentile(errors.angles, 99)});
   figures.push_back({start + "angle off, worst [degrees]", worst(errors.angles)});
