@@ -12,7 +12,9 @@ constexpr std::size_t kKept = 100;
 
 nlohmann::json pose_json(dGeomID geom) {
   const test::TestPose pose = test::pose_of(geom);
-  return {{"position", pose.position}, {"rotation", pose.rotation}};
+  return {{"position", pose.position},
+          {"rotation", pose.rotation},
+          {"triangles", dGeomTriMeshGetTriangleCount(geom)}};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "accuracy/contact_match.h"
+#include "accuracy/failures.h"
 #include "accuracy/measures.h"
 #include "accuracy/rounding.h"
 #include "accuracy/trial.h"
@@ -25,6 +26,8 @@ test::TestMesh make_bumpy(double radius) {
   }
   return mesh;
 }
+
+constexpr const char* kInverted[] = {"none", "the first", "the second", "both"};
 
 struct Scene {
   // Both as they are, the first inverted, the second, both.
@@ -69,6 +72,7 @@ Measure prepare_inverted(const Options& options, test::OdeWorld& world) {
     for (const Scene& scene : scenes)
       geoms.insert(geoms.end(), scene.geoms.begin(), scene.geoms.end());
     const auto answers = contestant.collide(geoms);
+    Failures failures;
     Share colliding, whole, differing, deepest_differing, opposed;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const test::Contacts& truth = answers[4 * i];
@@ -78,9 +82,17 @@ Measure prepare_inverted(const Options& options, test::OdeWorld& world) {
         if (truth.empty() && other.empty()) continue;
         const bool is_whole = std::max(truth.size(), other.size()) < contestant.limit();
         whole.count(is_whole);
-        if (is_whole) differing.count(!same_contacts(truth, other, scenes[i].tolerance));
+        const bool differs = is_whole && !same_contacts(truth, other, scenes[i].tolerance);
+        if (is_whole) differing.count(differs);
         const auto one = deepest_alone(truth), two = deepest_alone(other);
-        deepest_differing.count(!same_contacts(one, two, scenes[i].tolerance));
+        const bool deepest_differs = !same_contacts(one, two, scenes[i].tolerance);
+        deepest_differing.count(deepest_differs);
+        if (differs || deepest_differs) {
+          failures.add(std::to_string(truth.size()) + " contacts, " + std::to_string(other.size()) +
+                           " with " + kInverted[k] + " inverted" +
+                           (deepest_differs ? ", another deepest" : ""),
+                       scenes[i].geoms[k]);
+        }
         opposed.count(one.empty() || two.empty() ||
                       test::dot(test::normal(one[0]), test::normal(two[0])) < 0);
       }
@@ -91,7 +103,8 @@ Measure prepare_inverted(const Options& options, test::OdeWorld& world) {
          {"pairs with another deepest contact [%]", deepest_differing.percent(), at_most(0)},
          {"pairs whose deepest contact pushes the other way, or is none [%]", opposed.percent()},
          {"(poses with contacts [%])", colliding.percent()},
-         {"(pairs with none left out [%])", whole.percent()}}};
+         {"(pairs with none left out [%])", whole.percent()}},
+        {{"failures", failures.json()}}};
   };
 }
 
