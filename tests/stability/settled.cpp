@@ -85,7 +85,7 @@ void run_settled(const TrialOptions& options, Report& report) {
                     {"95 % mm", 1000 * quantile(pile.depths, 0.95)},
                     {"deepest mm", 1000 * quantile(pile.depths, 1)},
                     {"deepest of run mm", 1000 * pile.deepest},
-                    {"contacts", quantile(pile.contacts, 0.5)},
+                    {"contacts", std::lround(quantile(pile.contacts, 0.5))},
                     {"collide ms", quantile(pile.collide_ms, 0.5)},
                     {"solver ms", quantile(pile.solver_ms, 0.5)}});
   }
