@@ -256,31 +256,79 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
   }
 }
 
-// A vertex beyond its own exit that leaves the way a contact does is deeper in the same matter: it
-// counts as well (the foremost corner of a plate whose end is pressed into a wall). 25.8 degrees, as
-// for patches. One whose surface runs along the target's on both sides (nearest.h) says nothing.
-static void ox_admit_fallbacks(const ox_edge_pair* p) {
+// A vertex that lies on the surface where a contact faces the same way rests there like the others:
+// without it a box would stand on whichever corner rounding pushed in. 25.8 degrees, as for patches.
+static void ox_admit_touching(const ox_edge_pair* p) {
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global ox_candidate* c = p->candidates + i;
-    const uint side = (c->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
-    if (!ox_is_fallback(p, i, side) ||
-        c->t <= p->vertices[c->vertex].exit + 2.0f * p->pair->epsilon)
-      continue;
+    if ((c->side_kind & OX_HIT_KIND) != OX_HIT_TOUCHING) continue;
     const float3 normal = vload3(0, c->normal);
     for (uint k = 0u; k < p->candidate_count; ++k) {
       __global const ox_candidate* d = p->candidates + k;
-      if ((d->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
+      if ((d->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE && d->distance2 != 0.0f &&
           ox_dot(normal, vload3(0, d->normal)) > 0.9f) {
         c->distance2 = 0.0f;  // marked, so that it admits no others
+        c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_INSIDE;
         break;
       }
     }
   }
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    __global ox_candidate* c = p->candidates + i;
-    if (c->distance2 != 0.0f) continue;
-    c->distance2 = INFINITY;
-    c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_INSIDE;
+  for (uint i = 0u; i < p->candidate_count; ++i) p->candidates[i].distance2 = INFINITY;
+}
+
+// A vertex beyond its own exit, and not because surfaces run along one another (nearest.h).
+static bool ox_is_deep(const ox_edge_pair* p, uint i, uint side) {
+  return ox_is_fallback(p, i, side) &&
+         p->candidates[i].t > p->vertices[p->candidates[i].vertex].exit + 2.0f * p->pair->epsilon;
+}
+
+// Whether the way out that some contact says leads this vertex out as well. Its plane is only as
+// wide as the part is thick, twice: farther off nothing is known of the surface it stands for.
+static bool ox_is_led_out(const ox_edge_pair* p, uint i, uint side) {
+  const float3 vertex = vload3(0, p->candidates[i].position);
+  for (uint k = 0u; k < p->candidate_count; ++k) {
+    __global const ox_candidate* d = p->candidates + k;
+    if ((d->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
+    const bool same_side = ((d->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u);
+    const float3 away = vload3(0, d->position) - vertex;
+    const float reach = 2.0f * ox_max(d->depth, p->vertices[p->candidates[i].vertex].exit);
+    if (ox_dot(away, away) > reach * reach) continue;
+    float3 out = vload3(0, d->normal);
+    if (side != 0u) out = -out;
+    // The target's surface there: the face it leaves through, or that about the target's vertex.
+    float3 surface = vload3(0, d->position);
+    float3 normal = out;
+    if (same_side) {
+      surface += d->depth * out;
+    } else if ((d->side_kind & OX_HIT_POINT) == 0u) {
+      normal = -vload3(0, p->vertices[d->vertex].direction);
+      if (side == 1u) normal = ox_turn(p->pair, 0u, normal);  // the target is A
+    }
+    if (ox_dot(surface - vertex, normal) <= 1.1f * d->depth * ox_dot(out, normal)) return true;
+  }
+  return false;
+}
+
+// Thin parts deep in the target (a plate in a block): the vertices that know a way out, those near
+// a face that the part cuts, lead the others nowhere. The face below which all of it is least deep
+// does.
+static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
+  for (uint side = 0u; side < 2u; ++side) {
+    uint deep = 0u;
+    for (uint i = 0u; i < p->candidate_count; ++i)
+      if (ox_is_deep(p, i, side) && !ox_is_led_out(p, i, side)) ++deep;
+    if (deep == 0u) continue;
+    // The regions of which such vertices are part.
+    for (uint i = 0u; i < p->count; ++i) {
+      __global ox_edge_crossing* c = p->crossings + i;
+      c->region = OX_REGION_UNKNOWN;
+      const uint vertex = ox_side(c) == side ? ox_inner_vertex(p, c) : OX_NONE;
+      for (uint k = 0u; k < p->candidate_count && vertex != OX_NONE; ++k)
+        if (p->candidates[k].vertex == vertex && ox_is_deep(p, k, side))
+          c->region = OX_REGION_FIRST;
+    }
+    ox_spread_region(p, OX_REGION_FIRST);
+    ox_lead_region_out(p, OX_REGION_FIRST, true, nodes);
   }
 }
 
@@ -339,15 +387,18 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
           ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first,
                            nodes);
       }
-      continue;
+    } else {
+      ox_sort_crossings(&pair, false);
+      ox_find_chords(&pair);
+      ox_sort_crossings(&pair, true);
+      ox_cover_by_vertices(&pair);
+      // A sheet has no inside that its edges could be wedges of.
+      if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)
+        ox_pair_edges(&pair);
+      ox_lead_regions_out(&pair, nodes);
+      ox_lead_deep_out(&pair, nodes);
     }
-    ox_sort_crossings(&pair, false);
-    ox_find_chords(&pair);
-    ox_sort_crossings(&pair, true);
-    ox_cover_by_vertices(&pair);
-    ox_pair_edges(&pair);
-    ox_lead_regions_out(&pair, nodes);
-    ox_admit_fallbacks(&pair);
+    ox_admit_touching(&pair);
     pair_hits[i] = pair.candidate_count;
   }
 }

@@ -20,8 +20,9 @@ typedef struct {
 } ox_query;
 
 typedef struct {
-  float back_t, front_t;               // nearest beyond epsilon; INFINITY: none
-  float behind_t;                      // nearest back face before -epsilon; -INFINITY: none
+  float back_t, front_t;  // nearest beyond epsilon; INFINITY: none
+  float behind_t;         // nearest back face before -epsilon; -INFINITY: none
+  float touching_t;
   uint back, front, behind, touching;  // triangles, over all meshes; OX_NONE: none
   bool entered;                        // it starts on a front face: on the surface, going in
 } ox_nearest;
@@ -31,6 +32,7 @@ static inline ox_nearest ox_nothing(void) {
   nearest.back_t = INFINITY;
   nearest.front_t = INFINITY;
   nearest.behind_t = -INFINITY;
+  nearest.touching_t = 0.0f;
   nearest.back = OX_NONE;
   nearest.front = OX_NONE;
   nearest.behind = OX_NONE;
@@ -61,8 +63,10 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
     if (!back)
       nearest->entered = true;
     else if (t >= -0.25f * epsilon &&
-             (nearest->touching == OX_NONE || triangle->id < triangles[nearest->touching].id))
+             (nearest->touching == OX_NONE || triangle->id < triangles[nearest->touching].id)) {
       nearest->touching = k;
+      nearest->touching_t = t;
+    }
   } else if (t > query->t_max) {
     return;
   } else if (!back) {
@@ -145,7 +149,10 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
       ox_dot(query->direction, vload3(0, triangles[nearest->touching].normal)) < 0.0f)
     outcome.kind |= OX_HIT_REVERSED;
   outcome.triangle = nearest->touching;
-  outcome.t = 0.0f;
+  // Within epsilon, and yet not 0 where it is inside: what rests on depths of 0 drifts off.
+  outcome.t = ox_max(nearest->touching_t, 0.0f);
+  outcome.depth =
+      outcome.t * fabs(ox_dot(query->direction, vload3(0, triangles[nearest->touching].normal)));
   return outcome;
 }
 

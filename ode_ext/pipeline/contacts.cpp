@@ -7,6 +7,20 @@
 namespace ode_ext {
 namespace {
 
+double farthest_corner(const Mesh& mesh) {
+  const Vec3f reach =
+      max(max(mesh.box.hi, Vec3f{} - mesh.box.hi), max(mesh.box.lo, Vec3f{} - mesh.box.lo));
+  return length(Vec3d(reach));
+}
+
+// What is known of a depth. The vertices of either mesh are rounded to floats, by 2^-24 of their
+// distance from the origin at most, while ODE's broad phase sees the program's own. A body pushed
+// out to the last bit would be clear of ODE's boxes before it is clear of ours, and fall; so it is
+// left in by as much.
+double known_depth(double depth, const Mesh& a, const Mesh& b) {
+  return std::max(0.0, depth - 0x1p-24 * (farthest_corner(a) + farthest_corner(b)));
+}
+
 // The program's index of a triangle of the device's.
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
                               std::uint32_t triangle) {
@@ -24,7 +38,9 @@ Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
   Contact result;
   result.position = b.pose.place(vector(contact.position));
   result.normal = (1.0 / length(normal)) * normal;
-  result.depth = static_cast<double>(contact.depth);
+  result.depth =
+      known_depth(static_cast<double>(contact.depth), meshes.mesh(scene.objects[pair[0]].mesh),
+                  meshes.mesh(scene.objects[pair[1]].mesh));
   result.triangles[side] = source_triangle(meshes, scene.objects[pair[side]].mesh, contact.vertex);
   result.triangles[1 - side] =
       source_triangle(meshes, scene.objects[pair[1 - side]].mesh, contact.triangle);
@@ -48,7 +64,13 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   Contact result;
   result.position = source.pose.place(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
   result.normal = ((turned ? -1.0 : 1.0) / length(outward)) * outward;
-  result.depth = static_cast<double>(contact.depth);
+  // Again in double precision: bodies come to rest 1e-9 m deep, where floats would push and let go
+  // by turns. What the device took for inside, to within its rounding, stays a contact.
+  const Vec3d corner =
+      target.pose.place(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
+  const double height = dot(corner - result.position, outward) / length(outward);
+  const bool reversed = (contact.side_kind & OX_HIT_REVERSED) != 0;
+  result.depth = known_depth(reversed ? -height : height, meshes.mesh(source.mesh), target_mesh);
   result.triangles[side] = meshes.owner_triangle(contact.vertex);
   result.triangles[1 - side] = topology(target_mesh).source_triangle[triangle];
   return result;
@@ -67,6 +89,14 @@ bool comes_first(const Contact& a, const Contact& b) {
   return a.depth != b.depth ? a.depth > b.depth : rank(a) < rank(b);
 }
 
+// Among contacts whose depths are the same to a float, the device may have taken another.
+void put_deepest_first(std::span<Contact> contacts) {
+  const auto deepest =
+      std::max_element(contacts.begin(), contacts.end(),
+                       [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
+  std::rotate(contacts.begin(), deepest, deepest + 1);
+}
+
 }  // namespace
 
 void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t first_pair,
@@ -81,6 +111,8 @@ void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t
       result.contacts.push_back(to_contact(scene, meshes, pair, contact));
     if (sort && is_deformable(scene, pair))
       std::sort(result.contacts.begin() + first, result.contacts.end(), comes_first);
+    else
+      put_deepest_first(std::span(result.contacts).subspan(static_cast<std::size_t>(first)));
   }
 }
 

@@ -38,14 +38,17 @@ TEST(AppendLists, GrowByAQuarterMoreThanAsked) {
 TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   Device device("");
   AppendLists lists(device);
-  lists.reserve({4, 8, 12, 16, 20, 24, 28, 32});
+  lists.reserve({4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44});
   EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
   EXPECT_EQ(lists.first(Arrow::kChunksHigh), 5u);
   EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
+  EXPECT_EQ(lists.first(Arrow::kChunksEdges), 30u);
   EXPECT_EQ(lists.first(Arrow::kRaysIterative), 0u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 20u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 45u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 25u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 55u);
+  EXPECT_EQ(lists.first(Arrow::kRaysEdges), 90u);
   EXPECT_EQ(lists.first(Arrow::kHits), 0u);
+  EXPECT_EQ(lists.first(Arrow::kCrossings), 0u);
   EXPECT_EQ(lists.first(Arrow::kContacts), 0u);
 }
 
