@@ -110,8 +110,8 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
 
 // Two contacts contradict one another if they push opposite ways and a way out by one of them leads
 // deeper into the other: what lies between their places along the normal is less than their depth.
-// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) Equal bodies
-// in one place have as many ways out as faces; the first one taken stands.
+// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) Equal
+// bodies in one place have as many ways out as faces; the first one taken stands.
 static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b) {
   const float3 normal = vload3(0, a->normal);
   if (ox_dot(normal, vload3(0, b->normal)) > -0.5f) return false;
@@ -126,7 +126,7 @@ static bool ox_is_contradicted(__global const ox_candidate* candidates, uint can
   return false;
 }
 
-// With edge rays every region has a contact, and what lies beyond a source's exit says nothing more.
+// edges: every region has a contact, and what lies beyond a source's exit says nothing more.
 static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
                       uint max_contacts, bool edges, uint* taken) {
   // Contacts within the source's exit say most; those beyond it speak only where there are none,

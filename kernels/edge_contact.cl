@@ -257,7 +257,8 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
 }
 
 // A vertex that lies on the surface where a contact faces the same way rests there like the others:
-// without it a box would stand on whichever corner rounding pushed in. 25.8 degrees, as for patches.
+// without it a box would stand on whichever corner rounding pushed in. 25.8 degrees, as for
+// patches.
 static void ox_admit_touching(const ox_edge_pair* p) {
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global ox_candidate* c = p->candidates + i;
