@@ -16,18 +16,29 @@ ode_ext_compile_options(contact_accuracy_parts)
 target_link_libraries(contact_accuracy_parts PUBLIC
   ode_ext_test_support nlohmann_json::nlohmann_json)
 
+
+# Apart, for its options (CGAL wants all code compiled for directed rounding) and for its time.
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+find_package(CGAL REQUIRED)
+add_library(ode_ext_cgal_oracle STATIC EXCLUDE_FROM_ALL tests/support/cgal_oracle.cpp)
+ode_ext_compile_options(ode_ext_cgal_oracle)
+target_include_directories(ode_ext_cgal_oracle PRIVATE tests)
+target_link_libraries(ode_ext_cgal_oracle PRIVATE CGAL::CGAL)
+
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
-     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/cgal_*.cpp
-     tests/audit/scene_audit.cpp tests/stability/bench.cpp tests/stability/ground.cpp
-     tests/stability/report.cpp tests/stability/shape.cpp tests/stability/stack.cpp)
+     tests/support/fcl_*.cpp tests/support/ccd_*.cpp
+     tests/audit/scene_audit.cpp tests/audit/kind*.cpp tests/audit/pair_*.cpp
+     tests/stability/bench.cpp tests/stability/ground.cpp tests/stability/report.cpp
+     tests/stability/shape.cpp tests/stability/stack.cpp)
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
   target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(ode_ext_tests PRIVATE
     ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
-    $<TARGET_NAME_IF_EXISTS:paper_parts> contact_accuracy_parts nlohmann_json::nlohmann_json
-    GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen ${CMAKE_DL_LIBS})
+    $<TARGET_NAME_IF_EXISTS:paper_parts> contact_accuracy_parts ode_ext_cgal_oracle
+    nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
+    ${CMAKE_DL_LIBS})
   # Half of what compiling a test takes is this header.
   target_precompile_headers(ode_ext_tests PRIVATE <gtest/gtest.h>)
   # A fixed seed: a run that fails must fail again. For other seeds run bin/ode_ext_tests itself.
@@ -57,6 +68,14 @@ add_executable(contact_accuracy tests/accuracy/main.cpp tests/support/ccd_oracle
 ode_ext_compile_options(contact_accuracy)
 target_link_libraries(contact_accuracy PRIVATE
   ode_ext::ode_ext contact_accuracy_parts ode_ext_test_support CLI11::CLI11 ccd)
+
+# Every kind of mesh against every other in random poses, and the same scene.
+file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/audit/*.cpp tests/support/fcl_*.cpp)
+list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit)\\.cpp$")
+add_executable(missed_pairs EXCLUDE_FROM_ALL ${missed_pairs_sources})
+ode_ext_compile_options(missed_pairs)
+target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+                      CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)

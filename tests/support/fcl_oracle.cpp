@@ -6,29 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
 #include <numbers>
 
 namespace ode_ext::test {
+
+struct FclSurface::Model {
+  fcl::BVHModel<fcl::OBBRSSd> mesh;
+};
+
 namespace {
-
-using FclMesh = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::shared_ptr<FclMesh> fcl_mesh(const TestMesh& mesh) {
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> triangles;
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
-    vertices.emplace_back(mesh.vertices[i], mesh.vertices[i + 1], mesh.vertices[i + 2]);
-  }
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    triangles.emplace_back(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
-  }
-  auto model = std::make_shared<FclMesh>();
-  model->beginModel();
-  model->addSubModel(vertices, triangles);
-  model->endModel();
-  return model;
-}
 
 fcl::Transform3d fcl_pose(const TestPose& pose, const Point& origin) {
   fcl::Transform3d result = fcl::Transform3d::Identity();
@@ -42,31 +29,72 @@ fcl::Transform3d fcl_pose(const TestPose& pose, const Point& origin) {
   return result;
 }
 
-bool intersect(const FclMesh& a, const TestPose& pa, const FclMesh& b, const TestPose& pb) {
-  const fcl::CollisionRequestd request(1, false);
+// Without contact points FCL lists the triangles all the same.
+fcl::CollisionResultd ask(const FclSurface& a, const TestPose& pa, const FclSurface& b,
+                          const TestPose& pb, std::size_t most) {
+  const fcl::CollisionRequestd request(most, false);
   fcl::CollisionResultd result;
-  fcl::collide(&a, fcl_pose(pa, pb.position), &b, fcl_pose(pb, pb.position), request, result);
-  return result.isCollision();
+  fcl::collide(&a.model().mesh, fcl_pose(pa, pb.position), &b.model().mesh,
+               fcl_pose(pb, pb.position), request, result);
+  return result;
 }
 
 }  // namespace
 
+FclSurface::FclSurface(const TestMesh& mesh) : size_(mesh_size(mesh)) {
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
+    vertices.emplace_back(mesh.vertices[i], mesh.vertices[i + 1], mesh.vertices[i + 2]);
+  }
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+    triangles.emplace_back(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+  }
+  auto model = std::make_shared<Model>();
+  model->mesh.beginModel();
+  model->mesh.addSubModel(vertices, triangles);
+  model->mesh.endModel();
+  model_ = std::move(model);
+}
+
+bool surfaces_intersect(const FclSurface& a, const TestPose& pa, const FclSurface& b,
+                        const TestPose& pb) {
+  return ask(a, pa, b, pb, 1).isCollision();
+}
+
+std::vector<TrianglePair> intersecting_triangles(const FclSurface& a, const TestPose& pa,
+                                                 const FclSurface& b, const TestPose& pb) {
+  const auto result = ask(a, pa, b, pb, std::numeric_limits<std::size_t>::max());
+  std::vector<TrianglePair> pairs;
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const auto& contact = result.getContact(i);
+    pairs.push_back({static_cast<unsigned>(contact.b1), static_cast<unsigned>(contact.b2)});
+  }
+  return pairs;
+}
+
+std::vector<TestPose> nudged(const TestPose& pose, double distance) {
+  std::vector<TestPose> poses;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      poses.push_back(pose);
+      poses.back().position[axis] += sign * distance;
+    }
+  }
+  return poses;
+}
+
 bool surfaces_intersect(const TestMesh& a, const TestPose& pa, const TestMesh& b,
                         const TestPose& pb) {
-  return intersect(*fcl_mesh(a), pa, *fcl_mesh(b), pb);
+  return surfaces_intersect(FclSurface(a), pa, FclSurface(b), pb);
 }
 
 OracleAnswer surfaces_intersect_robustly(const TestMesh& a, const TestPose& pa, const TestMesh& b,
                                          const TestPose& pb) {
-  const auto fa = fcl_mesh(a), fb = fcl_mesh(b);
-  const bool answer = intersect(*fa, pa, *fb, pb);
-  const double nudge = 1e-5 * std::max(mesh_size(a), mesh_size(b));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const double sign : {-1.0, 1.0}) {
-      TestPose nudged = pa;
-      nudged.position[axis] += sign * nudge;
-      if (intersect(*fa, nudged, *fb, pb) != answer) return OracleAnswer::Fragile;
-    }
+  const FclSurface fa(a), fb(b);
+  const bool answer = surfaces_intersect(fa, pa, fb, pb);
+  for (const TestPose& pose : nudged(pa, 1e-5 * std::max(fa.size(), fb.size()))) {
+    if (surfaces_intersect(fa, pose, fb, pb) != answer) return OracleAnswer::Fragile;
   }
   return answer ? OracleAnswer::Intersect : OracleAnswer::Apart;
 }

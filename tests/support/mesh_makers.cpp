@@ -211,6 +211,43 @@ TestMesh make_l(double size) {
   return mesh;
 }
 
+TestMesh make_comb(int teeth, double width, double height, double depth) {
+  TestMesh mesh;
+  const int columns = 2 * teeth - 1;
+  const double levels[] = {0, width, width + height};
+  std::map<std::array<int, 3>, unsigned> known;
+  const auto vertex = [&](int column, int level, int side) {
+    const auto [found, is_new] = known.try_emplace({column, level, side}, 0);
+    if (is_new) {
+      found->second = add_vertex(mesh, {width * (column - 0.5 * columns), (side - 0.5) * depth,
+                                        levels[level] - 0.5 * levels[2]});
+    }
+    return found->second;
+  };
+  const auto solid = [&](int column, int row) {
+    return column >= 0 && column < columns && (row == 0 || (row == 1 && column % 2 == 0));
+  };
+  // From column and level p to q, with the solid on the left as seen from -y.
+  const auto wall = [&](int pc, int pl, int qc, int ql) {
+    add_quad(mesh, vertex(pc, pl, 0), vertex(pc, pl, 1), vertex(qc, ql, 1), vertex(qc, ql, 0));
+  };
+  for (int row = 0; row < 2; ++row) {
+    for (int c = 0; c < columns; ++c) {
+      if (!solid(c, row)) continue;
+      const int r = row;
+      add_quad(mesh, vertex(c, r, 0), vertex(c + 1, r, 0), vertex(c + 1, r + 1, 0),
+               vertex(c, r + 1, 0));
+      add_quad(mesh, vertex(c, r, 1), vertex(c, r + 1, 1), vertex(c + 1, r + 1, 1),
+               vertex(c + 1, r, 1));
+      if (!solid(c, r - 1)) wall(c, r, c + 1, r);
+      if (!solid(c + 1, r)) wall(c + 1, r, c + 1, r + 1);
+      if (!solid(c, r + 1)) wall(c + 1, r + 1, c, r + 1);
+      if (!solid(c - 1, r)) wall(c, r + 1, c, r);
+    }
+  }
+  return mesh;
+}
+
 TestMesh make_sheet(double size, int n) {
   TestMesh mesh;
   for (int i = 0; i <= n; ++i) {

@@ -51,6 +51,8 @@ TestMesh make_torus(double ring, double tube, int around, int across);  // about
 TestMesh make_tetrahedron(double edge);                                 // regular, centred
 TestMesh make_cylinder(double radius, double height, int sides);        // a prism about z
 TestMesh make_l(double size);  // a concave prism: a 2 x 2 square less one quarter, about 0
+// A bar along x with `teeth` >= 1 teeth up +z, as wide as the gaps and the bar is thick; about 0.
+TestMesh make_comb(int teeth, double width, double height, double depth);
 TestMesh make_sheet(double size, int n);  // open, in z = 0, facing +z
 TestMesh make_triangle(double size);      // one triangle in z = 0, facing +z
 

@@ -51,6 +51,8 @@ TEST(MeshMakers, MakeClosedOutwardSolidsOfTheRightVolume) {
       {"tetrahedron", make_tetrahedron(1), 4, 1 / (6 * std::sqrt(2.0)), exact},
       {"cylinder", make_cylinder(1, 2, 100), 400, 100 * std::sin(2 * pi / 100), exact * 8},
       {"L", make_l(2), 20, 3, exact * 3},
+      // 5 + 3 cells of 0.2 x 0.2 and 0.2 x 0.5, 0.4 deep; 18 walls.
+      {"comb", make_comb(3, 0.2, 0.5, 0.4), 8 * 4 + 18 * 2, 0.4 * (5 * 0.04 + 3 * 0.1), exact},
   };
   for (const Solid& solid : solids) {
     EXPECT_EQ(solid.mesh.triangle_count(), solid.triangles) << solid.name;
