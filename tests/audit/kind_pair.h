@@ -34,7 +34,7 @@ struct Miss {
 };
 
 struct Trial {
-  int poses = 1000;
+  int poses = 2000;
   std::uint64_t seed = 1;
   int max_contacts = 16;
   std::string device;  // as in ODE_EXT_DEVICE; empty: the library's choice

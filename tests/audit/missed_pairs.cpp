@@ -70,6 +70,7 @@ void audit_kinds(const Options& options, Report& report) {
 // The scene does not say in how many places its pairs overlap.
 Answers answers_of(const Findings& findings) {
   Answers answers;
+  answers.found = findings.in_contact - findings.false_contacts;
   answers.missed = findings.overlooked + findings.edges_only;
   answers.false_contacts = findings.false_contacts;
   answers.on_edge = findings.fragile;

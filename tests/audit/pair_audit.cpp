@@ -21,11 +21,13 @@ bool first_vertex_inside(const Shape& inner, const TestPose& pi, const Shape& ou
 }  // namespace
 
 Answers& Answers::operator+=(const Answers& other) {
+  found += other.found;
   missed += other.missed;
   missed_contained += other.missed_contained;
   false_contacts += other.false_contacts;
   on_edge += other.on_edge;
   bare += other.bare;
+  bare_full += other.bare_full;
   bare_slight += other.bare_slight;
   bare_beyond += other.bare_beyond;
   return *this;
@@ -94,7 +96,8 @@ Answers PairTruth::judge(std::span<const dContactGeom> contacts, int max_contact
     }
     return answers;
   }
-  if (contacts.empty() || !intersecting()) return answers;
+  answers.found = colliding();
+  if (!intersecting()) return answers;
   for (const Region& region : without_contact(regions_, contacts, poses_.b, smaller_)) {
     if (region.size() < kTiny * smaller_ || !survives_nudges(region)) {
       ++answers.bare_slight;
@@ -106,6 +109,7 @@ Answers PairTruth::judge(std::span<const dContactGeom> contacts, int max_contact
   const auto beyond = static_cast<long long>(regions() - std::min(most, regions()));
   answers.bare_beyond = std::min(answers.bare, beyond);
   answers.bare -= answers.bare_beyond;
+  if (contacts.size() == most) answers.bare_full = answers.bare;
   return answers;
 }
 

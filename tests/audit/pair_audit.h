@@ -32,12 +32,14 @@ inline constexpr double kNudge = 1e-5, kTiny = 1e-4;
 
 // What one collider said of pairs of which the truth is known.
 struct Answers {
+  long long found = 0;             // colliding, and a contact
   long long missed = 0;            // colliding, and no contact
   long long missed_contained = 0;  // of those, with one mesh inside the other
   long long false_contacts = 0;    // a contact, and neither surfaces that meet nor containment
   long long on_edge = 0;           // wrong, but FCL's answer is on the edge
   // Regions of overlap of the pairs that have contacts, but none here.
   long long bare = 0;         // these count
+  long long bare_full = 0;    // of those, where the pair has as many contacts as it may
   long long bare_slight = 0;  // smaller than kTiny, or gone when nudged
   long long bare_beyond = 0;  // more regions than a pair can have contacts
 
@@ -53,7 +55,6 @@ struct Tally {
   Answers batch, stock;
 
   long long colliding() const { return intersecting + contained; }
-  long long found() const { return colliding() - batch.missed; }
   Tally& operator+=(const Tally& other);
 };
 
