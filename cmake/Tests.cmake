@@ -48,8 +48,9 @@ if(test_sources)
 endif()
 
 # The contacts of a whole run against FCL; too long for the tests, which audit a small scene.
-add_executable(rigid_audit EXCLUDE_FROM_ALL tests/audit/rigid_audit.cpp tests/audit/scene_audit.cpp
-               tests/support/fcl_oracle.cpp)
+add_executable(rigid_audit EXCLUDE_FROM_ALL
+  tests/audit/rigid_audit.cpp tests/audit/scene_audit.cpp tests/audit/pair_audit.cpp
+  tests/audit/pair_poses.cpp tests/support/fcl_oracle.cpp)
 ode_ext_compile_options(rigid_audit)
 target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 fcl Eigen3::Eigen)

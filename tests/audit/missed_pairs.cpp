@@ -67,13 +67,16 @@ void audit_kinds(const Options& options, Report& report) {
   }
 }
 
-// The scene does not say in how many places its pairs overlap.
 Answers answers_of(const Findings& findings) {
   Answers answers;
-  answers.found = findings.in_contact - findings.false_contacts;
+  answers.found = findings.found;
   answers.missed = findings.overlooked + findings.edges_only;
   answers.false_contacts = findings.false_contacts;
   answers.on_edge = findings.fragile;
+  answers.bare = findings.bare;
+  answers.bare_full = findings.bare_full;
+  answers.bare_slight = findings.bare_slight;
+  answers.bare_beyond = findings.bare_beyond;
   return answers;
 }
 
@@ -89,7 +92,7 @@ void audit_scene(const Options& options, Report& report) {
   falling_objects::Scene scene(falling_objects::make_shapes(), scene_options, warnings);
   falling_objects::Collision collision(scene_options, scene.space());
   falling_objects::Simulation simulation(scene_options, scene, collision, nullptr);
-  const SceneAudit auditor(scene);
+  const SceneAudit auditor(scene, scene_options.max_contacts);
   falling_objects::ContactList batch(scene_options.max_contacts), stock = batch;
   Tally total;
   for (int frame = 0, step = 0; frame < options.frames; ++step) {
@@ -97,8 +100,8 @@ void audit_scene(const Options& options, Report& report) {
       collision.collide(falling_objects::Collider::kBatch, batch);
       collision.collide(falling_objects::Collider::kOde, stock);
       const Findings found = auditor.look(batch.contacts());
-      total += {found.pairs, found.intersecting, found.contained,
-                0,           answers_of(found),  answers_of(auditor.look(stock.contacts()))};
+      total += {found.pairs,   found.intersecting, found.contained,
+                found.regions, answers_of(found),  answers_of(auditor.look(stock.contacts()))};
       std::fprintf(stderr, "\rframe %d of %d ", ++frame, options.frames);
     }
     simulation.step();

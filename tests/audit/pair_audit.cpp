@@ -2,6 +2,7 @@
 #include "audit/pair_audit.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "support/region_contacts.h"
 
@@ -19,6 +20,11 @@ bool first_vertex_inside(const Shape& inner, const TestPose& pi, const Shape& ou
 }
 
 }  // namespace
+
+Shape::Shape(const TestMesh& mesh)
+    : surface(mesh), graph(mesh), solid(mesh.vertices, mesh.indices) {
+  if (graph.closed() != solid.closed()) throw std::invalid_argument("vertices are not shared");
+}
 
 Answers& Answers::operator+=(const Answers& other) {
   found += other.found;

@@ -18,8 +18,8 @@ namespace ode_ext::audit {
 
 // A mesh as each of the oracles wants it.
 struct Shape {
-  explicit Shape(const test::TestMesh& mesh)
-      : surface(mesh), graph(mesh), solid(mesh.vertices, mesh.indices) {}
+  // Throws std::invalid_argument if a closed mesh's triangles do not share their vertices.
+  explicit Shape(const test::TestMesh& mesh);
 
   test::FclSurface surface;
   test::SurfaceGraph graph;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "audit/kind_pair.h"
 #include "audit/kinds.h"
@@ -85,6 +86,10 @@ TEST(PairTruth, SeesRegionsWithoutAContactAndAllowsForTheLimit) {
   EXPECT_EQ(truth.judge({&middle, 1}, 2).bare_beyond, 3);
   EXPECT_EQ(truth.judge({}, 16).missed, 1);
   EXPECT_EQ(truth.judge({}, 16).bare, 0);  // that is said already
+}
+
+TEST(Shape, RefusesAClosedMeshWhoseTrianglesDoNotShareVertices) {
+  EXPECT_THROW(Shape(unshared(make_cube(1))), std::invalid_argument);
 }
 
 // The lower edge of a tetrahedron, 0.4 m long and 2e-6 m deep, beside a cube that is 0.05 m deep.

@@ -54,6 +54,7 @@ TEST_F(SceneAuditTest, FindsNoPairOverlookedAndNoContactFalse) {
     const Findings found = audit.look(contacts_now());
     EXPECT_GT(found.intersecting, 40);
     EXPECT_GT(found.in_contact, 40);
+    EXPECT_GE(found.regions, found.intersecting);
     EXPECT_EQ(found.overlooked, 0);
     EXPECT_EQ(found.false_contacts, 0);
     EXPECT_LE(found.fragile, found.intersecting / 20);
