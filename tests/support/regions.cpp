@@ -13,6 +13,7 @@
 namespace ode_ext::test {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr unsigned kNone = std::numeric_limits<unsigned>::max();
 
 // Six times the signed volume of the tetrahedron p, q, r, s.
@@ -44,6 +45,12 @@ struct Crossing {
   unsigned node;
 };
 
+// What a triangle has in common with `other`, between two crossings.
+struct Segment {
+  unsigned from, to;  // nodes
+  unsigned other;
+};
+
 class RegionFinder {
  public:
   RegionFinder(const SurfaceGraph& a, const TestPose& pa, const SurfaceGraph& b, const TestPose& pb)
@@ -58,7 +65,11 @@ class RegionFinder {
   std::vector<Region> find(std::span<const TrianglePair> pairs) {
     for (const TrianglePair& pair : pairs) cross_triangles(pair);
     for (const std::size_t side : {0u, 1u}) {
-      if (meshes_[1 - side]->closed()) join_what_is_inside(side);
+      if (!meshes_[1 - side]->closed()) continue;
+      join_along_edges(side);
+      for (const auto& [triangle, segments] : segments_[side]) {
+        join_within(side, triangle, segments);
+      }
     }
     return boxes();
   }
@@ -84,17 +95,20 @@ class RegionFinder {
             passes_left(meshes_[0]->edges_of(pair[0])[i], meshes_[1]->edges_of(pair[1])[j]) == same;
       }
     }
-    unsigned last = kNone;
+    std::vector<unsigned> nodes;
     for (const std::size_t side : {0u, 1u}) {
       for (std::size_t i = 0; i < 3; ++i) {
         const auto at = [&](std::size_t k) { return side == 0 ? left[i][k] : left[k][i]; };
         if (at(0) != at(1) || at(1) != at(2)) continue;
         const unsigned node =
             cross_edge(side, meshes_[side]->edges_of(pair[side])[i], pair[1 - side]);
-        if (node != kNone && last != kNone) sets_.join(node, last);
-        if (node != kNone) last = node;
+        if (node != kNone) nodes.push_back(node);
       }
     }
+    if (nodes.size() != 2) return;  // touching, by rounding
+    sets_.join(nodes[0], nodes[1]);
+    segments_[0][pair[0]].push_back({nodes[0], nodes[1], pair[1]});
+    segments_[1][pair[1]].push_back({nodes[0], nodes[1], pair[0]});
   }
 
   // The line of the edge passes through the triangle; the edge does if its ends are on either side.
@@ -113,55 +127,165 @@ class RegionFinder {
     const auto [found, is_new] = crossings_of_.try_emplace(key, 0);
     if (is_new) {
       const double t = from / (from - to);
-      found->second = add_node(p + t * (q - p));
+      found->second = add_node(p + t * (q - p), static_cast<unsigned>(crossings_.size()));
       crossings_.push_back({static_cast<unsigned>(side), edge, t, from >= 0, found->second});
     }
     return found->second;
   }
 
-  unsigned add_node(const Point& p) {
+  unsigned add_node(const Point& p, unsigned crossing = kNone) {
     places_.push_back(p);
+    crossing_at_.push_back(crossing);
     return sets_.add();
+  }
+
+  void reach(std::size_t side, unsigned vertex, unsigned node) {
+    std::vector<unsigned> front;
+    const auto visit = [&](unsigned v, unsigned from) {
+      auto [at, is_new] = node_of_[side].try_emplace(v, 0);
+      if (is_new) {
+        at->second = add_node(points_[side][v]);
+        front.push_back(v);
+      }
+      sets_.join(at->second, from);
+    };
+    visit(vertex, node);
+    while (!front.empty()) {
+      const unsigned v = front.back();
+      front.pop_back();
+      for (const unsigned edge : meshes_[side]->edges_at(v)) {
+        const auto& ends = meshes_[side]->edges()[edge];
+        if (on_edge_[side].contains(edge)) continue;
+        visit(ends.from == v ? ends.to : ends.from, node_of_[side].at(v));
+      }
+    }
   }
 
   // Along an edge with crossings: what is between one that enters and one that leaves. From ends
   // inside on along the edges without crossings.
-  void join_what_is_inside(std::size_t side) {
-    const SurfaceGraph& mesh = *meshes_[side];
-    std::vector<Crossing> along;
+  void join_along_edges(std::size_t side) {
     for (const Crossing& c : crossings_) {
-      if (c.side == side) along.push_back(c);
+      if (c.side == side) on_edge_[side][c.edge].push_back(c);
     }
-    std::sort(along.begin(), along.end(), [](const Crossing& a, const Crossing& b) {
-      return std::tie(a.edge, a.t, a.entering) < std::tie(b.edge, b.t, b.entering);
-    });
-    std::vector<unsigned> node_of(mesh.vertices().size(), kNone);
-    std::vector<bool> crossed(mesh.edges().size());
-    std::vector<unsigned> front;
-    const auto reach = [&](unsigned vertex, unsigned node) {
-      if (node_of[vertex] == kNone) {
-        node_of[vertex] = add_node(points_[side][vertex]);
-        front.push_back(vertex);
+    for (auto& [edge, along] : on_edge_[side]) {
+      std::sort(along.begin(), along.end(), [](const Crossing& a, const Crossing& b) {
+        return std::tie(a.t, a.entering) < std::tie(b.t, b.entering);
+      });
+      for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+        if (along[i].entering && !along[i + 1].entering)
+          sets_.join(along[i].node, along[i + 1].node);
       }
-      sets_.join(node_of[vertex], node);
+    }
+    for (const auto& [edge, along] : on_edge_[side]) {
+      const auto& ends = meshes_[side]->edges()[edge];
+      if (!along.front().entering) reach(side, ends.from, along.front().node);
+      if (along.back().entering) reach(side, ends.to, along.back().node);
+    }
+  }
+
+  Point normal(std::size_t side, unsigned triangle) const {
+    const auto& c = meshes_[side]->corners(triangle);
+    const auto& p = points_[side];
+    return cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]);
+  }
+
+  // A closed curve within a triangle touches none of its edges. From the curve's farthest point in
+  // some direction the way goes on in this direction, to the next curve or to the triangle's edge;
+  // if it is inside the other mesh it joins the two. (Always the same direction: so chains of holes
+  // end at what is around them.)
+  void join_within(std::size_t side, unsigned triangle, std::span<const Segment> segments) {
+    if (segments.size() < 3) return;
+    Sets parts;
+    std::unordered_map<unsigned, unsigned> part_of;  // by node
+    const auto part = [&](unsigned node) {
+      const auto [at, is_new] = part_of.try_emplace(node, 0);
+      if (is_new) at->second = parts.add();
+      return at->second;
     };
-    for (std::size_t i = 0; i < along.size(); ++i) {
-      const Crossing& c = along[i];
-      const bool first = i == 0 || along[i - 1].edge != c.edge;
-      const bool last = i + 1 == along.size() || along[i + 1].edge != c.edge;
-      crossed[c.edge] = true;
-      if (first && !c.entering) reach(mesh.edges()[c.edge].from, c.node);
-      if (last && c.entering) reach(mesh.edges()[c.edge].to, c.node);
-      if (!last && c.entering && !along[i + 1].entering) sets_.join(c.node, along[i + 1].node);
-    }
-    while (!front.empty()) {
-      const unsigned vertex = front.back();
-      front.pop_back();
-      for (const unsigned edge : mesh.edges_at(vertex)) {
-        const auto& ends = mesh.edges()[edge];
-        if (!crossed[edge]) reach(ends.from == vertex ? ends.to : ends.from, node_of[vertex]);
+    for (const Segment& s : segments) parts.join(part(s.from), part(s.to));
+
+    const auto& corners = meshes_[side]->corners(triangle);
+    const Point& origin = points_[side][corners[0]];
+    const Point edge = points_[side][corners[1]] - origin;
+    const Point across = unit(cross(normal(side, triangle), edge));
+    // 0.3 rad off an edge: meshes are made along their edges.
+    const Point along = std::cos(0.3) * unit(edge) + std::sin(0.3) * across;
+    const Point aside = unit(cross(normal(side, triangle), along));
+
+    std::map<unsigned, unsigned> farthest;  // node by part; kNone: not a closed curve
+    for (const auto& [node, at] : part_of) {
+      unsigned& best = farthest.try_emplace(parts.find(at), node).first->second;
+      if (best == kNone) continue;
+      if (crossings_[crossing_at_[node]].side == side) {
+        best = kNone;
+      } else if (dot(places_[node], along) > dot(places_[best], along)) {
+        best = node;
       }
     }
+    for (const auto& [set, start] : farthest) {
+      if (start == kNone) continue;
+      const Point& p = places_[start];
+      // How far along the way is what lies from q to r? Infinity: it is not on the way.
+      const auto meets = [&](const Point& q, const Point& r, double& share) {
+        const double dq = dot(q - p, aside), dr = dot(r - p, aside);
+        if ((dq >= 0) == (dr >= 0)) return kInfinity;
+        share = dq / (dq - dr);
+        const double ahead = dot(q + share * (r - q) - p, along);
+        return ahead > 0 ? ahead : kInfinity;
+      };
+      double nearest = kInfinity, share = 0;
+      const Segment* next = nullptr;
+      for (const Segment& s : segments) {
+        if (parts.find(part(s.from)) == set) continue;
+        const double ahead = meets(places_[s.from], places_[s.to], share);
+        if (ahead < nearest) nearest = ahead, next = &s;
+      }
+      if (next != nullptr) {
+        if (dot(along, normal(1 - side, next->other)) > 0) sets_.join(start, next->from);
+        continue;
+      }
+      for (const unsigned e : meshes_[side]->edges_of(triangle)) {
+        const auto& ends = meshes_[side]->edges()[e];
+        if (meets(points_[side][ends.from], points_[side][ends.to], share) < kInfinity)
+          join_with_edge(side, e, share, start, leads_inside(side, segments, start, along));
+      }
+    }
+  }
+
+  // `t` is the place on the edge.
+  void join_with_edge(std::size_t side, unsigned edge, double t, unsigned node, bool inside) {
+    const auto found = on_edge_[side].find(edge);
+    if (found == on_edge_[side].end()) {
+      if (inside) reach(side, meshes_[side]->edges()[edge].from, node);
+      return;
+    }
+    const auto& along = found->second;
+    const auto after =
+        std::find_if(along.begin(), along.end(), [&](const Crossing& c) { return c.t > t; });
+    if (after != along.end() && !after->entering) sets_.join(node, after->node);
+    if (after == along.end() && along.back().entering) sets_.join(node, along.back().node);
+  }
+
+  // Two triangles of the other mesh meet in an edge, which crosses this one at `node`: does the way
+  // start inside? Behind both at a ridge, behind either in a valley.
+  bool leads_inside(std::size_t side, std::span<const Segment> segments, unsigned node,
+                    const Point& way) const {
+    std::vector<unsigned> at;
+    for (const Segment& s : segments) {
+      if (s.from == node || s.to == node) at.push_back(s.other);
+    }
+    if (at.size() != 2) return false;
+    const std::size_t other = 1 - side;
+    const Point n = normal(other, at[0]);
+    const Point& on_first = points_[other][meshes_[other]->corners(at[0])[0]];
+    double highest = 0, lowest = 0;  // of the second above the first; on their edge it is 0
+    for (const unsigned corner : meshes_[other]->corners(at[1])) {
+      highest = std::max(highest, dot(points_[other][corner] - on_first, n));
+      lowest = std::min(lowest, dot(points_[other][corner] - on_first, n));
+    }
+    const bool ridge = -lowest > highest;
+    const bool behind_first = dot(way, n) < 0, behind_second = dot(way, normal(other, at[1])) < 0;
+    return ridge ? behind_first && behind_second : behind_first || behind_second;
   }
 
   std::vector<Region> boxes() {
@@ -182,46 +306,16 @@ class RegionFinder {
   std::array<const SurfaceGraph*, 2> meshes_;
   std::array<std::vector<Point>, 2> points_;  // in the frame of the second
   std::vector<Crossing> crossings_;
-  std::unordered_map<std::uint64_t, unsigned> crossings_of_;  // the node
-  std::vector<Point> places_;                                 // of nodes
+  std::array<std::map<unsigned, std::vector<Segment>>, 2> segments_;  // by triangle
+  std::array<std::map<unsigned, std::vector<Crossing>>, 2> on_edge_;  // by edge, in order
+  std::array<std::unordered_map<unsigned, unsigned>, 2> node_of_;     // vertices inside
+  std::vector<unsigned> crossing_at_;                                 // by node
+  std::unordered_map<std::uint64_t, unsigned> crossings_of_;          // the node
+  std::vector<Point> places_;                                         // of nodes
   Sets sets_;
 };
 
 }  // namespace
-
-SurfaceGraph::SurfaceGraph(const TestMesh& mesh) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.vertex_count()); ++i) {
-    vertices_.push_back(mesh.vertex(i));
-  }
-  std::map<std::pair<unsigned, unsigned>, unsigned> numbers;
-  std::vector<int> triangles_at;
-  for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-    corners_.push_back({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
-    auto& sides = sides_.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [from, to] = std::minmax(corners_.back()[k], corners_.back()[(k + 1) % 3]);
-      const auto [at, is_new] =
-          numbers.try_emplace({from, to}, static_cast<unsigned>(edges_.size()));
-      if (is_new) {
-        edges_.push_back({from, to});
-        triangles_at.push_back(0);
-      }
-      sides[k] = at->second;
-      ++triangles_at[at->second];
-    }
-  }
-  closed_ = std::all_of(triangles_at.begin(), triangles_at.end(), [](int n) { return n == 2; });
-
-  first_at_.assign(vertices_.size() + 1, 0);
-  for (const Edge& e : edges_) ++first_at_[e.from + 1], ++first_at_[e.to + 1];
-  std::partial_sum(first_at_.begin(), first_at_.end(), first_at_.begin());
-  at_vertex_.resize(2 * edges_.size());
-  std::vector<unsigned> next(first_at_.begin(), first_at_.end() - 1);
-  for (unsigned i = 0; i < edges_.size(); ++i) {
-    at_vertex_[next[edges_[i].from]++] = i;
-    at_vertex_[next[edges_[i].to]++] = i;
-  }
-}
 
 // Slabs: what of the segment is between the faces of the grown box along every axis.
 bool Region::is_near(const Point& p, const Point& q, double margin) const {

@@ -7,8 +7,9 @@
 // same curve. (That two triangle pairs are neighbours is not enough: both slopes of a roof can dip
 // into one triangle without the ridge between them.) A part of the overlap can have several curves:
 // a rod through a wall has one where it enters and one where it leaves. Such curves are joined by
-// what of either surface is inside the other: the edges of the rod within the wall. An open mesh
-// has no inside, so it joins nothing.
+// what of either surface is inside the other: the edges of the rod within the wall, and within a
+// triangle the way from a closed curve to what is around it. An open mesh has no inside, so it
+// joins nothing.
 #pragma once
 
 #include <array>
@@ -16,39 +17,12 @@
 #include <vector>
 
 #include "support/mesh_makers.h"
+#include "support/surface_graph.h"
 
 namespace ode_ext::test {
 
 // A triangle of the first mesh and one of the second.
 using TrianglePair = std::array<unsigned, 2>;
-
-// Vertices, edges and triangles of a mesh whose triangles share their vertices.
-class SurfaceGraph {
- public:
-  struct Edge {
-    unsigned from, to;  // from < to
-  };
-
-  explicit SurfaceGraph(const TestMesh& mesh);
-
-  bool closed() const { return closed_; }
-  std::span<const Point> vertices() const { return vertices_; }
-  std::span<const Edge> edges() const { return edges_; }
-  const std::array<unsigned, 3>& corners(unsigned triangle) const { return corners_[triangle]; }
-  // The edge from corner k to the next.
-  const std::array<unsigned, 3>& edges_of(unsigned triangle) const { return sides_[triangle]; }
-  std::span<const unsigned> edges_at(unsigned vertex) const {
-    return std::span(at_vertex_)
-        .subspan(first_at_[vertex], first_at_[vertex + 1] - first_at_[vertex]);
-  }
-
- private:
-  std::vector<Point> vertices_;
-  std::vector<Edge> edges_;
-  std::vector<std::array<unsigned, 3>> corners_, sides_;
-  std::vector<unsigned> at_vertex_, first_at_;
-  bool closed_ = true;  // every edge has two triangles
-};
 
 // The box of a region in the frame of the second mesh: of its curves and of the vertices inside.
 struct Region {
