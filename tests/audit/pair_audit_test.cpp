@@ -108,7 +108,7 @@ TEST(PairTruth, CountsRegionsThatANudgeRemovesApart) {
   }
 }
 
-TEST(Kinds, AreClosedButForTheTerrainAndTheBowlAndOfTheSizesSaid) {
+TEST(MeshKinds, AreClosedButForTheTerrainAndTheBowlAndOfTheSizesSaid) {
   const auto kinds = make_kinds();
   EXPECT_EQ(kinds.front().mesh.triangle_count(), 12);
   for (const Kind& kind : kinds) {

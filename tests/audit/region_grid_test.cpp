@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kCells = 40;
+constexpr int kCells = 32;
 
 // Connected sets of points in the box, which is that of `b`'s frame, inside both.
 int count_by_points(const Shape& a, const Shape& b, const PosedPair& poses, const Point& low,

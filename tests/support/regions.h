@@ -33,7 +33,8 @@ struct Region {
   bool is_near(const Point& p, const Point& q, double margin) const;
 };
 
-// `pairs` must hold all pairs of triangles that meet; others do no harm.
+// Closed meshes are wound outwards. `pairs` must hold all pairs of triangles that meet; others do
+// no harm.
 std::vector<Region> find_regions(const SurfaceGraph& a, const TestPose& pa, const SurfaceGraph& b,
                                  const TestPose& pb, std::span<const TrianglePair> pairs);
 
