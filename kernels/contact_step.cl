@@ -9,6 +9,7 @@
 
 #define OX_NO_PATCH 0xffffffffu
 #define OX_TAKEN 0xfffffffeu
+#define OX_DROPPED 0xfffffffdu
 
 // in: pair_hits, pair_crossings. out: where the candidates and the crossings of each pair start.
 // item: 1 pair. The counters cannot overflow: they end at the number of hits and three times that
@@ -59,7 +60,12 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     candidate->triangle = hit->triangle;
     candidate->patch = OX_NO_PATCH;
     candidate->distance2 = INFINITY;
+    candidate->region = OX_NONE;
   }
+}
+
+static bool ox_is_left(__global const ox_candidate* c) {
+  return c->patch != OX_TAKEN && c->patch != OX_DROPPED;
 }
 
 static uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_HIT_KIND; }
@@ -110,8 +116,8 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
 
 // Two contacts contradict one another if they push opposite ways and a way out by one of them leads
 // deeper into the other: what lies between their places along the normal is less than their depth.
-// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) Equal
-// bodies in one place have as many ways out as faces; the first one taken stands.
+// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) The shorter
+// way out stands. Equal bodies in one place have as many ways out as faces; then the order decides.
 static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b) {
   const float3 normal = vload3(0, a->normal);
   if (ox_dot(normal, vload3(0, b->normal)) > -0.5f) return false;
@@ -119,10 +125,17 @@ static bool ox_contradicts(__global const ox_candidate* a, __global const ox_can
   return fabs(apart) < ox_max(a->depth, b->depth);
 }
 
-static bool ox_is_contradicted(__global const ox_candidate* candidates, uint candidate,
-                               const uint* taken, uint n) {
-  for (uint k = 0u; k < n; ++k)
-    if (ox_contradicts(candidates + candidate, candidates + taken[k])) return true;
+static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, uint kind,
+                               uint candidate) {
+  __global ox_candidate* c = candidates + candidate;
+  for (uint k = 0u; k < count; ++k) {
+    __global const ox_candidate* d = candidates + k;
+    if (k == candidate || ox_kind(d) != kind || d->patch == OX_DROPPED || !ox_deeper(c, d) ||
+        !ox_contradicts(c, d))
+      continue;
+    c->patch = OX_DROPPED;
+    return true;
+  }
   return false;
 }
 
@@ -142,25 +155,29 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_deeper(candidates + i, candidates + best)))
         best = i;
     if (best == count) break;
-    if (edges && ox_is_contradicted(candidates, best, taken, n)) {
-      candidates[best].patch = OX_TAKEN;
-      continue;
-    }
+    if (edges && ox_is_contradicted(candidates, count, kind, best)) continue;
     ox_open_patch(candidates, count, best, n);
+    ox_take(candidates, count, best);
+    taken[n++] = best;
+  }
+  while (n < max_contacts) {  // what alone speaks for a region
+    uint best = count;
+    for (uint i = 0u; i < count; ++i)
+      if (ox_is_left(candidates + i) && candidates[i].region != OX_NONE &&
+          (best == count || ox_deeper(candidates + i, candidates + best)))
+        best = i;
+    if (best == count) break;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
   while (n < max_contacts) {  // whatever is farthest from what its patch has
     uint best = count;
     for (uint i = 0u; i < count; ++i)
-      if (candidates[i].patch != OX_TAKEN && ox_kind(candidates + i) == kind &&
+      if (ox_is_left(candidates + i) && ox_kind(candidates + i) == kind &&
           (best == count || ox_farther(candidates + i, candidates + best)))
         best = i;
     if (best == count || candidates[best].distance2 <= merge2) break;
-    if (edges && ox_is_contradicted(candidates, best, taken, n)) {
-      candidates[best].patch = OX_TAKEN;
-      continue;
-    }
+    if (edges && ox_is_contradicted(candidates, count, kind, best)) continue;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }

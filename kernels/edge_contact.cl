@@ -10,7 +10,8 @@
 #include "shared/edge_axis.h"
 #include "shared/way_out.h"
 
-// in: crossings. out: those of each pair together, as they are needed. item: 1 crossing.
+// in: crossings. out: those of each pair together, as they are needed, and per pair room for an
+// order and a queue of them. item: 1 crossing.
 __kernel void crossing_gather(__global const uint* counters, __global const ox_list* lists,
                               __global const ox_edge_crossing* crossings,
                               __global const ox_pair* pairs, __global const ox_vertex* vertices,
@@ -38,9 +39,10 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     crossing.facet = facets[crossing.triangle];
     crossing.other = OX_NONE;
     crossing.other_t = 0.0f;
-    crossing.region = OX_REGION_UNKNOWN;
+    crossing.region = OX_NONE;
+    crossing.covered = 0u;
     gathered[crossing_segments[p] + crossing.slot] = crossing;
-    order[crossing_segments[p] + crossing.slot] = crossing.slot;
+    order[2u * crossing_segments[p] + crossing.slot] = crossing.slot;
   }
 }
 
@@ -60,15 +62,20 @@ static ox_hit_count ox_count_hits(const ox_edge_pair* p, uint side) {
   return count;
 }
 
-static bool ox_has_hit(const ox_edge_pair* p, uint side, uint vertex) {
+// The hit of a vertex that is inside; OX_NONE: it has none.
+static uint ox_find_hit(const ox_edge_pair* p, uint side, uint vertex) {
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global const ox_candidate* c = p->candidates + i;
     if (c->vertex == vertex && (c->side_kind & OX_HIT_POINT) == 0u &&
         (c->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
         ((c->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u))
-      return true;
+      return i;
   }
-  return false;
+  return OX_NONE;
+}
+
+static bool ox_has_hit(const ox_edge_pair* p, uint side, uint vertex) {
+  return ox_find_hit(p, side, vertex) != OX_NONE;
 }
 
 // A vertex in contact covers the region it is in.
@@ -91,7 +98,7 @@ static void ox_cover_by_vertices(const ox_edge_pair* p) {
         const uint vertex = ox_inner_vertex(p, c);
         covered = vertex != OX_NONE && (all || ox_has_hit(p, side, vertex));
       }
-      if (covered) c->region = OX_REGION_COVERED;
+      if (covered) c->covered = 1u;
     }
   }
 }
@@ -123,11 +130,11 @@ static void ox_pair_edges(ox_edge_pair* p) {
         const ox_wedge wedge_b = ox_wedge_of(p, b);
         ox_point point;
         if (!ox_edge_contact(&wedge_a, &wedge_b, &point)) continue;
-        a->region = OX_REGION_COVERED;
-        b->region = OX_REGION_COVERED;
+        a->covered = 1u;
+        b->covered = 1u;
         if (p->candidate_count < most)
           ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0],
-                       point.position, point.normal, point.depth);
+                       a->region, point.position, point.normal, point.depth);
       }
     }
   }
@@ -189,8 +196,8 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
       const float3 point = ox_chord_end(p, c, end);
       const float depth = ox_depth_below(&best, point);
       if (depth >= 0.5f * best.depth)
-        ox_add_point(p, best.side, p->edges[c->edge].triangle[0], best.triangle, point, normal,
-                     depth);
+        ox_add_point(p, best.side, p->edges[c->edge].triangle[0], best.triangle, region, point,
+                     normal, depth);
     }
   }
   if (vertices) ox_lead_vertices_out(p, &best);
@@ -232,27 +239,20 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
   }
   if (best == OX_NONE) return;
   __global const ox_edge_crossing* c = p->crossings + best;
-  ox_add_point(p, ox_side(c), p->edges[c->edge].triangle[0], c->triangle, vload3(0, c->position),
-               best_normal, best_depth);
+  ox_add_point(p, ox_side(c), p->edges[c->edge].triangle[0], c->triangle, region,
+               vload3(0, c->position), best_normal, best_depth);
 }
 
 static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) {
-  ox_spread_region(p, OX_REGION_COVERED);
-  uint region = OX_REGION_FIRST;
-  bool covered = false;
-  for (uint k = 0u; k < p->count; ++k) {
-    __global ox_edge_crossing* c = p->crossings + p->order[k];
-    covered = covered || c->region == OX_REGION_COVERED;
-    if (c->region != OX_REGION_UNKNOWN) continue;
-    c->region = region;
-    ox_spread_region(p, region++);
-  }
-  for (uint r = OX_REGION_FIRST; r < region; ++r) {
+  for (uint region = 0u; region < p->regions; ++region) {
+    bool covered = false;
+    for (uint k = 0u; k < p->count && !covered; ++k)
+      covered = p->crossings[k].region == region && p->crossings[k].covered != 0u;
+    if (covered) continue;
     const uint before = p->candidate_count;
     // Where it is the only one, all vertices beyond their own exit belong to it.
-    const bool vertices = !covered && region == OX_REGION_FIRST + 1u;
-    ox_lead_region_out(p, r, vertices, nodes);
-    if (p->candidate_count == before) ox_push_region_back(p, r);
+    ox_lead_region_out(p, region, p->regions == 1u, nodes);
+    if (p->candidate_count == before) ox_push_region_back(p, region);
   }
 }
 
@@ -310,6 +310,17 @@ static bool ox_is_led_out(const ox_edge_pair* p, uint i, uint side) {
   return false;
 }
 
+// Whether a chord of the region ends in such a vertex.
+static bool ox_ends_deep(const ox_edge_pair* p, uint region, uint side) {
+  for (uint k = 0u; k < p->count; ++k) {
+    __global const ox_edge_crossing* c = p->crossings + k;
+    const uint vertex = c->region == region && ox_side(c) == side ? ox_inner_vertex(p, c) : OX_NONE;
+    for (uint i = 0u; i < p->candidate_count && vertex != OX_NONE; ++i)
+      if (p->candidates[i].vertex == vertex && ox_is_deep(p, i, side)) return true;
+  }
+  return false;
+}
+
 // Thin parts deep in the target (a plate in a block): the vertices that know a way out, those near
 // a face that the part cuts, lead the others nowhere. The face below which all of it is least deep
 // does.
@@ -319,17 +330,36 @@ static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
     for (uint i = 0u; i < p->candidate_count; ++i)
       if (ox_is_deep(p, i, side) && !ox_is_led_out(p, i, side)) ++deep;
     if (deep == 0u) continue;
-    // The regions of which such vertices are part.
-    for (uint i = 0u; i < p->count; ++i) {
-      __global ox_edge_crossing* c = p->crossings + i;
-      c->region = OX_REGION_UNKNOWN;
-      const uint vertex = ox_side(c) == side ? ox_inner_vertex(p, c) : OX_NONE;
-      for (uint k = 0u; k < p->candidate_count && vertex != OX_NONE; ++k)
-        if (p->candidates[k].vertex == vertex && ox_is_deep(p, k, side))
-          c->region = OX_REGION_FIRST;
+    for (uint region = 0u; region < p->regions; ++region)
+      if (ox_ends_deep(p, region, side)) ox_lead_region_out(p, region, true, nodes);
+  }
+}
+
+// Of several regions each gets one contact that will not be left out for want of room: the deepest
+// of its points and of the vertices at its chords, of which so many are looked at.
+#define OX_MOST_SPOKESMEN 8u
+
+static void ox_choose_spokesmen(const ox_edge_pair* p, uint points) {
+  for (uint region = 0u; region < p->regions && p->regions > 1u; ++region) {
+    uint best = OX_NONE;
+    uint looked = 0u;
+    for (uint k = 0u; k < p->count && looked < OX_MOST_SPOKESMEN; ++k) {
+      __global const ox_edge_crossing* c = p->crossings + p->order[k];
+      if (c->region != region || c->covered == 0u) continue;
+      const uint vertex = ox_inner_vertex(p, c);
+      if (vertex == OX_NONE) continue;
+      const uint hit = ox_find_hit(p, ox_side(c), vertex);
+      if (hit == OX_NONE) continue;
+      ++looked;
+      if (best == OX_NONE || p->candidates[hit].depth > p->candidates[best].depth) best = hit;
     }
-    ox_spread_region(p, OX_REGION_FIRST);
-    ox_lead_region_out(p, OX_REGION_FIRST, true, nodes);
+    for (uint i = points; i < p->candidate_count; ++i)
+      if (p->candidates[i].region == region &&
+          (best == OX_NONE || p->candidates[i].depth > p->candidates[best].depth))
+        best = i;
+    for (uint i = points; i < p->candidate_count; ++i)
+      if (p->candidates[i].region == region && i != best) p->candidates[i].region = OX_NONE;
+    if (best != OX_NONE) p->candidates[best].region = region;
   }
 }
 
@@ -352,6 +382,18 @@ static void ox_lead_mesh_out(ox_edge_pair* p, uint side, uint fallback, uint ver
     ox_try_way(p, OX_NONE, true, side, ox_exit_face(p, side, from, outward, nodes), &best);
   }
   if (best.triangle != OX_NONE) ox_lead_vertices_out(p, &best);
+}
+
+// Of two open surfaces neither has an inside: what does not cross is apart, however near. A vertex
+// that lies on the other surface touches it, though. (Sheets have a thickness.)
+static void ox_drop_apart(const ox_edge_pair* p) {
+  if (((p->mesh[0]->flags | p->mesh[1]->flags) & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) != 0u)
+    return;
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    __global ox_candidate* c = p->candidates + i;
+    if ((c->side_kind & OX_HIT_KIND) != OX_HIT_TOUCHING)
+      c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_NONE;
+  }
 }
 
 // item: 1 pair.
@@ -377,11 +419,14 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.triangles = triangles;
     pair.facets = facets;
     pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
-    pair.order = order + (crossed == 0u ? 0u : crossing_segments[i]);
+    pair.order = order + (crossed == 0u ? 0u : 2u * crossing_segments[i]);
+    pair.queue = pair.order + crossed;
     pair.count = crossed;
+    pair.regions = 0u;
     pair.candidates = candidates + pair_segments[i];
     pair.candidate_count = pair_hits[i];
     if (crossed == 0u) {
+      ox_drop_apart(&pair);
       for (uint side = 0u; side < 2u; ++side) {
         const ox_hit_count hits = ox_count_hits(&pair, side);
         if (hits.fallback != 0u && hits.inside == 0u)
@@ -392,12 +437,14 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       ox_sort_crossings(&pair, false);
       ox_find_chords(&pair);
       ox_sort_crossings(&pair, true);
+      ox_find_regions(&pair);
       ox_cover_by_vertices(&pair);
       // A sheet has no inside that its edges could be wedges of.
       if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)
         ox_pair_edges(&pair);
       ox_lead_regions_out(&pair, nodes);
       ox_lead_deep_out(&pair, nodes);
+      ox_choose_spokesmen(&pair, pair_hits[i]);
     }
     ox_admit_touching(&pair);
     pair_hits[i] = pair.candidate_count;

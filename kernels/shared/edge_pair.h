@@ -10,10 +10,6 @@
 
 #include "shared/edge_ray.h"
 
-#define OX_REGION_UNKNOWN 0u
-#define OX_REGION_COVERED 1u  // a contact speaks for it
-#define OX_REGION_FIRST 2u    // regions without a contact, by number
-
 typedef struct {
   __global const ox_pair* pair;
   __global const ox_mesh* mesh[2];
@@ -22,8 +18,10 @@ typedef struct {
   __global const ox_triangle* triangles;
   __global const uint* facets;
   __global ox_edge_crossing* crossings;
-  __global uint* order;
+  __global uint* order;  // of the crossings
+  __global uint* queue;  // as many
   uint count;
+  uint regions;
   __global ox_candidate* candidates;
   uint candidate_count;
 } ox_edge_pair;
@@ -162,46 +160,49 @@ static inline bool ox_crosses(const ox_edge_pair* p, uint place, uint side, uint
   return ox_side(c) == side && c->facet == facet;
 }
 
-// Whether some neighbour of crossing i, along the curve or its chord, is in `region`.
-static inline bool ox_has_neighbour_in(const ox_edge_pair* p, uint i, uint region) {
+// Puts a crossing into a region, unless it is in one.
+static inline void ox_reach(const ox_edge_pair* p, uint i, uint region, uint* end) {
+  if (p->crossings[i].region != OX_NONE) return;
+  p->crossings[i].region = region;
+  p->queue[(*end)++] = i;
+}
+
+// The neighbours of crossing i, along the curve and along its chord.
+static inline void ox_reach_neighbours(const ox_edge_pair* p, uint i, uint region, uint* end) {
   __global const ox_edge_crossing* c = p->crossings + i;
-  if (c->other != OX_NONE && p->crossings[c->other].region == region) return true;
+  if (c->other != OX_NONE) ox_reach(p, c->other, region, end);
   const uint side = ox_side(c);
   const uint facet0 = ox_facet_at(p, c->edge, 0u);
   const uint facet1 = ox_facet_at(p, c->edge, 1u);
   for (uint k = 0u; k < 2u; ++k) {  // an edge of the facet it crosses crosses a facet at its edge
     const uint facet = k == 0u ? facet0 : facet1;
     if (facet == OX_NONE || (k == 1u && facet1 == facet0)) continue;
-    for (uint n = ox_find_facet(p, 1u - side, facet); ox_crosses(p, n, 1u - side, facet); ++n) {
-      __global const ox_edge_crossing* d = p->crossings + p->order[n];
-      if (d->region == region && ox_is_at_facet(p, d->edge, c->facet)) return true;
-    }
+    for (uint n = ox_find_facet(p, 1u - side, facet); ox_crosses(p, n, 1u - side, facet); ++n)
+      if (ox_is_at_facet(p, p->crossings[p->order[n]].edge, c->facet))
+        ox_reach(p, p->order[n], region, end);
   }
   // Another edge of a facet at its edge crosses the same facet.
   for (uint n = ox_find_facet(p, side, c->facet); ox_crosses(p, n, side, c->facet); ++n) {
-    __global const ox_edge_crossing* d = p->crossings + p->order[n];
-    if (d->region == region && (ox_is_at_facet(p, d->edge, facet0) ||
-                                (facet1 != OX_NONE && ox_is_at_facet(p, d->edge, facet1))))
-      return true;
-  }
-  return false;
-}
-
-// A region grows over all of unknown region that is linked with it.
-static inline void ox_spread_region(const ox_edge_pair* p, uint region) {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (uint k = 0u; k < p->count; ++k) {
-      const uint i = p->order[k];
-      if (p->crossings[i].region != OX_REGION_UNKNOWN || !ox_has_neighbour_in(p, i, region))
-        continue;
-      p->crossings[i].region = region;
-      changed = true;
-    }
+    const uint edge = p->crossings[p->order[n]].edge;
+    if (ox_is_at_facet(p, edge, facet0) || (facet1 != OX_NONE && ox_is_at_facet(p, edge, facet1)))
+      ox_reach(p, p->order[n], region, end);
   }
 }
 
-static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint target,
+// The regions of overlap: what hangs together along curves and chords. Needs the order by facet.
+static inline void ox_find_regions(ox_edge_pair* p) {
+  uint end = 0u;
+  p->regions = 0u;
+  for (uint k = 0u; k < p->count; ++k) {
+    const uint begin = end;
+    ox_reach(p, p->order[k], p->regions, &end);
+    for (uint next = begin; next < end; ++next)
+      ox_reach_neighbours(p, p->queue[next], p->regions, &end);
+    if (end != begin) ++p->regions;
+  }
+}
+
+static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint target, uint region,
                                 float3 position, float3 normal, float depth) {
   __global ox_candidate* candidate = p->candidates + p->candidate_count++;
   vstore3(position, 0, candidate->position);
@@ -214,6 +215,7 @@ static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint ta
   candidate->triangle = target;
   candidate->patch = OX_NONE;
   candidate->distance2 = INFINITY;
+  candidate->region = region;
 }
 
 #endif

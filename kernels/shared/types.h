@@ -266,9 +266,10 @@ typedef struct {
   ox_u32 facet;     // of the triangle
   ox_u32 other;     // the crossing at the other end of its chord, among those of the pair; OX_NONE
   ox_f32 other_t;   // [m] the other end of the chord, the stretch of the edge inside the target
-  ox_u32 region;    // OX_REGION_...
+  ox_u32 region;    // of overlap, counted from 0 in every pair; OX_NONE: not known yet
   ox_f32 position[3];  // in the frame of B
-  ox_u32 padding[3];
+  ox_u32 covered;      // whether a contact speaks for it
+  ox_u32 padding[2];
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 
@@ -283,7 +284,8 @@ typedef struct {
   ox_u32 triangle;
   ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch
-  ox_u32 padding[3];
+  ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
+  ox_u32 padding[2];
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 

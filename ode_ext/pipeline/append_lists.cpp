@@ -66,7 +66,7 @@ void AppendLists::reserve_buffers() {
   candidates_.reserve((ends.hits + 3 * ends.crossings) * sizeof(ox_candidate));
   crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
   gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-  crossing_order_.reserve(ends.crossings * sizeof(ox_u32));
+  crossing_order_.reserve(2 * ends.crossings * sizeof(ox_u32));
   contacts_.reserve(ends.contacts * sizeof(ox_contact));
 }
 
