@@ -61,6 +61,7 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     candidate->patch = OX_NO_PATCH;
     candidate->distance2 = INFINITY;
     candidate->region = OX_NONE;
+    candidate->outline = 0u;
   }
 }
 
@@ -114,6 +115,50 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
       candidates[i].patch = patch;
 }
 
+// The outline of a patch, seen along its normal: what is farthest in each of eight directions, the
+// first of them from the deepest to the farthest from it. A point within bears nothing that these do
+// not, and costs the solver as much.
+static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint kind, uint patch,
+                            uint deepest) {
+  const float3 normal = vload3(0, candidates[deepest].normal);
+  float3 across = (float3)(0.0f);
+  uint far = deepest;
+  float far2 = 0.0f;
+  for (uint i = 0u; i < count; ++i) {
+    __global const ox_candidate* c = candidates + i;
+    if (c->patch != patch || ox_kind(c) != kind) continue;
+    const float distance2 = ox_distance2(c, candidates + deepest);
+    if (distance2 < far2 || (distance2 == far2 && !ox_key_less(c, candidates + far))) continue;
+    const float3 d = vload3(0, c->position) - vload3(0, candidates[deepest].position);
+    across = d - ox_dot(d, normal) * normal;
+    far = i;
+    far2 = distance2;
+  }
+  const float width2 = ox_dot(across, across);
+  if (!(width2 > 0.0f)) return;  // it is the only one, or all lie behind it
+  const float3 u = across / sqrt(width2);
+  const float3 v = (float3)(normal.y * u.z - normal.z * u.y, normal.z * u.x - normal.x * u.z,
+                            normal.x * u.y - normal.y * u.x);
+  for (uint k = 0u; k < 8u; ++k) {
+    const float a = k == 0u || k == 4u ? 1.0f : k == 2u || k == 6u ? 0.0f : 0.70710678f;
+    const float b = k == 0u || k == 4u ? 0.0f : k == 2u || k == 6u ? 1.0f : 0.70710678f;
+    const float3 direction = (k > 2u && k < 6u ? -a : a) * u + (k > 4u || k == 4u ? -b : b) * v;
+    uint best = count;
+    float farthest = -INFINITY;
+    for (uint i = 0u; i < count; ++i) {
+      __global const ox_candidate* c = candidates + i;
+      if (c->patch != patch || ox_kind(c) != kind) continue;
+      const float reach = ox_dot(vload3(0, c->position), direction);
+      if (best == count || reach > farthest ||
+          (reach == farthest && ox_key_less(c, candidates + best))) {
+        best = i;
+        farthest = reach;
+      }
+    }
+    if (best != count) candidates[best].outline = 1u;
+  }
+}
+
 // Two contacts contradict one another if they push opposite ways and a way out by one of them leads
 // deeper into the other: what lies between their places along the normal is less than their depth.
 // (A peg between two walls has opposite contacts too, but as far apart as it is thick.) The shorter
@@ -139,6 +184,13 @@ static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, ui
   return false;
 }
 
+static bool ox_is_near(__global const ox_candidate* candidates, uint candidate, const uint* taken,
+                       uint n, float merge2) {
+  for (uint k = 0u; k < n; ++k)
+    if (ox_distance2(candidates + candidate, candidates + taken[k]) <= merge2) return true;
+  return false;
+}
+
 // edges: every region has a contact, and what lies beyond a source's exit says nothing more.
 static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
                       uint max_contacts, bool edges, uint* taken) {
@@ -157,6 +209,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
     if (best == count) break;
     if (edges && ox_is_contradicted(candidates, count, kind, best)) continue;
     ox_open_patch(candidates, count, best, n);
+    if (edges) ox_mark_outline(candidates, count, kind, n, best);
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
@@ -167,6 +220,10 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_deeper(candidates + i, candidates + best)))
         best = i;
     if (best == count) break;
+    if (ox_is_near(candidates, best, taken, n, merge2)) {
+      candidates[best].region = OX_NONE;
+      continue;
+    }
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
@@ -174,6 +231,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
     uint best = count;
     for (uint i = 0u; i < count; ++i)
       if (ox_is_left(candidates + i) && ox_kind(candidates + i) == kind &&
+          (!edges || candidates[i].outline != 0u) &&
           (best == count || ox_farther(candidates + i, candidates + best)))
         best = i;
     if (best == count || candidates[best].distance2 <= merge2) break;

@@ -46,6 +46,7 @@ Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   params.prediction = options.prediction;
   params.rays = options.rays;
   params.organisation = options.organisation;
+  params.edges = options.edges;
   params.deformable_target = options.deformable_target;
   params.misprediction = options.misprediction;
   params.trust_meshes = options.trust_meshes;

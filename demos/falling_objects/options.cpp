@@ -62,6 +62,8 @@ void add_modes(CLI::App& app, Options& o) {
       app, "--organisation", o.organisation,
       "How the work is cut into kernels (default: pipelined)", "pipelined|monolithic",
       {{"pipelined", dBatchOrganisationPipelined}, {"monolithic", dBatchOrganisationMonolithic}});
+  add_mode(app, "--edges", o.edges, "Whether edges are cast besides vertices (default: on)",
+           "on|off", {{"on", dBatchEdgesOn}, {"off", dBatchEdgesOff}});
   add_mode(app, "--workload", o.workload, "How kernels are launched (default: predicted)",
            "predicted|exact",
            {{"predicted", dBatchWorkloadPredicted}, {"exact", dBatchWorkloadExact}});

@@ -41,6 +41,22 @@ static inline ox_nearest ox_nothing(void) {
   return nearest;
 }
 
+// A ray along a face (less than 6 degrees off) does not leave by it: a vertex at the foot of a wall
+// touches the floor, not the wall.
+static inline bool ox_leaves_by(const ox_query* query, __global const ox_triangle* triangles,
+                                uint k) {
+  return fabs(ox_dot(query->direction, vload3(0, triangles[k].normal))) > 0.1f;
+}
+
+// Of the faces that a vertex lies on, the one that the ray leaves most directly says where to: on an
+// edge the ray may run along the other. Ties go by the index.
+static inline bool ox_faces_more(const ox_query* query, __global const ox_triangle* triangles,
+                                 uint a, uint b) {
+  const float slope_a = fabs(ox_dot(query->direction, vload3(0, triangles[a].normal)));
+  const float slope_b = fabs(ox_dot(query->direction, vload3(0, triangles[b].normal)));
+  return slope_a != slope_b ? slope_a > slope_b : triangles[a].id < triangles[b].id;
+}
+
 static inline void ox_consider(const ox_query* query, __global const ox_triangle* triangles, uint k,
                                ox_nearest* nearest) {
   __global const ox_triangle* triangle = triangles + k;
@@ -62,8 +78,9 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
     // does not touch.
     if (!back)
       nearest->entered = true;
-    else if (t >= -0.25f * epsilon &&
-             (nearest->touching == OX_NONE || triangle->id < triangles[nearest->touching].id)) {
+    else if (t >= -0.25f * epsilon && ox_leaves_by(query, triangles, k) &&
+             (nearest->touching == OX_NONE ||
+              ox_faces_more(query, triangles, k, nearest->touching))) {
       nearest->touching = k;
       nearest->touching_t = t;
     }

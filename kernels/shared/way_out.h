@@ -55,6 +55,7 @@ static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, f
   uint work = 0u;
   const ox_nearest nearest =
       ox_trace_bvh(&query, p->mesh[1u - side], nodes, p->triangles, OX_NONE, &work);
+  if (nearest.touching != OX_NONE) return nearest.touching;  // where it starts
   return nearest.back_t < nearest.front_t ? nearest.back : OX_NONE;
 }
 

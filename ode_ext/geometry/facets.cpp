@@ -50,9 +50,11 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
                                   const std::vector<Neighbours>& neighbours) {
   std::vector<std::uint32_t> facet(triangles.size(), kNone);
   std::vector<std::uint32_t> open;
+  std::uint32_t count = 0;
   for (const Seed& seed : seeds(vertices, triangles)) {
     if (facet[seed.triangle] != kNone) continue;
-    facet[seed.triangle] = seed.triangle;
+    const std::uint32_t number = count++;
+    facet[seed.triangle] = number;
     const Vec3f normal = face_normals[seed.triangle];
     if (normal == Vec3f{}) continue;
     open.assign(1, seed.triangle);
@@ -62,7 +64,7 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
       for (const std::uint32_t next : neighbours[triangle]) {
         if (next == kNone || facet[next] != kNone || face_normals[next] == Vec3f{}) continue;
         if (!(length(Vec3d(face_normals[next]) - Vec3d(normal)) < kFlat)) continue;
-        facet[next] = seed.triangle;
+        facet[next] = number;
         open.push_back(next);
       }
     }

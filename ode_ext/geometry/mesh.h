@@ -53,8 +53,8 @@ struct Mesh {
   std::vector<Vec3f> face_normals;
   // The triangles across each triangle's edges.
   std::vector<Neighbours> neighbours;
-  // For each triangle the one that stands for its facet (facets.h); empty for a deformable mesh,
-  // whose triangles are facets each.
+  // For each triangle the number of its facet (facets.h); empty for a deformable mesh, whose
+  // triangles are facets each.
   std::vector<std::uint32_t> facets;
   std::vector<Edge> edges;  // between facets
   std::vector<EdgeChunk> edge_chunks;

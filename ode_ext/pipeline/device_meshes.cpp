@@ -257,8 +257,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   for (const std::uint32_t triangle : built.bvh.order) {
     host_triangles_.push_back(to_record(built, triangle, places));
     const Isolation isolation = built.isolation.empty() ? Isolation{} : built.isolation[triangle];
-    host_facets_.push_back(record.triangle_first +
-                           places[built.facets.empty() ? triangle : built.facets[triangle]]);
+    host_facets_.push_back(built.facets.empty() ? triangle : built.facets[triangle]);
     host_isolations_.push_back({isolation.within_10, isolation.within_30, isolation.within_60});
   }
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);

@@ -48,7 +48,7 @@ class DeviceMeshes {
   const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
   const Buffer& edges() const { return edges_; }
-  // Of each triangle, over all triangles: the one that stands for its facet.
+  // Of each triangle, over all triangles: the number of its facet within its mesh.
   const Buffer& facets() const { return facets_; }
   const Buffer& isolations() const { return isolations_; }
   const Buffer& grids() const { return grids_; }

@@ -40,6 +40,7 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
   EXPECT_EQ(o.rays, dBatchRaysIterative);
   EXPECT_EQ(o.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(o.edges, dBatchEdgesOn);
   EXPECT_EQ(o.deformable_target, dBatchDeformableRefit);
   EXPECT_EQ(o.misprediction, dBatchMispredictionRedo);
   EXPECT_EQ(o.prediction, dBatchPredictionPairScaled);
@@ -71,11 +72,12 @@ TEST(Options, TakeEveryNameForItsValue) {
 }
 
 TEST(Options, NameEveryModeOfTheCollider) {
-  const Options o = parse({"--rays", "iterative-paper", "--organisation", "monolithic",
-                           "--deformable-target", "basic", "--misprediction", "backtrack"})
+  const Options o = parse({"--rays", "iterative-paper", "--organisation", "monolithic", "--edges",
+                           "off", "--deformable-target", "basic", "--misprediction", "backtrack"})
                         .parsed.options;
   EXPECT_EQ(o.rays, dBatchRaysIterativePaper);
   EXPECT_EQ(o.organisation, dBatchOrganisationMonolithic);
+  EXPECT_EQ(o.edges, dBatchEdgesOff);
   EXPECT_EQ(o.deformable_target, dBatchDeformableBasic);
   EXPECT_EQ(o.misprediction, dBatchMispredictionBacktrack);
   EXPECT_EQ(parse({"--rays", "full"}).parsed.options.rays, dBatchRaysFull);
