@@ -41,6 +41,7 @@ std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const Mesh>& base,
   shape.deformable = true;
   shape.open_thickness = base->open_thickness;
   shape.content_hash = hash_soup(soup.data(), soup.size());
+  shape.shape_hash = shape.content_hash;
   shape.finite = is_finite(soup);
   if (!shape.finite) return std::make_shared<const Mesh>(std::move(shape));
 

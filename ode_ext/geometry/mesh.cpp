@@ -36,6 +36,7 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   Mesh mesh;
   mesh.content_hash = hash_soup(soup.data(), soup.size());
+  mesh.shape_hash = mesh.content_hash;
   mesh.deformable = options.deformable;
   if (mesh.deformable) mesh.open_thickness = options.open_thickness;
   mesh.finite = is_finite(soup);
@@ -51,6 +52,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.inverted = orientation.inverted;
   mesh.reoriented = orientation.reoriented;
 
+  if (!mesh.deformable) mesh.shape_hash = hash_soup(mesh.vertices.data(), mesh.vertices.size());
   mesh.box = box_of(mesh.vertices);
   mesh.mean_edge = mean_side(mesh.vertices, mesh.triangles);
   mesh.chunks = cut_into_chunks(mesh.vertices);

@@ -78,6 +78,9 @@ struct Mesh {
   bool deformable = false;   // its vertices are expected to move
   float open_thickness = 0;  // of deformable meshes: as in MeshOptions
   std::uint64_t content_hash = 0;  // of the soup: equal soups have equal hashes
+  // Of the welded vertices, so that it is the same however the triangles are ordered or wound; of
+  // deformable meshes that of the soup, whose vertices keep the order they were built in.
+  std::uint64_t shape_hash = 0;
   std::shared_ptr<const Mesh> base;
 };
 

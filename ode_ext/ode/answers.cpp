@@ -45,11 +45,13 @@ std::size_t Answers::Hash::operator()(const Key& key) const {
 }
 
 bool in_canonical_order(const PairMember& a, const PairMember& b) {
+  if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
+  const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
+  if (poses != 0) return poses < 0;
   if (a.mesh->content_hash != b.mesh->content_hash)
     return a.mesh->content_hash < b.mesh->content_hash;
-  const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
   // Copies at one pose: nothing of theirs tells them apart, so their handles have to.
-  return poses != 0 ? poses < 0 : std::less<>()(a.geom, b.geom);
+  return std::less<>()(a.geom, b.geom);
 }
 
 }  // namespace ode_ext
