@@ -116,8 +116,8 @@ static void ox_open_patch(__global ox_candidate* candidates, uint count, uint be
 }
 
 // The outline of a patch, seen along its normal: what is farthest in each of eight directions, the
-// first of them from the deepest to the farthest from it. A point within bears nothing that these do
-// not, and costs the solver as much.
+// first of them from the deepest to the farthest from it. A point within bears nothing that these
+// do not, and costs the solver as much.
 static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint kind, uint patch,
                             uint deepest) {
   const float3 normal = vload3(0, candidates[deepest].normal);

@@ -41,6 +41,7 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     crossing.other_t = 0.0f;
     crossing.region = OX_NONE;
     crossing.covered = 0u;
+    crossing.paired = 0.0f;
     gathered[crossing_segments[p] + crossing.slot] = crossing;
     order[2u * crossing_segments[p] + crossing.slot] = crossing.slot;
   }
@@ -132,11 +133,47 @@ static void ox_pair_edges(ox_edge_pair* p) {
         if (!ox_edge_contact(&wedge_a, &wedge_b, &point)) continue;
         a->covered = 1u;
         b->covered = 1u;
+        a->paired = ox_max(a->paired, point.depth);
+        b->paired = ox_max(b->paired, point.depth);
         if (p->candidate_count < most)
           ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0],
                        a->region, point.position, point.normal, point.depth);
       }
     }
+  }
+}
+
+// The middle of an edge that runs through the target, cast as if it were a vertex: where a finely
+// cut target bulges over a long edge, its own edges meet that edge only at the rim, where nothing is
+// deep. Only what is deeper than the contacts of edges there: those know the direction better (of
+// two ridges across one another the middle would slip off to one side).
+static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
+  for (uint k = 0u; k < p->count; ++k) {
+    __global ox_edge_crossing* c = p->crossings + p->order[k];
+    const uint side = ox_side(c);
+    if (c->leaves != 0u || c->other == OX_NONE ||
+        (p->mesh[1u - side]->flags & OX_MESH_CLOSED) == 0u)
+      continue;
+    __global ox_edge_crossing* end = p->crossings + c->other;
+    if (end->other != p->order[k]) continue;
+    const ox_wedge wedge = ox_wedge_of(p, c);
+    if (wedge.faces != 2u) continue;
+    const float3 outward = wedge.normal[0] + wedge.normal[1];
+    const float length2 = ox_dot(outward, outward);
+    if (!ox_supports(&wedge, outward) || length2 < 1.0e-6f) continue;  // concave, or back to back
+    const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
+    const uint face = ox_exit_face(p, side, middle, -outward / sqrt(length2), nodes);
+    if (face == OX_NONE) continue;
+    const ox_way_out way = ox_through(p, side, face);
+    const float depth = ox_depth_below(&way, middle);
+    if (!(depth > 1.5f * ox_max(c->paired, end->paired)) ||
+        !(depth <= wedge.chord[1] - wedge.chord[0]) || !(depth > p->pair->epsilon) ||
+        ox_dot(way.normal, outward) > 0.0f)
+      continue;
+    c->covered = 1u;
+    end->covered = 1u;
+    ox_add_point(p, side, p->edges[c->edge].triangle[0], face, c->region, middle,
+                 side == 0u ? way.normal : -way.normal, depth);
   }
 }
 
@@ -442,6 +479,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       // A sheet has no inside that its edges could be wedges of.
       if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)
         ox_pair_edges(&pair);
+      ox_cast_middles(&pair, nodes);
       ox_lead_regions_out(&pair, nodes);
       ox_lead_deep_out(&pair, nodes);
       ox_choose_spokesmen(&pair, pair_hits[i]);

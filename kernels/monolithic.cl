@@ -31,7 +31,7 @@ __kernel void monolithic(__global volatile uint* counters, __global const ox_lis
     ox_work work = {0u, 0u, 0u, 0u};
     if (task >= vertex_tasks) {
       const uint edge = ox_choose_edge(tasks + task, i % OX_CHUNK_VERTICES, pairs, meshes, chunks,
-                                       vertices, triangles, edges, grids, &work.vertex);
+                                       edges, grids, &work.vertex);
       if (edge != OX_NONE) {
         ox_count(counters, OX_LIST_RAYS_EDGES);
         ox_cast_edge(counters, lists, tasks[task].pair_side, edge, pairs, meshes, vertices, edges,

@@ -29,58 +29,49 @@ static inline ox_segment ox_segment_of(__global const ox_pair* pair, uint side,
   return segment;
 }
 
-// Whether a cell of the grid that the box touches is not wholly outside. Boxes of many cells are
+static inline bool ox_is_occupied(__global const ox_mesh* mesh, __global const uint* grids, uint x,
+                                  uint y, uint z) {
+  const uint bit = (z * mesh->grid_cells[1] + y) * mesh->grid_cells[0] + x;
+  return (grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) != 0u;
+}
+
+// Whether a cell of the grid that the ball may touch is not wholly outside. Balls of many cells are
 // not looked at.
 static inline bool ox_may_reach_inside(__global const ox_mesh* mesh, __global const uint* grids,
-                                       float3 lo, float3 hi) {
-  const float low[3] = {lo.x, lo.y, lo.z};
-  const float high[3] = {hi.x, hi.y, hi.z};
-  uint first[3], count[3];
+                                       float3 middle, float radius) {
+  const float point[3] = {middle.x, middle.y, middle.z};
+  uint at[3], first[3], last[3];
   uint cells = 1u;
   for (uint axis = 0u; axis < 3u; ++axis) {
-    const float last = (float)mesh->grid_cells[axis] - 1.0f;
-    const float a = (low[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
-    const float b = (high[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
-    first[axis] = (uint)ox_min(ox_max(a, 0.0f), last);
-    count[axis] = (uint)ox_min(ox_max(b, 0.0f), last) - first[axis] + 1u;
-    cells *= count[axis];
+    const float most = (float)mesh->grid_cells[axis] - 1.0f;
+    const float scale = mesh->grid_scale[axis];
+    const float cell = (point[axis] - mesh->grid_origin[axis]) * scale;
+    const float reach = radius * scale;
+    at[axis] = (uint)ox_min(ox_max(cell, 0.0f), most);
+    first[axis] = (uint)ox_min(ox_max(cell - reach, 0.0f), most);
+    last[axis] = (uint)ox_min(ox_max(cell + reach, 0.0f), most);
+    cells *= last[axis] - first[axis] + 1u;
   }
-  if (cells > 64u) return true;
-  for (uint z = first[2]; z < first[2] + count[2]; ++z)
-    for (uint y = first[1]; y < first[1] + count[1]; ++y)
-      for (uint x = first[0]; x < first[0] + count[0]; ++x) {
-        const uint bit = (z * mesh->grid_cells[1] + y) * mesh->grid_cells[0] + x;
-        if ((grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) != 0u) return true;
-      }
+  if (cells > 64u || ox_is_occupied(mesh, grids, at[0], at[1], at[2])) return true;
+  for (uint z = first[2]; z <= last[2]; ++z)
+    for (uint y = first[1]; y <= last[1]; ++y)
+      for (uint x = first[0]; x <= last[0]; ++x)
+        if (ox_is_occupied(mesh, grids, x, y, z)) return true;
   return false;
 }
 
-// Edges of a deformable mesh may be flat in its present shape: those are not cast (facets.h).
-static inline bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
-  if (edge->triangle[1] == OX_NONE) return false;
-  const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -
-                   vload3(0, triangles[edge->triangle[1]].normal);
-  return ox_dot(d, d) < 1.0e-6f;  // 0.06 degrees
-}
-
-// Whether the edge can cross the surface of the target.
+// Whether the edge can cross the surface of the target: by its bounding ball.
 static inline bool ox_keep_edge(__global const ox_pair* pair, uint side,
-                                __global const ox_mesh* meshes, __global const ox_vertex* vertices,
-                                __global const ox_triangle* triangles, __global const ox_edge* edge,
+                                __global const ox_mesh* meshes, __global const ox_edge* edge,
                                 __global const uint* grids) {
-  __global const ox_mesh* source = meshes + pair->mesh[side];
+  if (edge->radius < 0.0f) return false;
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-  if ((source->flags & OX_MESH_DEFORMABLE) != 0u && ox_is_flat(triangles, edge)) return false;
-  const float epsilon = pair->epsilon;
-  const float3 p = ox_place(pair, side, vload3(0, vertices[edge->vertex[0]].position));
-  const float3 q = ox_place(pair, side, vload3(0, vertices[edge->vertex[1]].position));
-  const float3 middle = 0.5f * (p + q);
-  const float3 half_size = fabs(0.5f * (q - p)) + epsilon;
+  const float radius = edge->radius + pair->epsilon;
+  const float3 middle = ox_place(pair, side, vload3(0, edge->middle));
   const float3 d = fabs(middle - vload3(0, target->box_centre));
-  const float3 limit = half_size + vload3(0, target->box_half);
+  const float3 limit = vload3(0, target->box_half) + radius;
   if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
-  return (target->flags & OX_MESH_GRID) == 0u ||
-         ox_may_reach_inside(target, grids, middle - half_size, middle + half_size);
+  return (target->flags & OX_MESH_GRID) == 0u || ox_may_reach_inside(target, grids, middle, radius);
 }
 
 // Every place where the segment crosses the target, a little beyond its ends too: edges that meet
@@ -142,19 +133,16 @@ static inline void ox_cast_edge(__global volatile uint* counters, __global const
 // The edge of a place in a task; OX_NONE: there is none, or it cannot cross the target.
 static inline uint ox_choose_edge(__global const ox_chunk_task* task, uint lane,
                                   __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                                  __global const ox_chunk* chunks,
-                                  __global const ox_vertex* vertices,
-                                  __global const ox_triangle* triangles,
-                                  __global const ox_edge* edges, __global const uint* grids,
-                                  uint* work) {
+                                  __global const ox_chunk* chunks, __global const ox_edge* edges,
+                                  __global const uint* grids, uint* work) {
   *work += 1u;
   if (task->chunk == OX_NONE) return OX_NONE;
   __global const ox_chunk* chunk = chunks + task->chunk;
   if (lane >= chunk->count) return OX_NONE;
   const uint edge = chunk->first + lane;
   *work += 2u;
-  return ox_keep_edge(pairs + (task->pair_side >> 1), task->pair_side & 1u, meshes, vertices,
-                      triangles, edges + edge, grids)
+  return ox_keep_edge(pairs + (task->pair_side >> 1), task->pair_side & 1u, meshes, edges + edge,
+                      grids)
              ? edge
              : OX_NONE;
 }

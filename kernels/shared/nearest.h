@@ -48,8 +48,8 @@ static inline bool ox_leaves_by(const ox_query* query, __global const ox_triangl
   return fabs(ox_dot(query->direction, vload3(0, triangles[k].normal))) > 0.1f;
 }
 
-// Of the faces that a vertex lies on, the one that the ray leaves most directly says where to: on an
-// edge the ray may run along the other. Ties go by the index.
+// Of the faces that a vertex lies on, the one that the ray leaves most directly says where to: on
+// an edge the ray may run along the other. Ties go by the index.
 static inline bool ox_faces_more(const ox_query* query, __global const ox_triangle* triangles,
                                  uint a, uint b) {
   const float slope_a = fabs(ox_dot(query->direction, vload3(0, triangles[a].normal)));

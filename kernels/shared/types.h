@@ -124,8 +124,10 @@ OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 typedef struct {
   ox_u32 vertex[2];
   ox_u32 triangle[2];  // at it, in the order of the leaves; the second is OX_NONE at a border
+  ox_f32 middle[3];
+  ox_f32 radius;  // half its length, rounded up; negative: flat in the present shape, not cast [m]
 } ox_edge;
-OX_STATIC_ASSERT(sizeof(ox_edge) == 16, ox_edge_is_16_bytes);
+OX_STATIC_ASSERT(sizeof(ox_edge) == 32, ox_edge_is_32_bytes);
 
 typedef struct {
   ox_f32 lo[3];
@@ -269,7 +271,8 @@ typedef struct {
   ox_u32 region;    // of overlap, counted from 0 in every pair; OX_NONE: not known yet
   ox_f32 position[3];  // in the frame of B
   ox_u32 covered;      // whether a contact speaks for it
-  ox_u32 padding[2];
+  ox_f32 paired;       // [m] the depth of the deepest contact of two edges here; 0: none
+  ox_u32 padding;
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 

@@ -137,7 +137,7 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
   run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
       meshes.chunks());
   run(edge_chunks_, work.edge_chunks.count, starts_, work.edge_chunks.starts_first,
-      meshes.vertices(), meshes.edges(), meshes.chunks());
+      meshes.vertices(), meshes.triangles(), meshes.edges(), meshes.chunks());
   run(meshes_, host_moves_.size(), meshes.chunks(), meshes.records());
 }
 

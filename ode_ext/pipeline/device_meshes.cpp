@@ -277,6 +277,13 @@ void DeviceMeshes::append_edges(const Mesh& mesh, std::uint32_t vertex_first) {
   const std::vector<std::uint32_t> places = places_in_leaves(mesh);
   for (const Edge& edge : mesh.edges) {
     ox_edge record{};
+    if (!mesh.deformable) {
+      const Vec3f from = mesh.vertices[edge.vertices[0]], to = mesh.vertices[edge.vertices[1]];
+      const Vec3f middle = 0.5f * (from + to);
+      store(record.middle, middle);
+      // Up, by more than the roundings of the middle and of the lengths.
+      record.radius = (1 + 0x1p-20f) * std::max(length(to - middle), length(from - middle));
+    }
     for (std::size_t k = 0; k < 2; ++k) {
       const std::uint32_t triangle = edge.triangles[k];
       record.vertex[k] = vertex_first + edge.vertices[k];

@@ -17,8 +17,8 @@ class EdgeStep {
   void run(Launch launch, AppendLists& lists, const DeviceMeshes& meshes, const PairBuffers& pairs,
            const Buffer& works) {
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(),
-                   pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
-                   meshes.triangles(), meshes.edges(), meshes.grids(), lists.rays(), works);
+                   pairs.pairs, meshes.records(), meshes.chunks(), meshes.edges(), meshes.grids(),
+                   lists.rays(), works);
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 
