@@ -12,15 +12,15 @@
 #define OX_DROPPED 0xfffffffdu
 
 // in: pair_hits, pair_crossings. out: where the candidates and the crossings of each pair start.
-// item: 1 pair. The counters cannot overflow: they end at the number of hits and three times that
-// of crossings (edge_contact.cl), and at the number of crossings.
+// item: 1 pair. The counters cannot overflow: they end at the number of hits and a multiple of
+// that of crossings, and at the number of crossings.
 __kernel void contact_place(__global volatile uint* counters, __global const uint* pair_hits,
                             __global const uint* pair_crossings, uint pair_count,
                             __global uint* pair_segments, __global uint* crossing_segments) {
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     const uint crossings = pair_crossings[p];
-    const uint most = pair_hits[p] + 3u * crossings;
+    const uint most = pair_hits[p] + OX_POINTS_PER_CROSSING * crossings;
     if (most != 0u)
       pair_segments[p] = atomic_add(counters + OX_COUNTER_SEGMENTS * OX_COUNTER_STRIDE, most);
     if (crossings != 0u)

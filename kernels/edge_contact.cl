@@ -5,8 +5,8 @@
 // in    crossings, candidates of vertices, pairs, meshes, vertices, edges, nodes, triangles, facets
 // out   candidates, and per pair their number
 // item  1 crossing; 1 pair (grid-stride)
-// may overflow: none; a pair has room for three candidates per crossing: one of two edges, one at
-// each end of its chord
+// may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
+// last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/edge_axis.h"
 #include "shared/way_out.h"
 
@@ -115,7 +115,6 @@ static bool ox_was_paired(const ox_edge_pair* p, __global const ox_edge_crossing
 
 // Contacts of an edge of A and one of B each of which crosses a facet at the other.
 static void ox_pair_edges(ox_edge_pair* p) {
-  const uint most = p->candidate_count + p->count;
   for (uint k = 0u; k < p->count; ++k) {
     __global ox_edge_crossing* a = p->crossings + p->order[k];
     if (ox_side(a) != 0u) return;
@@ -135,18 +134,17 @@ static void ox_pair_edges(ox_edge_pair* p) {
         b->covered = 1u;
         a->paired = ox_max(a->paired, point.depth);
         b->paired = ox_max(b->paired, point.depth);
-        if (p->candidate_count < most)
-          ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0],
-                       a->region, point.position, point.normal, point.depth);
+        ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0], a->region,
+                     point.position, point.normal, point.depth);
       }
     }
   }
 }
 
 // The middle of an edge that runs through the target, cast as if it were a vertex: where a finely
-// cut target bulges over a long edge, its own edges meet that edge only at the rim, where nothing is
-// deep. Only what is deeper than the contacts of edges there: those know the direction better (of
-// two ridges across one another the middle would slip off to one side).
+// cut target bulges over a long edge, its own edges meet that edge only at the rim, where nothing
+// is deep. Only what is deeper than the contacts of edges there: those know the direction better
+// (of two ridges across one another the middle would slip off to one side).
 static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
   for (uint k = 0u; k < p->count; ++k) {
     __global ox_edge_crossing* c = p->crossings + p->order[k];
@@ -162,16 +160,19 @@ static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
     const float length2 = ox_dot(outward, outward);
     if (!ox_supports(&wedge, outward) || length2 < 1.0e-6f) continue;  // concave, or back to back
     const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
-    const uint face = ox_exit_face(p, side, middle, -outward / sqrt(length2), nodes);
-    if (face == OX_NONE) continue;
+    const float3 inward = -outward / sqrt(length2);
+    const ox_nearest exit = ox_look(p, 1u - side, middle, inward, nodes);
+    if (!(exit.back_t < exit.front_t)) continue;
+    // As for vertices, not beyond where it leaves its own mesh.
+    const ox_nearest own = ox_look(p, side, middle, inward, nodes);
+    if (own.back_t < own.front_t && exit.back_t > own.back_t + p->pair->epsilon) continue;
+    const uint face = exit.back;
     const ox_way_out way = ox_through(p, side, face);
     const float depth = ox_depth_below(&way, middle);
     if (!(depth > 1.5f * ox_max(c->paired, end->paired)) ||
         !(depth <= wedge.chord[1] - wedge.chord[0]) || !(depth > p->pair->epsilon) ||
         ox_dot(way.normal, outward) > 0.0f)
       continue;
-    c->covered = 1u;
-    end->covered = 1u;
     ox_add_point(p, side, p->edges[c->edge].triangle[0], face, c->region, middle,
                  side == 0u ? way.normal : -way.normal, depth);
   }
@@ -462,6 +463,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.regions = 0u;
     pair.candidates = candidates + pair_segments[i];
     pair.candidate_count = pair_hits[i];
+    pair.most_candidates = pair_hits[i] + OX_POINTS_PER_CROSSING * crossed;
     if (crossed == 0u) {
       ox_drop_apart(&pair);
       for (uint side = 0u; side < 2u; ++side) {

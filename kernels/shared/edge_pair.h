@@ -23,7 +23,7 @@ typedef struct {
   uint count;
   uint regions;
   __global ox_candidate* candidates;
-  uint candidate_count;
+  uint candidate_count, most_candidates;
 } ox_edge_pair;
 
 static inline uint ox_side(__global const ox_edge_crossing* crossing) {
@@ -204,6 +204,7 @@ static inline void ox_find_regions(ox_edge_pair* p) {
 
 static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint target, uint region,
                                 float3 position, float3 normal, float depth) {
+  if (p->candidate_count == p->most_candidates) return;
   __global ox_candidate* candidate = p->candidates + p->candidate_count++;
   vstore3(position, 0, candidate->position);
   vstore3(normal, 0, candidate->normal);

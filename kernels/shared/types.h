@@ -276,6 +276,9 @@ typedef struct {
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 
+// Room for what edges add to the candidates of a pair.
+#define OX_POINTS_PER_CROSSING 4u
+
 // A hit among those of its pair, in the frame of B.
 typedef struct {
   ox_f32 position[3];

@@ -42,19 +42,24 @@ static inline ox_way_out ox_through(const ox_edge_pair* p, uint side, uint trian
   return way;
 }
 
-// The face of the target through which a ray from a point inside leaves it; OX_NONE: none.
-static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, float3 direction,
-                                __global const ox_node* nodes) {
+// What a ray from a place in the frame of B meets of a mesh.
+static inline ox_nearest ox_look(const ox_edge_pair* p, uint mesh, float3 from, float3 direction,
+                                 __global const ox_node* nodes) {
   ox_query query;
-  query.direction = side == 0u ? direction : ox_turn(p->pair, 1u, direction);
-  query.cast = ox_cast_from(side == 0u ? from : ox_place(p->pair, 1u, from), query.direction);
+  query.direction = mesh == 1u ? direction : ox_turn(p->pair, 1u, direction);
+  query.cast = ox_cast_from(mesh == 1u ? from : ox_place(p->pair, 1u, from), query.direction);
   query.epsilon = p->pair->epsilon;
   query.t_max = INFINITY;
   query.behind = 0.0f;
   query.two_sided = false;
   uint work = 0u;
-  const ox_nearest nearest =
-      ox_trace_bvh(&query, p->mesh[1u - side], nodes, p->triangles, OX_NONE, &work);
+  return ox_trace_bvh(&query, p->mesh[mesh], nodes, p->triangles, OX_NONE, &work);
+}
+
+// The face of the target through which a ray from a point inside leaves it; OX_NONE: none.
+static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, float3 direction,
+                                __global const ox_node* nodes) {
+  const ox_nearest nearest = ox_look(p, 1u - side, from, direction, nodes);
   if (nearest.touching != OX_NONE) return nearest.touching;  // where it starts
   return nearest.back_t < nearest.front_t ? nearest.back : OX_NONE;
 }

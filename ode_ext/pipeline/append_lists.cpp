@@ -63,7 +63,7 @@ void AppendLists::reserve_buffers() {
   tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
   rays_.reserve(ends.rays * sizeof(ox_ray));
   hits_.reserve(ends.hits * sizeof(ox_hit));
-  candidates_.reserve((ends.hits + 3 * ends.crossings) * sizeof(ox_candidate));
+  candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) * sizeof(ox_candidate));
   crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
   gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
   crossing_order_.reserve(2 * ends.crossings * sizeof(ox_u32));

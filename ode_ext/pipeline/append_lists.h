@@ -43,7 +43,7 @@ class AppendLists {
   Buffer& tasks() { return tasks_; }
   const Buffer& rays() const { return rays_; }
   const Buffer& hits() const { return hits_; }
-  // One per hit, three per crossing (edge_contact.cl).
+  // One per hit, OX_POINTS_PER_CROSSING per crossing.
   const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
   const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair

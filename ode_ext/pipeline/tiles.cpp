@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "shared/types.h"
+
 namespace ode_ext {
 
 std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices) {
@@ -55,7 +57,9 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
     else
       contacts += options.max_contacts_deformable != 0
                       ? options.max_contacts_deformable
-                      : of_pair + (options.edges ? 3 * most_crossings(scene, scene.pairs[i]) : 0);
+                      : of_pair + (options.edges ? OX_POINTS_PER_CROSSING *
+                                                       most_crossings(scene, scene.pairs[i])
+                                                 : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
   return {chunks,   chunks, chunks,   edge_chunks, vertices, vertices,
