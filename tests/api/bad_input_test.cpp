@@ -2,7 +2,9 @@
 // Meshes that no modeller should make, and that every program meets.
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "accuracy/contact_match.h"
 #include "reference/reference_hits.h"
 #include "support/batch_collider.h"
 
@@ -132,6 +134,71 @@ TEST_F(ApiBadInput, AnInvertedClosedMeshHasTheContactsOfTheUprightOne) {
   const Contacts turned_in = contacts_of(inverted(torus), pose, inverted(block), {});
   ASSERT_FALSE(upright.empty());
   EXPECT_EQ(difference(turned_in, upright), "");
+}
+
+// Which of two meshes the pair is computed from is decided by their content, and with it what rounds:
+// by 2^-20 of the extents at most (pair_step.cl), here about 10.
+constexpr double kRounding = 1e-5;
+
+using accuracy::same_contacts;
+
+// Of `every` consecutive triangles one is wound the other way, the `which`th.
+TestMesh badly_wound(TestMesh mesh, std::size_t every, std::size_t which = 0) {
+  for (std::size_t t = 3 * which; t < mesh.indices.size(); t += 3 * every)
+    std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);
+  return mesh;
+}
+
+TEST_F(ApiBadInput, AClosedMeshWoundAnyhowHasTheContactsOfTheUprightOne) {
+  const TestMesh torus = make_torus(1, 0.4, 12, 8);
+  const TestPose pose = turned({1, 2, 3}, 1, {0.3, 0.2, 1.8});
+  const Contacts upright = contacts_of(torus, pose, block, {});
+  ASSERT_FALSE(upright.empty());
+  ASSERT_LT(upright.size(), 16u);  // none is left out, where rounding may decide which
+  for (const std::size_t every : {2u, 3u, 7u, 1000u}) {
+    const TestMesh some = badly_wound(torus, every), others = inverted(some);
+    const Contacts both = contacts_of(some, pose, badly_wound(block, every), {});
+    EXPECT_TRUE(same_contacts(both, upright, kRounding)) << every;
+    EXPECT_TRUE(same_contacts(contacts_of(others, pose, block, {}), upright, kRounding)) << every;
+  }
+}
+
+// Parts that contradict themselves say nothing about one another: each is a solid.
+TEST_F(ApiBadInput, PartsOfAMeshWoundAnyhowAreSolidsEach) {
+  const TestMesh left = moved(cube, {-4, 0, 0}), right = moved(cube, {4, 0, 0});
+  const TestMesh floor = make_box({16, 16, 2});
+  const TestPose pose = turned({0, 0, 1}, 0.3, {0.1, 0.2, 1.9});
+  const Contacts upright = contacts_of(merged(left, right), pose, floor, {});
+  ASSERT_FALSE(upright.empty());
+  const TestMesh bad = merged(badly_wound(left, 1000), inverted(right));
+  EXPECT_TRUE(same_contacts(contacts_of(bad, pose, floor, {}), upright, kRounding));
+}
+
+// A part that is wound consistently is believed: the wrong way round it is a cavity, which has no
+// inside where there is nothing around it.
+TEST_F(ApiBadInput, APartWoundInsideOutDoesNotDisturbTheOthers) {
+  const TestMesh pair = merged(make_box({6, 6, 2}), inverted(moved(cube, {20, 0, 0})));
+  contacts_of(cube, at(20.1, 0.2, 0.3), pair, {});  // what it says is sound, which way is not
+  const Contacts on_block_alone = contacts_of(cube, on_block, block, {});
+  EXPECT_TRUE(same_contacts(contacts_of(cube, on_block, pair, {}), on_block_alone, kRounding));
+}
+
+// Each edge of the projective plane on six places has two triangles, and yet it has no sides.
+TEST_F(ApiBadInput, ASurfaceWithoutSidesStillCollidesWhereItIsCrossed) {
+  TestMesh plane;
+  plane.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 2, 2, 1, 1};
+  plane.indices = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5, 0, 1, 5,
+                   1, 2, 4, 2, 3, 5, 1, 3, 4, 2, 4, 5, 1, 3, 5};
+  EXPECT_FALSE(contacts_of(plane, turned({1, 2, 3}, 0.4, {0.1, 0.2, 0.7}), block, {}).empty());
+  EXPECT_TRUE(contacts_of(plane, at(0.1, 0.2, 1.1), block, {}).empty());
+}
+
+// What is open is taken as it is wound.
+TEST_F(ApiBadInput, AnOpenMeshWoundAnyhowStillCollidesWhereItIsCrossed) {
+  for (const std::size_t every : {1u, 2u, 3u}) {  // 1: all of it from below
+    const TestMesh sheet = badly_wound(make_sheet(8, 3), every);
+    EXPECT_FALSE(contacts_of(cube, turned({1, 2, 3}, 0.4, {0.1, 0.2, 0.9}), sheet, {}).empty());
+  }
 }
 
 TEST_F(ApiBadInput, AnOpenSheetCarriesACube) {
