@@ -99,6 +99,13 @@ if(TARGET paper)
   set_tests_properties(figures_of_the_paper PROPERTIES TIMEOUT 120)
 endif()
 
+if(TARGET contacts)
+  add_test(NAME pictures_of_contacts
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/contact_pictures_test.sh
+                   $<TARGET_FILE:contacts>)
+  set_tests_properties(pictures_of_contacts PROPERTIES TIMEOUT 120)
+endif()
+
 # The consumer is not built with sanitizers, so it cannot link a library that is.
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer

@@ -70,9 +70,8 @@ std::vector<dContactGeom> collide(dGeomID g1, dGeomID g2, bool stock) {
   } else {
     dBatchColliderID collider = dBatchColliderCreate(nullptr);
     const dGeomID pair[] = {g1, g2};
-    if (collider == nullptr ||
-        dBatchColliderCollidePairs(collider, pair, 1, kMost, found.data(), sizeof(dContactGeom),
-                                   &count) < 0)
+    if (collider == nullptr || dBatchColliderCollidePairs(collider, pair, 1, kMost, found.data(),
+                                                          sizeof(dContactGeom), &count) < 0)
       throw std::runtime_error(dBatchColliderGetLastErrorMessage());
     dBatchColliderDestroy(collider);
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contacts/mesh.h"
 
-
 namespace contacts {
 
 void Mesh::add_vertex(double x, double y, double z) {
@@ -38,9 +37,7 @@ Mesh make_comb(int teeth, double width, double z) {
   }
   const dTriIndex back = 3 * columns, low = 0, middle = columns, top = 2 * columns;
   // A wall over the outline from a to b, which runs counter-clockwise seen from the front.
-  const auto wall = [&](dTriIndex a, dTriIndex b) {
-    mesh.add_quad(b, a, a + back, b + back);
-  };
+  const auto wall = [&](dTriIndex a, dTriIndex b) { mesh.add_quad(b, a, a + back, b + back); };
   const auto front = [&](dTriIndex a, dTriIndex b, dTriIndex c, dTriIndex d) {
     mesh.add_quad(a, b, c, d);
     mesh.add_quad(d + back, c + back, b + back, a + back);

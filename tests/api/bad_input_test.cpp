@@ -136,8 +136,8 @@ TEST_F(ApiBadInput, AnInvertedClosedMeshHasTheContactsOfTheUprightOne) {
   EXPECT_EQ(difference(turned_in, upright), "");
 }
 
-// Which of two meshes the pair is computed from is decided by their content, and with it what rounds:
-// by 2^-20 of the extents at most (pair_step.cl), here about 10.
+// In whose frame a pair is computed is decided by the content of its meshes, and with it what
+// rounds: by 2^-20 of the extents at most (pair_step.cl), here about 10.
 constexpr double kRounding = 1e-5;
 
 using accuracy::same_contacts;
