@@ -15,6 +15,26 @@
  * Contacts follow ODE: `pos` in world coordinates [m], `normal` a unit vector into g1, moving g1 by
  * depth * normal [m] clears the contact; `side1` / `side2` are the triangles of g1 / g2.
  *
+ * An answer to a limit of K contacts is the first K of the pair's: the deepest first, then what
+ * spreads best. CONTACTS_UNIMPORTANT (stop as soon as there are enough, for ODE's own collider)
+ * changes nothing: the contacts are there when dCollide asks, and the same are returned.
+ *
+ * A contact at a vertex stands for all triangles that meet there, one at an edge for those at the
+ * edge; `side1` / `side2` name one of them. A program that has set a dTriTriMergeCallback of a geom
+ * is asked for an index instead, when dCollide is answered, in the calling thread: the triangles
+ * in ascending order, merge(geom, first, second), then merge(geom, that answer, third) and so on.
+ * The last answer, whatever it is, becomes the side. ODE's own collider calls it alike, for
+ * contacts at one place; where there is no callback it gives -1, this library a triangle.
+ * What a callback throws is caught: it becomes the last error and the callback counts as not made.
+ *
+ * ODE asks dTriCallback for other pairs only, never for two meshes. With params.triangle_callbacks
+ * it is: a contact is left out where the callback of either geom, callback(geom, other, triangle),
+ * returns 0 for each triangle that the contact stands for; triangles refused are merged with none.
+ * The deepest of what remains comes first, the rest keeps its order. The contacts of a pair are
+ * chosen before: ask for a larger max_contacts where much is refused. While ODE's own collider
+ * stands in for a device that fails, it is not asked. dTriArrayCallback is never called for two
+ * meshes, here as in ODE.
+ *
  * Threads: one pass per collider at a time. Different colliders may run in different threads as far
  * as ODE itself allows it (each thread its own space and geoms; Debian's ODE shares one global mesh
  * cache, so no two threads may be inside ODE's own mesh colliders at once).
@@ -127,8 +147,10 @@ typedef struct dBatchColliderParams {
   dReal displacement_limit; /**< how far the vertices of a pair may have moved since its last pass
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
-  int count_work; /**< nonzero: count the work of every work-item (see dBatchWork); slow */
-  int edges;      /**< dBatchEdges... */
+  int count_work;         /**< nonzero: count the work of every work-item (see dBatchWork); slow */
+  int edges;              /**< dBatchEdges... */
+  int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
+                             above); 0 (default): as in ODE it is not asked */
 } dBatchColliderParams;
 
 /** Sets struct_size and the defaults. NULL is ignored. */
@@ -171,7 +193,8 @@ ODE_EXT_API int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g
 /**
  * Collides given mesh pairs without any space. Each geom must be a trimesh.
  * @param pairs           2 * pair_count geoms: pair i is (pairs[2i], pairs[2i+1])
- * @param flags           as dCollide: low 16 bits = contacts per pair at most (>= 1)
+ * @param flags           as dCollide: low 16 bits = contacts per pair at most (>= 1);
+ *                        CONTACTS_UNIMPORTANT is allowed and changes nothing
  * @param contacts        pair i starts at index i * (flags & 0xffff); only these are written
  * @param skip            byte stride of `contacts`, >= sizeof(dContactGeom)
  * @param contact_counts  pair_count counts, written; may be NULL

@@ -220,7 +220,7 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
     ode_ext::open_trace_of_environment();
     auto collider = std::make_shared<BatchCollider>(
         to_options(complete_params), static_cast<float>(complete_params.open_thickness),
-        complete_params.trust_meshes != 0);
+        complete_params.trust_meshes != 0, complete_params.triangle_callbacks != 0);
     ode_ext::install_override();
     ode_ext::register_collider(collider);
     return reinterpret_cast<dBatchColliderID>(collider.get());

@@ -12,6 +12,7 @@
 #include "ode/contact_export.h"
 #include "ode/messages.h"
 #include "ode/pose_of.h"
+#include "ode/program_callbacks.h"
 #include "ode/stock_collider.h"
 #include "ode/trace.h"
 
@@ -98,8 +99,10 @@ BatchCollider* BatchCollider::passing_on_this_thread() {
 }
 
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
-                             bool trust_meshes)
-    : collider_(options), meshes_(open_thickness, trust_meshes) {
+                             bool trust_meshes, bool triangle_callbacks)
+    : collider_(options),
+      meshes_(open_thickness, trust_meshes),
+      triangle_callbacks_(triangle_callbacks) {
   const DeviceInfo& info = collider_.device_info();
   log(LogLevel::kInfo, "device '" + info.name + "' of " + info.platform_name + ", driver " +
                            info.driver + ", " + info.version);
@@ -233,7 +236,7 @@ void BatchCollider::collide_scene(PassMemory* memory) {
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   Answer* known = answers_.find(g1, g2);
   if (known != nullptr) {
     known->last_pass = pass_;
@@ -257,7 +260,17 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
     }
     ++stats_.pairs_alone;
   }
-  return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts, skip);
+  if (!has_callbacks(g1, g2, triangle_callbacks_))
+    return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts, skip);
+  const Answer asked = *known;
+  lock.unlock();
+  return export_asked(asked, g1, g2, limit, contacts, skip);
+}
+
+int BatchCollider::export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit,
+                                dContactGeom* contacts, int skip) const {
+  return export_contacts(ask_program(asked, limit, triangle_callbacks_), asked.members[0].geom, g1,
+                         g2, limit, contacts, skip);
 }
 
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
@@ -268,7 +281,7 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
 
 int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,
                                  int skip, int* counts) {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
   const Stopwatch whole;
   begin_stats();
   bool stock = false;
@@ -281,27 +294,41 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   }
 
   const int limit = flags & 0xffff;
+  const auto target = [&](std::size_t pair) {
+    auto* bytes = reinterpret_cast<unsigned char*>(contacts);
+    return reinterpret_cast<dContactGeom*>(bytes +
+                                           static_cast<std::ptrdiff_t>(pair) * limit * skip);
+  };
   int total = 0;
-  auto* bytes = reinterpret_cast<unsigned char*>(contacts);
+  const auto note_count = [&](std::size_t pair, int count) {
+    if (counts != nullptr) counts[pair] = count;
+    total += count;
+  };
+  std::vector<std::pair<std::size_t, Answer>> to_ask;  // callbacks, when the lock is gone
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i];
     const dGeomID g2 = geoms[2 * i + 1];
-    auto* target =
-        reinterpret_cast<dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * limit * skip);
     int count = 0;
     if (can_collide(g1, g2)) {
       const Answer& answer = answers_.entry(g1, g2);
-      count = stock ? stock_collide(g1, g2, flags, target, skip)
+      if (!stock && has_callbacks(g1, g2, triangle_callbacks_)) {
+        if (!answer.contacts.empty()) ++stats_.pairs_colliding;
+        to_ask.emplace_back(i, answer);
+        continue;
+      }
+      count = stock ? stock_collide(g1, g2, flags, target(i), skip)
                     : export_contacts(answer.contacts, answer.members[0].geom, g1, g2, limit,
-                                      target, skip);
+                                      target(i), skip);
       if (stock) ++stats_.pairs_stock;
     }
-    if (counts != nullptr) counts[i] = count;
     if (count > 0) ++stats_.pairs_colliding;
-    total += count;
+    note_count(i, count);
   }
   stats_.meshes = static_cast<int>(meshes_.size());
   stats_.ms[dBatchStagePass] = whole.milliseconds();
+  lock.unlock();
+  for (const auto& [i, answer] : to_ask)
+    note_count(i, export_asked(answer, geoms[2 * i], geoms[2 * i + 1], limit, target(i), skip));
   return total;
 }
 

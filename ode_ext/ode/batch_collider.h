@@ -25,7 +25,8 @@ namespace ode_ext {
 
 class BatchCollider {
  public:
-  BatchCollider(const ColliderOptions& options, float open_thickness, bool trust_meshes);
+  BatchCollider(const ColliderOptions& options, float open_thickness, bool trust_meshes,
+                bool triangle_callbacks);
 
   // A collide pass: the batch is computed where it begins, and while it lives dCollide on this
   // thread asks this collider first. Nests. The collider must outlive it.
@@ -74,6 +75,9 @@ class BatchCollider {
   void run_batch(const PassRoot& root);
   void compute_ahead(std::span<const GatheredPair> pairs, PassMemory& memory);
   void compute_pairs(std::span<const dGeomID> geoms);
+  // An answer after the program's callbacks had their say; without the lock.
+  int export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts,
+                   int skip) const;
   void count_outside(std::size_t pairs);
   void compute_alone(Answer& answer, const GatheredPair& pair);
 
@@ -92,6 +96,7 @@ class BatchCollider {
   Collider collider_;
   MeshStore meshes_;
   Answers answers_;
+  const bool triangle_callbacks_;
   std::map<PassRoot, PassMemory, RootLess> memories_;  // of collider_, and gone before it
 
   std::atomic<int> depth_{0};

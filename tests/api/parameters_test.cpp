@@ -38,6 +38,8 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.walk_limit, 0);
   EXPECT_EQ(params.displacement_limit, 0);
   EXPECT_EQ(params.count_work, 0);
+  EXPECT_EQ(params.edges, dBatchEdgesOn);
+  EXPECT_EQ(params.triangle_callbacks, 0);
 }
 
 TEST(ApiParams, InitIgnoresNull) { dBatchColliderParamsInit(nullptr); }
