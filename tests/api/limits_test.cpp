@@ -134,8 +134,8 @@ bool is_first_among_equals(const Contacts& contacts) {
       [&](const dContactGeom& c) { return contacts[0].depth - c.depth <= rounding_bound(2); });
 }
 
-// Not only of what is kept: a collider that keeps K takes the K best itself. Combs on combs touch in
-// several places, each of which has a claim.
+// Not only of what is kept: a collider that keeps K takes the K best itself. Combs on combs touch
+// in several places, each of which has a claim.
 TEST_F(ApiLimits, OfACollidersOwnAreThoseOfALargerOne) {
   const TestMesh meshes[] = {make_comb(6, 1.4, 0.6, 0.5), make_torus(0.5, 0.2, 16, 8), make_l(1),
                              make_cube(1, 2)};
