@@ -108,6 +108,8 @@ TEST_F(ApiValues, AtVerticesAreThoseOfTheReference) {
         return distance(hit.position, pos(c)) < tolerance;
       });
       if (ray == rays.end()) continue;  // of an edge
+      // What is inside beyond its own exit leaves the way its whole region does.
+      if (ray->kind == HitKind::Fallback) continue;
       if (ray->ambiguous) {
         ++skipped;
         continue;
