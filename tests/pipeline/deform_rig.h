@@ -23,6 +23,7 @@ struct MeshRecords {
   std::vector<ox_triangle> triangles;
   std::vector<ox_node> nodes;
   std::vector<ox_chunk> chunks;
+  std::vector<ox_chunk> edge_chunks;  // `first` counts over all meshes
 };
 
 class DeformRig {
@@ -44,6 +45,8 @@ class DeformRig {
          built.triangles.size());
     read(meshes_.nodes(), records.nodes, records.mesh.node_first, built.bvh.nodes.size());
     read(meshes_.chunks(), records.chunks, records.mesh.chunk_first, built.chunks.size());
+    read(meshes_.chunks(), records.edge_chunks, records.mesh.edge_chunk_first,
+         built.edge_chunks.size());
     device().finish();
     for (ox_chunk& chunk : records.chunks) chunk.first -= meshes_.place(i).vertex_first;
     return records;

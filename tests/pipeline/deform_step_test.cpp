@@ -71,6 +71,19 @@ void expect_nodes(const Mesh& mesh, const MeshRecords& records) {
   }
 }
 
+// Tight but for rounding.
+void expect_box(const Box& box, const ox_chunk& chunk) {
+  EXPECT_EQ(vec(chunk.centre), centre(box));
+  const Vec3d half(vec(chunk.half_size));
+  const Vec3d needed = max(Vec3d(box.hi) - Vec3d(centre(box)), Vec3d(centre(box)) - Vec3d(box.lo));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_GE(half[k], needed[k]);
+    EXPECT_LE(half[k], needed[k] * (1 + 0x1p-21));  // three roundings
+  }
+  EXPECT_GE(static_cast<double>(chunk.radius), length(half));
+  EXPECT_LE(static_cast<double>(chunk.radius), length(half) * (1 + 0x1p-18));
+}
+
 void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
   const Mesh& built = topology(mesh);
   float moved = 0;
@@ -85,21 +98,29 @@ void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
       if (records.vertices[v].exit != kInfinity) reach = std::max(reach, records.vertices[v].exit);
       moved_of_chunk = std::max(moved_of_chunk, records.vertices[v].moved);
     }
-    EXPECT_EQ(vec(chunk.centre), centre(box));
-    const Vec3d half(vec(chunk.half_size));
-    const Vec3d needed =
-        max(Vec3d(box.hi) - Vec3d(centre(box)), Vec3d(centre(box)) - Vec3d(box.lo));
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_GE(half[k], needed[k]);
-      EXPECT_LE(half[k], needed[k] * (1 + 0x1p-21));  // three roundings
-    }
-    EXPECT_GE(static_cast<double>(chunk.radius), length(half));
-    EXPECT_LE(static_cast<double>(chunk.radius), length(half) * (1 + 0x1p-18));
+    expect_box(box, chunk);
     EXPECT_EQ(chunk.reach, reach);
     EXPECT_EQ(chunk.moved, moved_of_chunk);
     moved = std::max(moved, chunk.moved);
   }
   EXPECT_EQ(records.mesh.moved, moved);
+}
+
+void expect_edge_chunks(const Mesh& mesh, const MeshRecords& records) {
+  const Mesh& built = topology(mesh);
+  ASSERT_EQ(records.mesh.edge_chunk_count, built.edge_chunks.size());
+  for (std::size_t i = 0; i < records.edge_chunks.size(); ++i) {
+    const EdgeChunk& chunk = built.edge_chunks[i];
+    EXPECT_EQ(records.edge_chunks[i].first - records.edge_chunks[0].first, chunk.first);
+    EXPECT_EQ(records.edge_chunks[i].count, chunk.count);
+    Box box = empty_box();
+    for (std::uint32_t e = chunk.first; e < chunk.first + chunk.count; ++e)
+      for (const std::uint32_t vertex : built.edges[e].vertices)
+        box = grown(box, mesh.vertices[vertex]);
+    expect_box(box, records.edge_chunks[i]);
+    EXPECT_EQ(records.edge_chunks[i].reach, 0);
+    EXPECT_EQ(records.edge_chunks[i].moved, 0);
+  }
 }
 
 void expect_mesh(const Mesh& mesh, const MeshRecords& records) {
@@ -119,6 +140,7 @@ void expect_all(const Mesh& mesh, const MeshRecords& records) {
   expect_vertices(mesh, records);
   expect_nodes(mesh, records);
   expect_chunks(mesh, records);
+  expect_edge_chunks(mesh, records);
   expect_mesh(mesh, records);
 }
 

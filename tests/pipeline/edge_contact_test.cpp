@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What edges add to the contacts of vertices: where edges meet edges, one contact in every region
+// of overlap, and one way out for what is inside.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/collider.h"
+#include "pipeline/deform_rig.h"
+#include "pipeline/moving_scene.h"
+#include "reference/reference_hits.h"
+#include "support/fcl_oracle.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Bits = std::vector<std::vector<ContactBits>>;
+
+constexpr double kRight = std::numbers::pi / 2;
+
+Collider& collider() {
+  static Collider* const collider = new Collider({});  // never destroyed, as in Rig
+  return *collider;
+}
+
+// Everything in a frame of its own; results are taken back from it.
+struct Placed {
+  TestMesh a, b;
+  TestPose pa, pb;
+
+  std::vector<Contact> contacts(const TestPose& frame) const {
+    const TestScene scene = one_pair(a, composed(frame, pa), b, composed(frame, pb));
+    std::vector<Contact> found = collider().collide(scene.scene, nullptr).contacts;
+    for (Contact& c : found) {
+      const Point p = to_local(frame, point_of(c.position));
+      const Point n = rotate_back(frame, point_of(c.normal));
+      c.position = {p[0], p[1], p[2]};
+      c.normal = {n[0], n[1], n[2]};
+    }
+    return found;
+  }
+  // Positions and depths are worked out from some three coordinates of the pair.
+  double tolerance(const TestPose& frame) const {
+    return 4 * comparison_tolerance(a, composed(frame, pa), b, composed(frame, pb));
+  }
+  bool intersect_after(const Contact& contact, double distance) const {
+    TestPose moved = pa;
+    moved.position = moved.position + distance * point_of(contact.normal);
+    return surfaces_intersect(a, moved, b, pb);
+  }
+};
+
+std::vector<TestPose> frames() {
+  Random random(81);
+  std::vector<TestPose> frames{at(0, 0, 0), at(3, -4, 5)};
+  for (int i = 0; i < 6; ++i) frames.push_back(random.pose(2));
+  return frames;
+}
+
+bool has(const std::vector<Contact>& contacts, const Point& position, const Point& normal,
+         double depth, double tolerance) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& c) {
+    return distance(point_of(c.position), position) < tolerance &&
+           distance(point_of(c.normal), normal) < 1e-5 && std::fabs(c.depth - depth) < tolerance;
+  });
+}
+
+// A rod on edge along the direction at `angle` from x, its lower (`up` > 0) or upper edge at z = 0.
+TestPose on_edge(double angle, double up, double width) {
+  const TestPose rolled = turned({1, 0, 0}, kRight / 2);
+  TestPose pose = composed(turned({0, 0, 1}, angle), rolled);
+  pose.position = {0, 0, up * width / std::numbers::sqrt2};
+  return pose;
+}
+
+TEST(EdgeContacts, OfCrossedRodsAreOneWhereTheirEdgesPass) {
+  const double depth = 0.01;
+  for (const double angle : {kRight, 1.0, 0.5}) {
+    Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), on_edge(angle, 1, 0.2), on_edge(0, -1, 0.2)};
+    rods.pa.position[2] -= depth;
+    for (const TestPose& frame : frames()) {
+      const auto found = rods.contacts(frame);
+      ASSERT_EQ(found.size(), 1u) << angle;
+      EXPECT_TRUE(has(found, {0, 0, -depth / 2}, {0, 0, 1}, depth, rods.tolerance(frame))) << angle;
+      EXPECT_FALSE(rods.intersect_after(found[0], depth + rods.tolerance(frame)));
+    }
+  }
+}
+
+TEST(EdgeContacts, OfRodsThatAreApartAreNone) {
+  Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), on_edge(1, 1, 0.2), on_edge(0, -1, 0.2)};
+  rods.pa.position[2] += 1e-4;
+  for (const TestPose& frame : frames()) EXPECT_TRUE(rods.contacts(frame).empty());
+}
+
+TEST(EdgeContacts, OfRodsThatLieAcrossOneAnotherAreTheCornersOfTheSquare) {
+  Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), turned({0, 0, 1}, kRight), at(0, 0, 0)};
+  rods.pa.position = {0.3, -0.2, 0.19};
+  for (const TestPose& frame : frames()) {
+    const auto found = rods.contacts(frame);
+    const double depth = found.empty() ? 0 : found[0].depth;
+    EXPECT_NEAR(depth, 0.01, rods.tolerance(frame));
+    for (const double x : {0.2, 0.4})
+      for (const double y : {-0.1, 0.1})
+        EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                [&](const Contact& c) {
+                                  return std::hypot(c.position.x - x, c.position.y - y) <
+                                             rods.tolerance(frame) &&
+                                         c.normal.z > 1 - 1e-9 &&
+                                         std::fabs(c.depth - 0.01) < rods.tolerance(frame);
+                                }))
+            << x << " " << y;
+  }
+}
+
+// One corner of the rectangle is the upper cube's, the opposite one the lower's, two are of edges.
+TEST(EdgeContacts, OfACubeOnACubeAreAllFourCorners) {
+  for (const int n : {1, 3}) {
+    const Placed cubes{make_cube(1, n), make_cube(1, n), at(0.3, 0.2, 0.99), at(0, 0, 0)};
+    for (const TestPose& frame : frames()) {
+      const auto found = cubes.contacts(frame);
+      for (const double x : {-0.2, 0.5})
+        for (const double y : {-0.3, 0.5})
+          EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                  [&](const Contact& c) {
+                                    return std::hypot(c.position.x - x, c.position.y - y) <
+                                           cubes.tolerance(frame);
+                                  }))
+              << x << " " << y;
+      for (const Contact& c : found) {
+        EXPECT_NEAR(c.normal.z, 1, 1e-9);
+        EXPECT_NEAR(c.depth, 0.01, cubes.tolerance(frame));
+      }
+    }
+  }
+}
+
+TEST(EdgeContacts, LeadACubeInsideACubeOutThroughItsNearestSide) {
+  for (const int n : {1, 4}) {
+    const Placed cubes{make_cube(0.3, n), make_cube(2), at(0.5, 0.1, -0.05), at(0, 0, 0)};
+    for (const TestPose& frame : frames()) {
+      const auto found = cubes.contacts(frame);
+      ASSERT_FALSE(found.empty());
+      for (const Contact& c : found) EXPECT_NEAR(c.normal.x, 1, 1e-6);
+      EXPECT_NEAR(found[0].depth, 0.65, cubes.tolerance(frame));
+    }
+  }
+}
+
+TEST(EdgeContacts, AreThereAtBothPlacesWhereABeamLies) {
+  // Two rods on edge, as one mesh, and a beam on edge across them.
+  const double depth = 0.01, width = 0.2;
+  TestMesh rods = make_rod(1, width);
+  const TestPose roll = turned({1, 0, 0}, kRight / 2);
+  for (std::size_t i = 0; i < rods.vertices.size(); i += 3) {
+    const Point p = rotate(roll, rods.vertex(i / 3));
+    for (std::size_t k = 0; k < 3; ++k) rods.vertices[i + k] = static_cast<float>(p[k]);
+  }
+  rods = merged(moved(rods, {0, 0.7, 0}), moved(rods, {0, -0.7, 0}));
+  Placed beam{make_rod(3, width), rods, on_edge(kRight, 1, width), at(0, 0, 0)};
+  beam.pa.position[2] = std::numbers::sqrt2 * width - depth;
+  for (const TestPose& frame : frames()) {
+    const auto found = beam.contacts(frame);
+    EXPECT_EQ(found.size(), 2u);
+    const double middle = width / std::numbers::sqrt2 - depth / 2;
+    for (const double y : {-0.7, 0.7})
+      EXPECT_TRUE(has(found, {0, y, middle}, {0, 0, 1}, depth, beam.tolerance(frame))) << y;
+  }
+}
+
+TEST(EdgeContacts, LeadAPlateThatStandsDeepInABlockBackUp) {
+  const Placed plate{make_box({1, 0.1, 1}), make_cube(2), at(0.05, 0.03, 1.2), at(0, 0, 0)};
+  for (const TestPose& frame : frames()) {
+    const auto found = plate.contacts(frame);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found[0].depth, 0.3, plate.tolerance(frame));
+    for (const Contact& c : found) EXPECT_NEAR(c.normal.z, 1, 1e-6);
+    EXPECT_FALSE(plate.intersect_after(found[0], found[0].depth + plate.tolerance(frame)));
+  }
+}
+
+TEST(EdgeContacts, OfCubesThatCoincideDoNotOpposeOneAnother) {
+  Random random(82);
+  for (const double slip : {0.0, 1e-9, 1e-6, 1e-3}) {
+    for (const int n : {1, 2}) {
+      const Point away = slip * random.direction();
+      const Placed cubes{make_cube(1, n), make_cube(1, n), at(away[0], away[1], away[2]),
+                         at(0, 0, 0)};
+      for (const TestPose& frame : frames()) {
+        const auto found = cubes.contacts(frame);
+        ASSERT_FALSE(found.empty()) << slip;
+        for (const Contact& c : found)
+          for (const Contact& d : found) EXPECT_GT(dot(c.normal, d.normal), -0.5) << slip;
+      }
+    }
+  }
+}
+
+// What decides how long a step takes must not decide what it gives.
+TEST(EdgeContacts, AreTheSameBytesInEveryMode) {
+  std::vector<TestMesh> meshes = small_meshes();
+  meshes.push_back(make_plate(1.2, 0.02, 2));
+  ColliderOptions exact, monolithic, full, tiles;
+  exact.workload = Workload::kExact;
+  monolithic.organisation = Organisation::kMonolithic;
+  full.rays = Rays::kFull;
+  tiles.tile_vertices = 200;
+  tiles.initial_capacity = 1;
+  for (const ColliderOptions& options : {exact, monolithic, full, tiles}) {
+    Collider expected({}), other(options);
+    PassMemory memory, other_memory;
+    MovingScene moving(meshes, 64, 0.003, 83);
+    std::uint64_t crossings = 0;
+    for (int i = 0; i < 6; ++i, moving.advance()) {
+      const Bits bits = bits_of(expected.collide(moving.scene(), &memory));
+      ASSERT_EQ(bits_of(other.collide(moving.scene(), &other_memory)), bits) << i;
+      const auto crossed = static_cast<std::size_t>(Arrow::kCrossings);
+      EXPECT_EQ(other.report().actual[crossed], expected.report().actual[crossed]);
+      crossings += expected.report().actual[crossed];
+    }
+    EXPECT_GT(crossings, 3000u);
+  }
+}
+
+TEST(EdgeContacts, OfDeformableMeshesAreTheSameBytesHoweverTheyCameToTheirShape) {
+  const TriangleSoup sheet = soup_of(make_sheet(1.5, 8)), ball = soup_of(make_icosphere(0.6, 1));
+  const auto open = deformable(sheet, 0.05f), closed = deformable(ball);
+  Scene scene;
+  scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(1, 2)))),
+                  std::make_shared<const Mesh>(build_mesh(soup_of(make_rod(3, 0.1)))), open,
+                  closed};
+  for (std::uint32_t i = 0; i < 4; ++i)
+    scene.objects.push_back({collider_pose(turned({1, 2, 3}, 0.4 * i, {0.1, 0.05 * i, 0.1})), i});
+  scene.pairs = {{0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}};
+  const auto shaped = [&](float phase) {
+    scene.meshes[2] = deformed(open, bent(sheet, phase));
+    scene.meshes[3] = deformed(closed, bent(ball, phase));
+  };
+  Collider at_once({}), by_and_by({});
+  shaped(2);
+  const Bits expected = bits_of(at_once.collide(scene, nullptr));
+  std::size_t contacts = 0;
+  for (const auto& pair : expected) contacts += pair.size();
+  EXPECT_GT(contacts, 50u);
+  EXPECT_GT(at_once.report().actual[static_cast<std::size_t>(Arrow::kCrossings)], 50u);
+  PassMemory memory;
+  for (const float phase : {0.0f, 1.0f, 1.9f, 2.0f}) {
+    shaped(phase);
+    const Bits bits = bits_of(by_and_by.collide(scene, &memory));
+    EXPECT_EQ(bits == expected, phase == 2.0f) << phase;
+  }
+  EXPECT_EQ(bits_of(by_and_by.collide(scene, &memory)), expected) << "at rest";
+}
+
+// Edges of a deformable mesh that are flat in its shape are not cast.
+TEST(EdgeContacts, OfAFlatSheetAreThoseOfItsBorder) {
+  const TriangleSoup sheet = soup_of(make_sheet(1.5, 8));
+  const auto open = deformable(sheet, 0.05f);
+  Scene scene;
+  scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(4)))), open};
+  scene.objects = {{Pose{}, 0}, {Pose{}, 1}};
+  scene.pairs = {{0, 1}};
+  const auto edge_rays = [&] {
+    Collider collider({});
+    collider.collide(scene, nullptr);
+    return collider.report().actual[static_cast<std::size_t>(Arrow::kRaysEdges)];
+  };
+  // Of the cube, which is larger than the sheet on all sides, none is cast.
+  EXPECT_EQ(edge_rays(), 32u);
+  scene.meshes[1] = deformed(open, bent(sheet));
+  EXPECT_GT(edge_rays(), 150u);
+}
+
+class EdgeLists : public testing::TestWithParam<Arrow> {
+ protected:
+  // As a collider that predicts all lists to the last entry, but this one at `room`.
+  ColliderOptions options(Misprediction misprediction) const {
+    ColliderOptions options;
+    options.misprediction = misprediction;
+    options.rays = Rays::kFull;
+    options.prediction = PredictionRule::kPlain;
+    options.confidence = 1.0;
+    options.initial_capacity = 1;
+    return options;
+  }
+  std::uint64_t count(const StepReport& report) const {
+    return report.actual[static_cast<std::size_t>(GetParam())];
+  }
+};
+
+TEST_P(EdgeLists, ThatOverflowAreMendedByRedoing) {
+  const TestScene scene = random_scene(100, 84);
+  Collider whole({});
+  const Bits expected = bits_of(whole.collide(scene.scene, nullptr));
+  const StepReport report = whole.report();
+  ASSERT_GT(count(report), 100u);
+  Collider redoing(options(Misprediction::kRedo));
+  PassMemory memory;
+  memory.history = {100, report.actual};
+  memory.history.counts[static_cast<std::size_t>(GetParam())] = 10;
+  EXPECT_EQ(bits_of(redoing.collide(scene.scene, &memory)), expected);
+  EXPECT_EQ(redoing.report().redone, 1);
+  EXPECT_EQ(count(redoing.report()), count(report));
+  EXPECT_EQ(redoing.report().missed, 0u);
+}
+
+TEST_P(EdgeLists, ThatOverflowAreCountedWhereThatIsIgnored) {
+  const TestScene scene = random_scene(100, 84);
+  Collider whole({});
+  const std::size_t contacts = whole.collide(scene.scene, nullptr).contacts.size();
+  const StepReport report = whole.report();
+  Collider ignoring(options(Misprediction::kIgnore));
+  PassMemory memory;
+  memory.history = {100, report.actual};
+  memory.history.counts[static_cast<std::size_t>(GetParam())] = 10;
+  const PairContacts& found = ignoring.collide(scene.scene, &memory);
+  EXPECT_EQ(found.ranges.size(), 100u);
+  EXPECT_LT(found.contacts.size(), contacts);
+  EXPECT_GT(found.contacts.size(), contacts / 4) << "those of vertices are all there";
+  EXPECT_EQ(ignoring.report().redone, 0);
+  EXPECT_EQ(count(ignoring.report()), count(report));
+  EXPECT_EQ(ignoring.report().missed, count(report) - 10);
+}
+
+std::string name_of(const testing::TestParamInfo<Arrow>& info) {
+  if (info.param == Arrow::kChunksEdges) return "Chunks";
+  return info.param == Arrow::kRaysEdges ? "Rays" : "Crossings";
+}
+
+INSTANTIATE_TEST_SUITE_P(Arrows, EdgeLists,
+                         testing::Values(Arrow::kChunksEdges, Arrow::kRaysEdges, Arrow::kCrossings),
+                         name_of);
+
+}  // namespace
+}  // namespace ode_ext::test

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edge rays against the brute-force reference, in both organisations: every crossing is found, and
+// only those.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "pipeline/rig.h"
+#include "reference/reference_crossings.h"
+
+namespace ode_ext::test {
+namespace {
+
+// Pair, side, the ends of the edge in its own frame, the triangle crossed as in its TestMesh.
+using Key = std::tuple<std::size_t, int, Point, Point, int>;
+
+struct Found {
+  double t;  // from the lesser end
+  bool leaves;
+};
+
+std::map<Key, Found> found_crossings(const TestScene& scene, const StepRecords& records) {
+  std::map<Key, Found> found;
+  for (const ox_edge_crossing& c : records.crossings) {
+    const std::size_t pair = c.pair_side >> 1, side = c.pair_side & 1;
+    const std::uint32_t source = scene.objects[scene.pairs[pair][side]].mesh;
+    const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
+    const auto end = [&](std::size_t k) {
+      const ox_u32 vertex = records.edges.at(c.edge).vertex[k];
+      return point_of(
+          scene.scene.meshes[source]->vertices.at(Rig::shared().local_vertex(source, vertex)));
+    };
+    const Point from = end(0), to = end(1);
+    const bool upward = from < to;
+    const double t =
+        upward ? static_cast<double>(c.t) : distance(from, to) - static_cast<double>(c.t);
+    const std::uint32_t triangle = scene.scene.meshes[target]->source_triangle.at(
+        Rig::shared().local_triangle(target, c.triangle));
+    const Key key{pair, static_cast<int>(side), upward ? from : to, upward ? to : from,
+                  static_cast<int>(triangle)};
+    EXPECT_TRUE(found.emplace(key, Found{t, (c.leaves != 0) == upward}).second)
+        << "two crossings of one edge and one triangle, pair " << pair;
+  }
+  return found;
+}
+
+struct Comparison {
+  std::size_t certain = 0, ambiguous = 0;
+};
+
+Comparison compare(const TestScene& scene, const std::map<Key, Found>& found) {
+  Comparison comparison;
+  std::set<Key> possible;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
+    const double tolerance =
+        rounding_bound(mesh_size(scene.mesh_of(i, 0)) + mesh_size(scene.mesh_of(i, 1)) +
+                       distance(pa.position, pb.position));
+    for (const ReferenceCrossing& expected :
+         reference_crossings(scene.mesh_of(i, 0), pa, scene.mesh_of(i, 1), pb)) {
+      const Key key{i, expected.side, expected.from, expected.to, expected.triangle};
+      possible.insert(key);
+      ++(expected.ambiguous ? comparison.ambiguous : comparison.certain);
+      const auto actual = found.find(key);
+      if (expected.ambiguous) continue;
+      if (actual == found.end()) {
+        ADD_FAILURE() << "pair " << i << " side " << expected.side << " lacks the crossing at t "
+                      << expected.t << " with triangle " << expected.triangle;
+        continue;
+      }
+      EXPECT_EQ(actual->second.leaves, expected.leaves) << "pair " << i;
+      EXPECT_NEAR(actual->second.t, expected.t, expected.blur + tolerance) << "pair " << i;
+    }
+  }
+  for (const auto& [key, crossing] : found)
+    EXPECT_TRUE(possible.contains(key))
+        << "pair " << std::get<0>(key) << " side " << std::get<1>(key) << " crosses nothing at t "
+        << crossing.t;
+  return comparison;
+}
+
+Comparison compare(const TestScene& scene, Organisation organisation, Launch launch = {8, 64}) {
+  return compare(scene, found_crossings(scene, Rig::shared().run_with_edges(scene.scene,
+                                                                            organisation, launch)));
+}
+
+constexpr Organisation kBoth[] = {Organisation::kPipelined, Organisation::kMonolithic};
+
+TEST(EdgeRays, FindTheCrossingsOfTheReference) {
+  const TestScene scene = random_scene(600, 71);
+  for (const Organisation organisation : kBoth) {
+    const Comparison comparison = compare(scene, organisation);
+    EXPECT_GT(comparison.certain, 5000u);
+    EXPECT_LT(200 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
+  }
+}
+
+TEST(EdgeRays, FindTheSameWhateverTheNumberOfPairs) {
+  for (const int count : {0, 1, 63, 64, 65, 1234}) {
+    const TestScene scene = random_scene(count, 72);
+    const auto pipelined =
+        found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[0]));
+    const auto monolithic =
+        found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[1]));
+    compare(scene, pipelined);
+    ASSERT_EQ(pipelined.size(), monolithic.size());
+    for (const auto& [key, crossing] : pipelined) {
+      ASSERT_TRUE(monolithic.contains(key));
+      EXPECT_EQ(monolithic.at(key).t, crossing.t);
+      EXPECT_EQ(monolithic.at(key).leaves, crossing.leaves);
+    }
+  }
+}
+
+TEST(EdgeRays, FindTheSameWhateverTheLaunch) {
+  const TestScene scene = random_scene(65, 73);
+  const auto keys = [&](Organisation organisation, Launch launch) {
+    std::set<Key> result;
+    for (const auto& [key, crossing] :
+         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, organisation, launch)))
+      result.insert(key);
+    return result;
+  };
+  const std::set<Key> expected = keys(kBoth[0], {8, 64});
+  EXPECT_GT(expected.size(), 500u);
+  for (const Organisation organisation : kBoth)
+    for (const Launch launch : {Launch{1, 1}, Launch{1, 64}, Launch{3, 32}, Launch{64, 256}})
+      EXPECT_EQ(keys(organisation, launch), expected);
+}
+
+TEST(EdgeRays, FindTheCrossingsOfLargerMeshes) {
+  TestScene scene;
+  scene.add_mesh(jittered(make_icosphere(0.6, 3), 0.002, 1));
+  scene.add_mesh(jittered(make_torus(0.5, 0.2, 32, 20), 0.002, 2));
+  scene.add_mesh(make_cube(1, 8));
+  Random random(74);
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    const TestPose a = random.pose(0.3);
+    scene.add_pair(i % 3, a, i / 3 % 3, random.pose(0.3));
+  }
+  for (const Organisation organisation : kBoth) {
+    const Comparison comparison = compare(scene, organisation);
+    EXPECT_GT(comparison.certain, 500u);
+    // One edge in fifty is so flat that it may as well not be cast.
+    EXPECT_LT(20 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
+  }
+}
+
+TEST(EdgeRays, FindTheSameFarFromTheOrigin) {
+  const TestScene near = random_scene(60, 75);
+  for (const Point& place : {Point{1e4, -2e4, 5e3}, Point{1e6, 1e6, -1e6}}) {
+    TestScene far;
+    for (const TestMesh& mesh : near.meshes) far.add_mesh(mesh);
+    for (std::size_t i = 0; i < near.pairs.size(); ++i) {
+      TestPose a = near.pose_of(i, 0), b = near.pose_of(i, 1);
+      a.position = a.position + place;
+      b.position = b.position + place;
+      far.add_pair(near.objects[near.pairs[i][0]].mesh, a, near.objects[near.pairs[i][1]].mesh, b);
+    }
+    EXPECT_GT(compare(far, Organisation::kPipelined).certain, 500u);
+  }
+}
+
+TEST(EdgeRays, FindTheSameAtEverySize) {
+  const TestScene model = random_scene(60, 76);
+  for (const double scale : {1e-4, 1e-2, 1e2, 1e4}) {
+    TestScene scene;
+    for (const TestMesh& mesh : model.meshes) scene.add_mesh(scaled(mesh, scale));
+    for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+      TestPose a = model.pose_of(i, 0), b = model.pose_of(i, 1);
+      a.position = scale * a.position;
+      b.position = scale * b.position;
+      scene.add_pair(model.objects[model.pairs[i][0]].mesh, a,
+                     model.objects[model.pairs[i][1]].mesh, b);
+    }
+    EXPECT_GT(compare(scene, Organisation::kPipelined).certain, 500u) << scale;
+  }
+}
+
+// Edges that lie in faces and on edges: whatever rounding says, they are no others.
+TEST(EdgeRays, FindNothingFarFromWhereAlignedBoxesTouch) {
+  for (const Point& offset : {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0, 0, 1}, Point{0.5, 0.5, 1},
+                              Point{1, 1, 1}, Point{0.25, 0.5, 0.75}}) {
+    TestScene scene;
+    const std::uint32_t cube = scene.add_mesh(make_cube(1, 2));
+    scene.add_pair(cube, at(offset[0], offset[1], offset[2]), cube, at(0, 0, 0));
+    for (const Organisation organisation : kBoth) compare(scene, organisation);
+  }
+}
+
+// What runs through the neighbour of a hole in the grid or past the box must not be culled: a rod
+// through a ring, and thin rods past one another.
+TEST(EdgeRays, AreNotCulledWhereTheyCross) {
+  TestScene scene;
+  const std::uint32_t ring = scene.add_mesh(make_torus(1, 0.1, 40, 8));
+  const std::uint32_t rod = scene.add_mesh(make_rod(4, 0.01));
+  const std::uint32_t sheet = scene.add_mesh(make_sheet(2, 9));
+  Random random(77);
+  for (int i = 0; i < 60; ++i) {
+    const TestPose pose = random.pose(1);
+    scene.add_pair(rod, pose, ring, random.pose(0.1));
+    scene.add_pair(sheet, pose, rod, random.pose(0.5));
+    scene.add_pair(ring, pose, ring, random.pose(0.5));
+  }
+  for (const Organisation organisation : kBoth)
+    EXPECT_GT(compare(scene, organisation).certain, 300u);
+}
+
+// Tasks and rays: no run of edges twice, none of nothing, and every ray is an edge of its mesh.
+TEST(EdgeRays, AreCastOncePerEdge) {
+  const TestScene scene = random_scene(65, 78);
+  const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
+  std::set<std::pair<ox_u32, ox_u32>> tasks, rays;
+  for (const ox_chunk_task& task : records.edge_tasks)
+    EXPECT_TRUE(tasks.emplace(task.pair_side, task.chunk).second);
+  for (const ox_ray& ray : records.edge_rays)
+    EXPECT_TRUE(rays.emplace(ray.pair_side, ray.vertex).second);
+  EXPECT_GT(rays.size(), 500u);
+  for (const ox_edge_crossing& c : records.crossings)
+    EXPECT_TRUE(rays.contains({c.pair_side, c.edge}));
+}
+
+// Each crossing is among those of its pair, once, with all that its ray found.
+TEST(EdgeRays, AreGatheredByPair) {
+  const TestScene scene = random_scene(200, 79);
+  for (const Organisation organisation : kBoth) {
+    const StepRecords records = Rig::shared().run_with_edges(scene.scene, organisation);
+    using Bits = std::tuple<ox_u32, ox_u32, ox_u32, ox_f32, ox_u32>;
+    const auto bits = [](const ox_edge_crossing& c) {
+      return Bits{c.pair_side, c.edge, c.triangle, c.t, c.leaves};
+    };
+    std::multiset<Bits> found, gathered;
+    for (const ox_edge_crossing& c : records.crossings) found.insert(bits(c));
+    std::set<std::size_t> places;
+    for (ox_u32 i = 0; i < scene.pairs.size(); ++i) {
+      const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
+      for (ox_u32 k = 0; k < records.pair_crossings[i]; ++k) {
+        const std::size_t place = records.crossing_segments[i] + k;
+        EXPECT_TRUE(places.insert(place).second);
+        const ox_edge_crossing& c = records.gathered_crossings.at(place);
+        EXPECT_EQ(c.pair_side >> 1, i);
+        EXPECT_EQ(c.slot, k);
+        gathered.insert(bits(c));
+        // Its place is on the edge, in the frame of B.
+        const std::size_t side = c.pair_side & 1;
+        const std::uint32_t mesh = scene.objects[scene.pairs[i][side]].mesh;
+        Point ends[2];
+        for (std::size_t e = 0; e < 2; ++e) {
+          const ox_u32 vertex = records.edges.at(c.edge).vertex[e];
+          ends[e] = point_of(
+              scene.scene.meshes[mesh]->vertices.at(Rig::shared().local_vertex(mesh, vertex)));
+          if (side == 0) ends[e] = rotate_back(pb, rotate(pa, ends[e]) + pa.position - pb.position);
+        }
+        const Point expected = ends[0] + static_cast<double>(c.t) * unit(ends[1] - ends[0]);
+        EXPECT_LT(distance(point_of(c.position), expected), 1e-5);
+      }
+    }
+    EXPECT_EQ(gathered, found);
+    EXPECT_GT(found.size(), 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
