@@ -2,6 +2,7 @@
 #include "geometry/facets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -34,8 +35,13 @@ std::vector<Seed> seeds(const std::vector<Vec3f>& vertices,
   std::vector<Seed> result;
   result.reserve(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const Vec3d a(vertices[triangles[t][0]]), b(vertices[triangles[t][1]]),
-        c(vertices[triangles[t][2]]);
+    std::array<Vec3d, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = Vec3d(vertices[triangles[t][k]]);
+    // From whichever corner they are listed: rounding is to be the same.
+    std::sort(corners.begin(), corners.end(), [](const Vec3d& a, const Vec3d& b) {
+      return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    });
+    const auto& [a, b, c] = corners;
     result.push_back({length(cross(b - a, c - a)), a + b + c, t});
   }
   std::sort(result.begin(), result.end(), comes_first);
