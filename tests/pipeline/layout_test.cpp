@@ -157,6 +157,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_candidate, patch),
     OFFSET_OF(ox_candidate, distance2),
     OFFSET_OF(ox_candidate, region),
+    OFFSET_OF(ox_candidate, outline),
     SIZE_OF(ox_contact),
     OFFSET_OF(ox_contact, side_kind),
     OFFSET_OF(ox_contact, vertex),

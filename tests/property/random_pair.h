@@ -31,13 +31,23 @@ inline TestScene random_pair(Random& random) {
   return one_pair(a, pa, b, random.pose(0.35));
 }
 
-inline Collider& shared_collider() {
-  static auto* const collider = new Collider({});  // as Rig::shared()
-  return *collider;
+inline Collider& shared_collider(bool edges) {
+  const auto make = [](bool with_edges) {
+    ColliderOptions options;
+    options.edges = with_edges;
+    return new Collider(options);
+  };
+  static Collider* const colliders[] = {make(false), make(true)};  // as Rig::shared()
+  return *colliders[edges];
 }
 
 inline std::vector<Contact> collide(const TestScene& scene) {
-  return shared_collider().collide(scene.scene, nullptr).contacts;
+  return shared_collider(true).collide(scene.scene, nullptr).contacts;
+}
+
+// As the paper does: contacts of vertices alone.
+inline std::vector<Contact> collide_vertices(const TestScene& scene) {
+  return shared_collider(false).collide(scene.scene, nullptr).contacts;
 }
 
 // The candidates of the only pair, sorted.
