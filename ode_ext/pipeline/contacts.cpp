@@ -67,8 +67,11 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   // Again in double precision: bodies come to rest 1e-9 m deep, where floats would push and let go
   // by turns. What the device took for inside, to within its rounding, stays a contact.
   const Vec3d corner =
-      target.pose.place(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
-  const double height = dot(corner - result.position, outward) / length(outward);
+      target.pose.turn(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
+  const Vec3d from = source.pose.turn(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+  // Of places far from the origin the difference is exact, the sums are not.
+  const Vec3d apart = (corner - from) + (target.pose.position - source.pose.position);
+  const double height = dot(apart, outward) / length(outward);
   const bool reversed = (contact.side_kind & OX_HIT_REVERSED) != 0;
   result.depth = known_depth(reversed ? -height : height, meshes.mesh(source.mesh), target_mesh);
   result.triangles[side] = meshes.owner_triangle(contact.vertex);
