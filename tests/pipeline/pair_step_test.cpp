@@ -175,7 +175,8 @@ TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {
   std::set<Task> tasks;
   std::vector<std::uint32_t> chunk_first{0};
   for (const auto& mesh : scene.scene.meshes)
-    chunk_first.push_back(chunk_first.back() + static_cast<std::uint32_t>(mesh->chunks.size()));
+    chunk_first.push_back(chunk_first.back() + static_cast<std::uint32_t>(
+                                                   mesh->chunks.size() + mesh->edge_chunks.size()));
   for (const ox_chunk_task& task : records.tasks) {
     const std::size_t pair = task.pair_side >> 1;
     const std::uint32_t side = task.pair_side & 1;
