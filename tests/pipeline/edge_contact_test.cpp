@@ -149,6 +149,19 @@ TEST(EdgeContacts, LeadACubeInsideACubeOutThroughItsNearestSide) {
   }
 }
 
+// The far side of a cube as large would add nothing: it is 0.4 m deep, the near one 1 m.
+TEST(EdgeContacts, LeadOutWhatIsAtLeastHalfAsDeepAsTheDeepest) {
+  const Placed cubes{make_cube(0.6), make_cube(2), at(0.3, 0.1, -0.05), at(0, 0, 0)};
+  for (const TestPose& frame : frames()) {
+    const auto found = cubes.contacts(frame);
+    EXPECT_EQ(found.size(), 4u);
+    for (const Contact& c : found) {
+      EXPECT_NEAR(c.normal.x, 1, 1e-6);
+      EXPECT_NEAR(c.depth, 1, cubes.tolerance(frame));
+    }
+  }
+}
+
 TEST(EdgeContacts, AreThereAtBothPlacesWhereABeamLies) {
   // Two rods on edge, as one mesh, and a beam on edge across them.
   const double depth = 0.01, width = 0.2;
