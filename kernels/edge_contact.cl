@@ -229,8 +229,10 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
   for (uint k = 0u; k < p->count; ++k) {
     __global const ox_edge_crossing* c = p->crossings + p->order[k];
     if (c->region != region || ox_side(c) != best.side) continue;
-    // The far end of a chord speaks for itself, unless it is a vertex.
-    for (uint end = 0u; end < (c->other == OX_NONE ? 2u : 1u); ++end) {
+    // The far end of a chord speaks for itself, and so does a vertex that knows its way out.
+    const uint vertex = ox_inner_vertex(p, c);
+    const bool both = vertex != OX_NONE && !ox_has_hit(p, best.side, vertex);
+    for (uint end = 0u; end < (both ? 2u : 1u); ++end) {
       const float3 point = ox_chord_end(p, c, end);
       const float depth = ox_depth_below(&best, point);
       if (depth >= 0.5f * best.depth)
@@ -282,6 +284,11 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
 }
 
 static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) {
+  // Along a sheet regions cannot be told apart (its flat edges are not cast, yet its triangles are
+  // facets each): edges speak only where no vertex does.
+  if (((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u &&
+      ox_count_hits(p, 0u).inside + ox_count_hits(p, 1u).inside != 0u)
+    return;
   for (uint region = 0u; region < p->regions; ++region) {
     bool covered = false;
     for (uint k = 0u; k < p->count && !covered; ++k)

@@ -113,7 +113,7 @@ TEST_F(DemoSheets, WakeWhenWhatTheyLieOnMoves) {
   for (std::size_t i = 0; i < before.size(); ++i) {
     lifted = std::max(lifted, cloth().positions()[i].z - before[i].z);
   }
-  EXPECT_GT(lifted, 0.1);
+  EXPECT_GT(lifted, 0.05);  // asleep it would not move at all
 }
 
 TEST_F(DemoSheets, PushAnObjectThatTheyFallOn) {
