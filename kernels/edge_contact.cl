@@ -228,16 +228,18 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
   const float3 normal = best.side == 0u ? best.normal : -best.normal;
   for (uint k = 0u; k < p->count; ++k) {
     __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (c->region != region || ox_side(c) != best.side) continue;
-    // The far end of a chord speaks for itself, and so does a vertex that knows its way out.
-    const uint vertex = ox_inner_vertex(p, c);
+    if (c->region != region) continue;
+    // A crossing lies on both surfaces, whosever edge it is of. The far end of a chord speaks for
+    // itself, and so does a vertex that knows its way out.
+    const bool own = ox_side(c) == best.side;
+    const uint source = own ? p->edges[c->edge].triangle[0] : c->triangle;
+    const uint vertex = own ? ox_inner_vertex(p, c) : OX_NONE;
     const bool both = vertex != OX_NONE && !ox_has_hit(p, best.side, vertex);
     for (uint end = 0u; end < (both ? 2u : 1u); ++end) {
       const float3 point = ox_chord_end(p, c, end);
       const float depth = ox_depth_below(&best, point);
       if (depth >= 0.5f * best.depth)
-        ox_add_point(p, best.side, p->edges[c->edge].triangle[0], best.triangle, region, point,
-                     normal, depth);
+        ox_add_point(p, best.side, source, best.triangle, region, point, normal, depth);
     }
   }
   if (vertices) ox_lead_vertices_out(p, &best);
