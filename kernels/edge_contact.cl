@@ -8,6 +8,7 @@
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/edge_axis.h"
+#include "shared/spokesmen.h"
 #include "shared/way_out.h"
 
 // in: crossings. out: those of each pair together, as they are needed, and per pair room for an
@@ -45,38 +46,6 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     gathered[crossing_segments[p] + crossing.slot] = crossing;
     order[2u * crossing_segments[p] + crossing.slot] = crossing.slot;
   }
-}
-
-// What the hits of the vertices of one mesh say.
-typedef struct {
-  uint inside, fallback;
-} ox_hit_count;
-
-static ox_hit_count ox_count_hits(const ox_edge_pair* p, uint side) {
-  ox_hit_count count = {0u, 0u};
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    const uint kind = p->candidates[i].side_kind;
-    if (((kind & OX_HIT_SIDE) != 0u) != (side != 0u)) continue;
-    if ((kind & OX_HIT_KIND) == OX_HIT_INSIDE) ++count.inside;
-    if ((kind & OX_HIT_KIND) == OX_HIT_FALLBACK) ++count.fallback;
-  }
-  return count;
-}
-
-// The hit of a vertex that is inside; OX_NONE: it has none.
-static uint ox_find_hit(const ox_edge_pair* p, uint side, uint vertex) {
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    __global const ox_candidate* c = p->candidates + i;
-    if (c->vertex == vertex && (c->side_kind & OX_HIT_POINT) == 0u &&
-        (c->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
-        ((c->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u))
-      return i;
-  }
-  return OX_NONE;
-}
-
-static bool ox_has_hit(const ox_edge_pair* p, uint side, uint vertex) {
-  return ox_find_hit(p, side, vertex) != OX_NONE;
 }
 
 // A vertex in contact covers the region it is in.
@@ -379,34 +348,6 @@ static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
     if (deep == 0u) continue;
     for (uint region = 0u; region < p->regions; ++region)
       if (ox_ends_deep(p, region, side)) ox_lead_region_out(p, region, true, nodes);
-  }
-}
-
-// Of several regions each gets one contact that will not be left out for want of room: the deepest
-// of its points and of the vertices at its chords, of which so many are looked at.
-#define OX_MOST_SPOKESMEN 8u
-
-static void ox_choose_spokesmen(const ox_edge_pair* p, uint points) {
-  for (uint region = 0u; region < p->regions && p->regions > 1u; ++region) {
-    uint best = OX_NONE;
-    uint looked = 0u;
-    for (uint k = 0u; k < p->count && looked < OX_MOST_SPOKESMEN; ++k) {
-      __global const ox_edge_crossing* c = p->crossings + p->order[k];
-      if (c->region != region || c->covered == 0u) continue;
-      const uint vertex = ox_inner_vertex(p, c);
-      if (vertex == OX_NONE) continue;
-      const uint hit = ox_find_hit(p, ox_side(c), vertex);
-      if (hit == OX_NONE) continue;
-      ++looked;
-      if (best == OX_NONE || p->candidates[hit].depth > p->candidates[best].depth) best = hit;
-    }
-    for (uint i = points; i < p->candidate_count; ++i)
-      if (p->candidates[i].region == region &&
-          (best == OX_NONE || p->candidates[i].depth > p->candidates[best].depth))
-        best = i;
-    for (uint i = points; i < p->candidate_count; ++i)
-      if (p->candidates[i].region == region && i != best) p->candidates[i].region = OX_NONE;
-    if (best != OX_NONE) p->candidates[best].region = region;
   }
 }
 
