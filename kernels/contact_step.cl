@@ -137,8 +137,7 @@ static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint 
   const float width2 = ox_dot(across, across);
   if (!(width2 > 0.0f)) return;  // it is the only one, or all lie behind it
   const float3 u = across / sqrt(width2);
-  const float3 v = (float3)(normal.y * u.z - normal.z * u.y, normal.z * u.x - normal.x * u.z,
-                            normal.x * u.y - normal.y * u.x);
+  const float3 v = ox_plain_cross(normal, u);
   for (uint k = 0u; k < 8u; ++k) {
     const float a = k == 0u || k == 4u ? 1.0f : k == 2u || k == 6u ? 0.0f : 0.70710678f;
     const float b = k == 0u || k == 4u ? 0.0f : k == 2u || k == 6u ? 1.0f : 0.70710678f;

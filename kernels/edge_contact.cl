@@ -165,9 +165,7 @@ static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
     const uint triangle = p->edges[c->edge].triangle[k];
     if (triangle != OX_NONE) normal += ox_normal_in_b(p, side, triangle);
   }
-  const float3 binormal =
-      (float3)(along.y * normal.z - along.z * normal.y, along.z * normal.x - along.x * normal.z,
-               along.x * normal.y - along.y * normal.x);
+  const float3 binormal = ox_plain_cross(along, normal);
   for (uint k = 0u; k < (c->other == OX_NONE ? 6u : 4u); ++k) {
     float3 direction = k < 2u ? normal : k < 4u ? binormal : along;
     if ((k & 1u) != 0u) direction = -direction;

@@ -78,12 +78,12 @@ typedef struct {
 static inline bool ox_pass(const ox_wedge* a, const ox_wedge* b, float3 n, ox_point* point) {
   const float3 u = a->line.along;
   const float3 v = b->line.along;
-  const float3 w = (float3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+  const float3 w = ox_plain_cross(u, v);
   const float area = ox_dot(w, n);
   if (!(fabs(area) > 1.0e-6f)) return false;
   const float3 d = b->line.from - a->line.from;
-  const float3 dv = (float3)(d.y * v.z - d.z * v.y, d.z * v.x - d.x * v.z, d.x * v.y - d.y * v.x);
-  const float3 du = (float3)(d.y * u.z - d.z * u.y, d.z * u.x - d.x * u.z, d.x * u.y - d.y * u.x);
+  const float3 dv = ox_plain_cross(d, v);
+  const float3 du = ox_plain_cross(d, u);
   const float s = ox_min(ox_max(ox_dot(dv, n) / area, a->chord[0]), a->chord[1]);
   const float r = ox_min(ox_max(ox_dot(du, n) / area, b->chord[0]), b->chord[1]);
   const float3 on_a = a->line.from + s * u;
@@ -122,7 +122,7 @@ static inline bool ox_edge_contact(const ox_wedge* a, const ox_wedge* b, ox_poin
 
   const float3 u = a->line.along;
   const float3 v = b->line.along;
-  float3 n = (float3)(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
+  float3 n = ox_plain_cross(u, v);
   const float sine = sqrt(ox_dot(n, n));
   if (sine > 0.05f) {  // below 3 degrees the axis is mostly noise
     n = n / sine;

@@ -10,6 +10,10 @@
 
 static inline float ox_dot(float3 a, float3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
+static inline float3 ox_plain_cross(float3 a, float3 b) {
+  return (float3)(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
 static inline float ox_max(float a, float b) { return a > b ? a : b; }
 static inline float ox_min(float a, float b) { return a < b ? a : b; }
 

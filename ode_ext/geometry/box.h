@@ -37,4 +37,9 @@ inline Vec3f centre(const Box& box) { return 0.5f * box.lo + 0.5f * box.hi; }
 
 inline Vec3d extent(const Box& box) { return Vec3d(box.hi) - Vec3d(box.lo); }
 
+// By component the largest distance of a corner from the origin.
+inline Vec3f farthest_corner(const Box& box) {
+  return max(max(box.hi, Vec3f{} - box.hi), max(box.lo, Vec3f{} - box.lo));
+}
+
 }  // namespace ode_ext

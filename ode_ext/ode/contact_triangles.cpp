@@ -15,18 +15,13 @@ Vec3d to_local(const Pose& pose, Vec3d point) {
           r[2] * p.x + r[5] * p.y + r[8] * p.z};
 }
 
-double farthest_corner(const Mesh& mesh) {
-  return length(
-      Vec3d(max(max(mesh.box.hi, Vec3f{} - mesh.box.hi), max(mesh.box.lo, Vec3f{} - mesh.box.lo))));
-}
-
 // How far off its edge a contact may be: the device places edges of one mesh in the frame of the
 // other with floats, in fewer than 16 roundings of coordinates of at most this size.
 double rounding(const Answer& answer) {
   const auto& [a, b] = answer.members;
   return 16 * 0x1p-24 *
-         (farthest_corner(*a.mesh) + farthest_corner(*b.mesh) +
-          length(a.pose.position - b.pose.position));
+         (length(Vec3d(farthest_corner(a.mesh->box))) +
+          length(Vec3d(farthest_corner(b.mesh->box))) + length(a.pose.position - b.pose.position));
 }
 
 double distance_to_segment(Vec3d point, Vec3d from, Vec3d to) {

@@ -7,18 +7,13 @@
 namespace ode_ext {
 namespace {
 
-double farthest_corner(const Mesh& mesh) {
-  const Vec3f reach =
-      max(max(mesh.box.hi, Vec3f{} - mesh.box.hi), max(mesh.box.lo, Vec3f{} - mesh.box.lo));
-  return length(Vec3d(reach));
-}
-
 // What is known of a depth. The vertices of either mesh are rounded to floats, by 2^-24 of their
 // distance from the origin at most, while ODE's broad phase sees the program's own. A body pushed
 // out to the last bit would be clear of ODE's boxes before it is clear of ours, and fall; so it is
 // left in by as much.
 double known_depth(double depth, const Mesh& a, const Mesh& b) {
-  return std::max(0.0, depth - 0x1p-24 * (farthest_corner(a) + farthest_corner(b)));
+  return std::max(0.0, depth - 0x1p-24 * (length(Vec3d(farthest_corner(a.box))) +
+                                          length(Vec3d(farthest_corner(b.box)))));
 }
 
 // The program's index of a triangle of the device's.

@@ -137,8 +137,7 @@ void measure(const Mesh& mesh, ox_mesh& record) {
   const Box& box = mesh.box;
   store(record.box_centre, centre(box));
   store(record.box_half, half_size(box));
-  const Vec3f farthest = max(max(box.hi, Vec3f{} - box.hi), max(box.lo, Vec3f{} - box.lo));
-  record.extent = length(farthest);
+  record.extent = length(farthest_corner(box));
   record.radius = mesh.radius;
   record.mean_edge = mesh.mean_edge;
   record.reach = reach_of(mesh);
