@@ -255,13 +255,7 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
   float limit = INFINITY;
   for (uint n = 0u; n < move->shape.node_count;) {
     __global const ox_node* node = nodes + n;
-    const float3 t_lo = (vload3(0, node->lo) - origin) * cast.inverse;
-    const float3 t_hi = (vload3(0, node->hi) - origin) * cast.inverse;
-    const float enter = ox_max(ox_max(ox_min(t_lo.x, t_hi.x), ox_min(t_lo.y, t_hi.y)),
-                               ox_max(ox_min(t_lo.z, t_hi.z), 0.0f));
-    const float leave = ox_min(ox_min(ox_max(t_lo.x, t_hi.x), ox_max(t_lo.y, t_hi.y)),
-                               ox_min(ox_max(t_lo.z, t_hi.z), limit));
-    if (enter > leave) {
+    if (!ox_meets_box(&cast, node, 0.0f, limit)) {
       n = node->skip;
       continue;
     }

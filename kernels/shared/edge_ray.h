@@ -95,13 +95,7 @@ static inline void ox_cast_edge(__global volatile uint* counters, __global const
   for (uint n = 0u; n < target->node_count;) {
     __global const ox_node* node = nodes + n;
     *work += OX_WORK_NODE;
-    const float3 t_lo = (vload3(0, node->lo) - cast.origin) * cast.inverse;
-    const float3 t_hi = (vload3(0, node->hi) - cast.origin) * cast.inverse;
-    const float enter = ox_max(ox_max(ox_min(t_lo.x, t_hi.x), ox_min(t_lo.y, t_hi.y)),
-                               ox_max(ox_min(t_lo.z, t_hi.z), from));
-    const float leave = ox_min(ox_min(ox_max(t_lo.x, t_hi.x), ox_max(t_lo.y, t_hi.y)),
-                               ox_min(ox_max(t_lo.z, t_hi.z), limit));
-    if (enter > leave) {
+    if (!ox_meets_box(&cast, node, from, limit)) {
       n = node->skip;
       continue;
     }

@@ -16,8 +16,6 @@ static inline ox_nearest ox_trace_bvh(const ox_query* query, __global const ox_m
                                       __global const ox_triangle* triangles, uint seed,
                                       uint* work) {
   ox_nearest nearest = ox_nothing();
-  const float3 origin = query->cast.origin;
-  const float3 inverse = query->cast.inverse;
   const float from = ox_min(-query->epsilon, -query->behind);
   __global const ox_node* nodes = all_nodes + mesh->node_first;
   if (seed != OX_NONE) {
@@ -29,13 +27,7 @@ static inline ox_nearest ox_trace_bvh(const ox_query* query, __global const ox_m
   for (uint n = 0u; n < mesh->node_count;) {
     __global const ox_node* node = nodes + n;
     *work += OX_WORK_NODE;
-    const float3 t_lo = (vload3(0, node->lo) - origin) * inverse;
-    const float3 t_hi = (vload3(0, node->hi) - origin) * inverse;
-    const float enter = ox_max(ox_max(ox_min(t_lo.x, t_hi.x), ox_min(t_lo.y, t_hi.y)),
-                               ox_max(ox_min(t_lo.z, t_hi.z), from));
-    const float leave = ox_min(ox_min(ox_max(t_lo.x, t_hi.x), ox_max(t_lo.y, t_hi.y)),
-                               ox_min(ox_max(t_lo.z, t_hi.z), limit));
-    if (enter > leave) {
+    if (!ox_meets_box(&query->cast, node, from, limit)) {
       n = node->skip;
       continue;
     }
