@@ -129,22 +129,35 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
              : OX_CATEGORY_HIGH;
 }
 
+static uint ox_group_count(uint chunks) {
+  return (chunks + (OX_GROUP_CHUNKS - 1u)) / OX_GROUP_CHUNKS;
+}
+
 // The runs of edges of one mesh of a pair. `place`: of the first task, if every run has its own.
 static void ox_append_edges(__global volatile uint* counters, __global const ox_list* lists,
                             uint pair_side, __global const ox_pair* pair, bool bounded,
                             __global const ox_mesh* source, __global const ox_mesh* target,
                             __global const ox_chunk* chunks, __global const uint* grids, bool dense,
                             uint place, __global ox_chunk_task* tasks) {
-  for (uint k = 0u; k < source->edge_chunk_count; ++k) {
-    const uint chunk = source->edge_chunk_first + k;
-    if (dense) tasks[place + k].chunk = OX_NONE;
-    if (!bounded || !ox_keep_chunk(pair, pair_side & 1u, target, chunks + chunk, grids)) continue;
-    const uint slot = dense ? place + k : ox_append(counters, lists, OX_LIST_CHUNKS_EDGES);
-    if (slot == OX_NONE) continue;
-    tasks[slot].pair_side = pair_side;
-    tasks[slot].chunk = chunk;
-    tasks[slot].previous = OX_NONE;
-    tasks[slot].category = OX_LIST_CHUNKS_EDGES;
+  const uint side = pair_side & 1u;
+  const bool grouped = (source->flags & OX_MESH_DEFORMABLE) == 0u;
+  const uint count = source->edge_chunk_count;
+  const uint groups = source->group_first + ox_group_count(source->chunk_count);
+  for (uint g = 0u; g < ox_group_count(count); ++g) {
+    const bool near =
+        bounded && (!grouped || ox_keep_edge_chunk(pair, side, target, chunks + groups + g, grids));
+    if (!near && !dense) continue;
+    for (uint k = OX_GROUP_CHUNKS * g; k < count && k < OX_GROUP_CHUNKS * (g + 1u); ++k) {
+      const uint chunk = source->edge_chunk_first + k;
+      if (dense) tasks[place + k].chunk = OX_NONE;
+      if (!near || !ox_keep_edge_chunk(pair, side, target, chunks + chunk, grids)) continue;
+      const uint slot = dense ? place + k : ox_append(counters, lists, OX_LIST_CHUNKS_EDGES);
+      if (slot == OX_NONE) continue;
+      tasks[slot].pair_side = pair_side;
+      tasks[slot].chunk = chunk;
+      tasks[slot].previous = OX_NONE;
+      tasks[slot].category = OX_LIST_CHUNKS_EDGES;
+    }
   }
 }
 
@@ -233,9 +246,19 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     for (uint side = 0u; side < 2u; ++side) {
       __global const ox_mesh* source = side == 0u ? mesh_a : mesh_b;
       __global const ox_mesh* target = side == 0u ? mesh_b : mesh_a;
+      const bool grouped = (source->flags & OX_MESH_DEFORMABLE) == 0u;
+      bool near = bounded;
       for (uint k = 0u; k < source->chunk_count; ++k) {
+        if (grouped && bounded && k % OX_GROUP_CHUNKS == 0u) {
+          __global const ox_chunk* group = chunks + source->group_first + k / OX_GROUP_CHUNKS;
+          near = ox_keep_chunk(pair, side, target, group, grids);
+        }
+        if (!near && is_dense == 0u) {
+          k |= OX_GROUP_CHUNKS - 1u;  // on to the next group
+          continue;
+        }
         const uint chunk = source->chunk_first + k;
-        const bool keep = bounded && ox_keep_chunk(pair, side, target, chunks + chunk, grids);
+        const bool keep = near && ox_keep_chunk(pair, side, target, chunks + chunk, grids);
         uint slot_of_task;
         if (is_dense != 0u) {
           slot_of_task = place++;

@@ -29,37 +29,6 @@ static inline ox_segment ox_segment_of(__global const ox_pair* pair, uint side,
   return segment;
 }
 
-static inline bool ox_is_occupied(__global const ox_mesh* mesh, __global const uint* grids, uint x,
-                                  uint y, uint z) {
-  const uint bit = (z * mesh->grid_cells[1] + y) * mesh->grid_cells[0] + x;
-  return (grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) != 0u;
-}
-
-// Whether a cell of the grid that the ball may touch is not wholly outside. Balls of many cells are
-// not looked at.
-static inline bool ox_may_reach_inside(__global const ox_mesh* mesh, __global const uint* grids,
-                                       float3 middle, float radius) {
-  const float point[3] = {middle.x, middle.y, middle.z};
-  uint at[3], first[3], last[3];
-  uint cells = 1u;
-  for (uint axis = 0u; axis < 3u; ++axis) {
-    const float most = (float)mesh->grid_cells[axis] - 1.0f;
-    const float scale = mesh->grid_scale[axis];
-    const float cell = (point[axis] - mesh->grid_origin[axis]) * scale;
-    const float reach = radius * scale;
-    at[axis] = (uint)ox_min(ox_max(cell, 0.0f), most);
-    first[axis] = (uint)ox_min(ox_max(cell - reach, 0.0f), most);
-    last[axis] = (uint)ox_min(ox_max(cell + reach, 0.0f), most);
-    cells *= last[axis] - first[axis] + 1u;
-  }
-  if (cells > 64u || ox_is_occupied(mesh, grids, at[0], at[1], at[2])) return true;
-  for (uint z = first[2]; z <= last[2]; ++z)
-    for (uint y = first[1]; y <= last[1]; ++y)
-      for (uint x = first[0]; x <= last[0]; ++x)
-        if (ox_is_occupied(mesh, grids, x, y, z)) return true;
-  return false;
-}
-
 // Whether the edge can cross the surface of the target: by its bounding ball.
 static inline bool ox_keep_edge(__global const ox_pair* pair, uint side,
                                 __global const ox_mesh* meshes, __global const ox_edge* edge,
@@ -71,7 +40,7 @@ static inline bool ox_keep_edge(__global const ox_pair* pair, uint side,
   const float3 d = fabs(middle - vload3(0, target->box_centre));
   const float3 limit = vload3(0, target->box_half) + radius;
   if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
-  return (target->flags & OX_MESH_GRID) == 0u || ox_may_reach_inside(target, grids, middle, radius);
+  return ox_may_near_surface(target, grids, middle, radius);
 }
 
 // Every place where the segment crosses the target, a little beyond its ends too: edges that meet

@@ -57,15 +57,20 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_NONE 0xffffffffu
 
 #define OX_CHUNK_VERTICES 16u
+#define OX_GROUP_CHUNKS 8u  // chunks that are dismissed together
 
 // A block of the clearance grid is this many cells of the occupancy grid wide.
-#define OX_BLOCK_CELLS 4u
+#define OX_BLOCK_CELLS 2u
+
+// Of a slab (geometry/surface_slabs.h): the normal, lo, hi, and whether outside is above it.
+#define OX_SLAB_WORDS 6u
 
 #define OX_MESH_CLOSED 1u
-#define OX_MESH_GRID 2u
+#define OX_MESH_GRID 2u        // its occupancy grid is there
 #define OX_MESH_DEFORMABLE 4u  // its vertices move: what depends on them is made on the device
 #define OX_MESH_TWO_SIDED 8u   // deformable and open: a sheet, with no inside
 #define OX_MESH_ISOLATED 16u   // the isolation of its triangles is known: iterative rays can prove
+#define OX_MESH_CLEARANCE 32u  // its clearance grid is there
 
 // A geom of this step. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin.
@@ -83,22 +88,26 @@ typedef struct {
   ox_u32 node_first, node_count;
   ox_u32 triangle_first, triangle_count;
   ox_u32 edge_chunk_first, edge_chunk_count;
+  ox_u32 group_first;      // of vertices, then of edges; a deformable mesh has none
   ox_u32 grid_first;       // word index of the occupancy bits
-  ox_u32 clearance_first;  // word index of the clearance steps, four to a word
+  ox_u32 clearance_first;  // word index of the clearance, signed steps, four to a word
+  ox_u32 slab_bits_first;  // word index of which blocks have a slab: bits and their rank by turns
+  ox_u32 slab_first;       // word index of the slabs, OX_SLAB_WORDS each
   ox_u32 grid_cells[3];
   ox_u32 flags;
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
   ox_f32 grid_origin[3];
-  ox_f32 grid_scale[3];  // cells per metre
-  ox_f32 extent;         // largest distance of a box corner from the local origin
-  ox_f32 radius;         // of the vertices about the box's centre
-  ox_f32 block_side;     // shortest side of a block of the clearance grid
-  ox_f32 mean_edge;      // [m]
-  ox_f32 reach;          // of an open mesh: the longest ray of its vertices; 0: closed [m]
-  ox_f32 moved;          // the farthest a vertex went in its own frame at the last deformation [m]
+  ox_f32 grid_scale[3];   // cells per metre
+  ox_f32 extent;          // largest distance of a box corner from the local origin
+  ox_f32 radius;          // of the vertices about the box's centre
+  ox_f32 clearance_step;  // [m]
+  ox_f32 slab_reach;      // [m]; 0: there are no slabs
+  ox_f32 mean_edge;       // [m]
+  ox_f32 reach;           // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 moved;           // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 128, ox_mesh_is_128_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 144, ox_mesh_is_144_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -108,7 +117,7 @@ typedef struct {
 } ox_vertex;
 OX_STATIC_ASSERT(sizeof(ox_vertex) == 32, ox_vertex_is_32_bytes);
 
-// A run of vertices, or of edges (reach and moved are 0 then).
+// A run of vertices, or of edges (reach and moved are 0 then); or OX_GROUP_CHUNKS of them.
 typedef struct {
   ox_u32 first, count;  // index into all of them
   ox_f32 centre[3];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far it is at least from a point to a cell of the occupancy grid that is not outside: a whole
-// run of vertices is dismissed by one look. Blocks of 4 x 4 x 4 cells, one distance each.
+// How far it is at least from a point to the surface of a mesh: a vertex, an edge or a whole run of
+// them is dismissed by one look. Blocks of 2 x 2 x 2 cells of the occupancy grid, each with the
+// distance of its centre.
 #pragma once
 
 #include <array>
@@ -12,19 +13,20 @@
 
 namespace ode_ext {
 
-inline constexpr std::uint32_t kBlockCells = 4;
+inline constexpr std::uint32_t kBlockCells = 2;
 
 struct ClearanceGrid {
   std::array<std::uint32_t, 3> blocks{};  // 0: no grid
-  float block_side = 0;                   // [m], the shortest side of a block
-  // x fastest: steps (along axes and diagonals) to the nearest block that is not wholly outside.
-  std::vector<std::uint8_t> steps;
+  float step = 0;                         // [m]
+  // x fastest: how far it is at least from the centre of a block to the surface, in steps; positive
+  // outside, negative where the mesh may be around it.
+  std::vector<std::int8_t> steps;
 };
 
 ClearanceGrid build_clearance_grid(const OccupancyGrid& grid);
 
-// No point within the returned distance [m] of `point` may be inside the mesh; negative or 0:
-// nothing is known. 0 if there is no grid.
+// No point within the absolute value of this [m] of `point` is on the surface of the mesh. Positive
+// outside, so that no point within it is inside either. 0: nothing is known.
 float clearance(const ClearanceGrid& clearance, const OccupancyGrid& grid, Vec3f point);
 
 }  // namespace ode_ext

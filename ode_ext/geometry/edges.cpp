@@ -6,12 +6,14 @@
 #include "geometry/directed_edges.h"
 #include "geometry/mesh.h"
 #include "geometry/ray_cast.h"
+#include "geometry/runs.h"
 
 namespace ode_ext {
 
-std::vector<Edge> edges(const std::vector<Triangle>& triangles,
+std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
                         const std::vector<std::uint32_t>& facets) {
-  std::vector<Edge> result;
+  std::vector<Edge> found;
+  std::vector<Vec3f> middles;
   const std::vector<DirectedEdge> sides = sorted_edges(triangles);
   for (std::size_t i = 0; i < sides.size();) {
     const DirectedEdge& a = sides[i];
@@ -22,8 +24,12 @@ std::vector<Edge> edges(const std::vector<Triangle>& triangles,
     i += paired ? 2 : 1;
     if (paired && !facets.empty() && facets[edge.triangles[0]] == facets[edge.triangles[1]])
       continue;
-    result.push_back(edge);
+    found.push_back(edge);
+    middles.push_back(0.5f * vertices[edge.vertices[0]] + 0.5f * vertices[edge.vertices[1]]);
   }
+  std::vector<Edge> result;
+  result.reserve(found.size());
+  for (const std::uint32_t i : order_into_runs(middles)) result.push_back(found[i]);
   return result;
 }
 

@@ -61,7 +61,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
-    mesh.edges = edges(mesh.triangles, {});
+    mesh.edges = edges(mesh.vertices, mesh.triangles, {});
     mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
     return mesh;
   }
@@ -70,17 +70,19 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
-  mesh.edges = edges(mesh.triangles, mesh.facets);
+  mesh.edges = edges(mesh.vertices, mesh.triangles, mesh.facets);
   mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
+  if (options.grids) {
+    const auto margin = static_cast<float>(kGridMargin * length(extent(mesh.box)));
+    mesh.grid = build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi,
+                                     margin, mesh.closed);
+    mesh.clearance = build_clearance_grid(mesh.grid);
+    mesh.slabs = build_surface_slabs(mesh.vertices, mesh.triangles, mesh.bvh, mesh.grid,
+                                     mesh.clearance, margin);
+  }
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
-    if (options.occupancy_grid) {
-      const double diagonal = length(extent(mesh.box));
-      mesh.grid = build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi,
-                                       static_cast<float>(kGridMargin * diagonal));
-      mesh.clearance = build_clearance_grid(mesh.grid);
-    }
     if (options.isolation &&
         is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours, mesh.bvh, mesh.face_normals)) {
       mesh.isolation =

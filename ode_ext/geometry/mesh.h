@@ -15,6 +15,8 @@
 #include "geometry/isolation.h"
 #include "geometry/neighbours.h"
 #include "geometry/occupancy_grid.h"
+#include "geometry/runs.h"
+#include "geometry/surface_slabs.h"
 #include "geometry/vec.h"
 
 namespace ode_ext {
@@ -29,12 +31,12 @@ struct VertexChunk {
   Box box;
 };
 
-inline constexpr std::uint32_t kChunkVertices = 16;
+inline constexpr std::uint32_t kChunkVertices = kRunLength;
 
 // A mesh as it was built, or a shape of a deformable one: then `base` is the mesh as it was built,
 // and only the vertices, what is measured of them and the flags are the shape's own.
 struct Mesh {
-  // Vertices welded by exact equality, sorted along a space-filling curve [m], local frame.
+  // Vertices welded by exact equality, in runs (runs.h) [m], local frame.
   // Those of a shape are in the order of its base.
   std::vector<Vec3f> vertices;
   // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
@@ -62,8 +64,9 @@ struct Mesh {
   std::vector<Isolation> isolation;
 
   Bvh bvh;                          // over `triangles`
-  OccupancyGrid grid;               // of closed meshes, if asked for: the cells not outside
+  OccupancyGrid grid;               // if asked for
   ClearanceGrid clearance;          // of `grid`
+  SurfaceSlabs slabs;               // of `clearance`
   std::vector<VertexChunk> chunks;  // of `vertices`
 
   Box box{};
@@ -91,10 +94,10 @@ inline const Mesh& topology(const Mesh& mesh) { return mesh.base ? *mesh.base : 
 Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 
 struct MeshOptions {
-  float open_thickness = 0;    // [m] bounds the exits of an open mesh; 0: its mean edge
-  bool occupancy_grid = true;  // worth building for a mesh that lives for more than a step or two
-  bool isolation = true;       // likewise
-  bool deformable = false;     // implies that there is neither
+  float open_thickness = 0;  // [m] bounds the exits of an open mesh; 0: its mean edge
+  bool grids = true;         // worth building for a mesh that lives for more than a step or two
+  bool isolation = true;     // likewise
+  bool deformable = false;   // implies that there is neither
 };
 
 // Builds everything above. Throws std::bad_alloc only.

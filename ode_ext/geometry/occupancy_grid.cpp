@@ -117,11 +117,15 @@ class GridBuilder {
     }
   }
 
-  OccupancyGrid finish() {
-    grid_.bits.resize((outside_.size() + 31) / 32);
-    for (std::size_t i = 0; i < outside_.size(); ++i) {
-      if (!outside_[i]) grid_.bits[i / 32] |= 1u << (i % 32);
-    }
+  OccupancyGrid finish(bool closed) {
+    const auto packed = [](const std::vector<bool>& cells, bool value) {
+      std::vector<std::uint32_t> bits((cells.size() + 31) / 32);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (cells[i] == value) bits[i / 32] |= 1u << (i % 32);
+      return bits;
+    };
+    if (closed) grid_.bits = packed(outside_, false);
+    grid_.surface = packed(surface_, true);
     return std::move(grid_);
   }
 
@@ -160,18 +164,18 @@ class GridBuilder {
 
 OccupancyGrid build_occupancy_grid(const std::vector<Vec3f>& vertices,
                                    const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                                   Vec3f lo, Vec3f hi, float margin) {
+                                   Vec3f lo, Vec3f hi, float margin, bool closed) {
   GridBuilder builder;
   if (!builder.lay_over(lo, hi, margin, triangles.size())) return {};
   for (const auto& triangle : triangles) {
     builder.add_triangle(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]);
   }
-  builder.flood_outside();
-  return builder.finish();
+  if (closed) builder.flood_outside();
+  return builder.finish(closed);
 }
 
 bool may_be_inside(const OccupancyGrid& grid, Vec3f point) {
-  if (grid.cells[0] == 0) return true;
+  if (grid.bits.empty()) return true;
   std::size_t index = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
     const float cell = std::floor((point[axis] - grid.origin[axis]) * grid.cells_per_meter[axis]);

@@ -13,7 +13,7 @@ namespace ode_ext {
 inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
 struct WeldedMesh {
-  std::vector<Vec3f> vertices;      // each place once, along a Morton curve; -0 is stored as +0
+  std::vector<Vec3f> vertices;      // each place once, in runs (runs.h); -0 is stored as +0
   std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
   std::vector<std::uint32_t> source_triangle;
   // For each corner of the soup its vertex; kNoVertex for those of triangles that collapsed.

@@ -2,6 +2,7 @@
 #include "pipeline/device_meshes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -25,6 +26,12 @@ Vec3f half_size(const Box& box) {
           std::nextafter(h.z, INFINITY)};
 }
 
+void store_box(const Box& box, ox_chunk& record) {
+  store(record.centre, centre(box));
+  store(record.half_size, half_size(box));
+  record.radius = std::nextafter(length(half_size(box)), INFINITY);
+}
+
 // The deform step makes the rest of the records of deformable meshes.
 ox_vertex to_record(const Mesh& mesh, std::size_t i) {
   ox_vertex record{};
@@ -40,9 +47,7 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   record.first = vertex_first + chunk.first;
   record.count = chunk.count;
   if (mesh.deformable) return record;
-  store(record.centre, centre(chunk.box));
-  store(record.half_size, half_size(chunk.box));
-  record.radius = std::nextafter(length(half_size(chunk.box)), INFINITY);
+  store_box(chunk.box, record);
   for (std::uint32_t v = chunk.first; v < chunk.first + chunk.count; ++v)
     if (std::isfinite(mesh.exits[v])) record.reach = std::max(record.reach, mesh.exits[v]);
   return record;
@@ -52,10 +57,26 @@ ox_chunk to_record(const EdgeChunk& chunk, std::uint32_t edge_first) {
   ox_chunk record{};
   record.first = edge_first + chunk.first;
   record.count = chunk.count;
-  store(record.centre, centre(chunk.box));
-  store(record.half_size, half_size(chunk.box));
-  record.radius = std::nextafter(length(half_size(chunk.box)), INFINITY);
+  store_box(chunk.box, record);
   return record;
+}
+
+// For every OX_GROUP_CHUNKS of them, the last with fewer, a record that holds them all. `first`: of
+// their own records.
+template <class Chunk>
+void append_groups(const std::vector<Chunk>& chunks, std::size_t first,
+                   std::vector<ox_chunk>& records) {
+  for (std::size_t i = 0; i < chunks.size();) {
+    Box box = empty_box();
+    ox_chunk group{};
+    const std::size_t end = std::min(chunks.size(), i + OX_GROUP_CHUNKS);
+    for (; i < end; ++i) {
+      box = grown(box, chunks[i].box);
+      group.reach = std::max(group.reach, records[first + i].reach);
+    }
+    store_box(box, group);
+    records.push_back(group);
+  }
 }
 
 // A ray origin inside the box and the slab distances carry together less than 16 roundings of
@@ -101,13 +122,20 @@ std::vector<std::uint32_t> places_in_leaves(const Mesh& mesh) {
   return places;
 }
 
-void append_bytes(std::vector<ox_u32>& words, const std::vector<std::uint8_t>& bytes) {
+void append_bytes(std::vector<ox_u32>& words, const std::vector<std::int8_t>& bytes) {
   const std::size_t first = words.size();
   words.resize(first + (bytes.size() + 3) / 4);
   for (std::size_t i = 0; i < bytes.size(); ++i)
-    words[first + i / 4] |= ox_u32{bytes[i]} << (8 * (i % 4));
+    words[first + i / 4] |= ox_u32{static_cast<std::uint8_t>(bytes[i])} << (8 * (i % 4));
 }
 
+void append_slab(std::vector<ox_u32>& words, const SurfaceSlab& slab) {
+  for (const float value : {slab.normal.x, slab.normal.y, slab.normal.z, slab.lo, slab.hi})
+    words.push_back(std::bit_cast<ox_u32>(value));
+  words.push_back(slab.outside);
+}
+
+static_assert(OX_GROUP_CHUNKS == kRunsPerGroup);
 static_assert(OX_BLOCK_CELLS == kBlockCells && OX_CHUNK_VERTICES == kChunkVertices);
 
 template <class T>
@@ -224,12 +252,18 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.triangle_count = static_cast<ox_u32>(built.triangles.size());
   record.edge_chunk_first = record.chunk_first + record.chunk_count;
   record.edge_chunk_count = static_cast<ox_u32>(built.edge_chunks.size());
+  record.group_first = record.edge_chunk_first + record.edge_chunk_count;
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
   record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
-  record.block_side = built.clearance.block_side;
+  record.slab_bits_first =
+      record.clearance_first + static_cast<ox_u32>((built.clearance.steps.size() + 3) / 4);
+  record.slab_first = record.slab_bits_first + 2 * static_cast<ox_u32>(built.slabs.bits.size());
+  record.clearance_step = built.clearance.step;
+  record.slab_reach = built.slabs.reach;
   std::copy(built.grid.cells.begin(), built.grid.cells.end(), record.grid_cells);
   record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) |
                  (built.grid.bits.empty() ? 0u : OX_MESH_GRID) |
+                 (built.clearance.steps.empty() ? 0u : OX_MESH_CLEARANCE) |
                  (built.isolation.empty() ? 0u : OX_MESH_ISOLATED) |
                  (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
                  (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
@@ -248,6 +282,10 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
   append_edges(built, vertex_first);
+  if (!mesh.deformable) {
+    append_groups(built.chunks, record.chunk_first, host_chunks_);
+    append_groups(built.edge_chunks, record.edge_chunk_first, host_chunks_);
+  }
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
@@ -267,6 +305,11 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
     }
   host_grids_.insert(host_grids_.end(), built.grid.bits.begin(), built.grid.bits.end());
   append_bytes(host_grids_, built.clearance.steps);
+  for (std::size_t i = 0; i < built.slabs.bits.size(); ++i) {
+    host_grids_.push_back(built.slabs.bits[i]);
+    host_grids_.push_back(built.slabs.ranks[i]);
+  }
+  for (const SurfaceSlab& slab : built.slabs.slabs) append_slab(host_grids_, slab);
 }
 
 void DeviceMeshes::append_edges(const Mesh& mesh, std::uint32_t vertex_first) {

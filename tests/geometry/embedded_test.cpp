@@ -24,7 +24,7 @@ bool embedded(const Mesh& mesh) {
 }
 
 Mesh built(const TriangleSoup& soup) {
-  return build_mesh(soup, {.occupancy_grid = false, .isolation = false});
+  return build_mesh(soup, {.grids = false, .isolation = false});
 }
 
 // Of a closed mesh whose winding is taken as it is.

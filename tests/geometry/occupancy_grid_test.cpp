@@ -102,7 +102,7 @@ TEST(OccupancyGrid, HasAMargin) {
   const Mesh mesh = build_mesh(shapes::torus(1, 0.3, 12));
   const auto occupied = [&](float margin) {
     const OccupancyGrid grid =
-        build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi, margin);
+        build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi, margin, true);
     return may_be_inside(grid, {0.45f, 0, 0});
   };
   EXPECT_FALSE(occupied(0));
@@ -179,7 +179,7 @@ TEST(OccupancyGrid, KeepsPointsThatRoundingMovesIntoTheNextCell) {
   // A thin triangle whose tip is at, or a few floats beside, the border of two cells: whichever the
   // float arithmetic puts the tip into must be kept, without any margin.
   const Vec3f lo{0.1f, 0.1f, 0.1f}, hi{1.3f, 0.102f, 0.102f};
-  const OccupancyGrid empty = build_occupancy_grid({}, {}, lo, hi, 0);
+  const OccupancyGrid empty = build_occupancy_grid({}, {}, lo, hi, 0, true);
   for (std::uint32_t k = 1; k < empty.cells[0]; k += 7) {
     float x = empty.origin.x + static_cast<float>(k) / empty.cells_per_meter.x;
     for (int step = 0; step < 6; ++step) x = std::nextafter(x, 0.0f);
@@ -188,17 +188,21 @@ TEST(OccupancyGrid, KeepsPointsThatRoundingMovesIntoTheNextCell) {
         const Vec3f tip{x, 0.101f, 0.101f};
         const std::vector<Vec3f> vertices{tip, tip + Vec3f{direction, 1e-3f, 0},
                                           tip + Vec3f{direction, 0, 1e-3f}};
-        const OccupancyGrid grid = build_occupancy_grid(vertices, {{0, 1, 2}}, lo, hi, 0);
+        const OccupancyGrid grid = build_occupancy_grid(vertices, {{0, 1, 2}}, lo, hi, 0, true);
         EXPECT_TRUE(may_be_inside(grid, tip)) << k << " " << step << " " << direction;
       }
     }
   }
 }
 
-TEST(OccupancyGrid, IsOnlyThereForClosedMeshesOfAMeasurableSize) {
-  const OccupancyGrid none = build_mesh(shapes::sheet(3)).grid;
-  EXPECT_EQ(none.cells[0], 0u);
-  EXPECT_TRUE(may_be_inside(none, {1e6f, 0, 0}));
+TEST(OccupancyGrid, OfAnOpenMeshKnowsItsSurfaceButNoInside) {
+  const OccupancyGrid open = build_mesh(shapes::sheet(3)).grid;
+  EXPECT_TRUE(open.bits.empty());
+  EXPECT_FALSE(open.surface.empty());
+  EXPECT_TRUE(may_be_inside(open, {1e6f, 0, 0}));
+}
+
+TEST(OccupancyGrid, IsOnlyThereForMeshesOfAMeasurableSize) {
   for (const float scale : {1e-35f, 1e35f}) {
     const Mesh mesh = build_mesh(shapes::moved(shapes::cube(), scale, {}));
     EXPECT_TRUE(mesh.closed);

@@ -57,7 +57,7 @@ RC_GTEST_PROP(MeshProperty, IsWholeForAnySoup, ()) {
   RC_ASSERT(mesh.exits.size() == mesh.vertices.size());
   RC_ASSERT(mesh.face_normals.size() == mesh.triangles.size());
   RC_ASSERT(mesh.source_triangle.size() == mesh.triangles.size());
-  RC_ASSERT((mesh.grid.cells[0] > 0) == mesh.closed);
+  RC_ASSERT(mesh.grid.bits.empty() == !mesh.closed);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const float norm = length(mesh.normals[i]);
     RC_ASSERT(norm == 0 || std::fabs(norm - 1) < 1e-6f);

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "geometry/triangle_distance.h"
 #include "pipeline/oriented_box.h"
 #include "pipeline/rig.h"
 #include "support/fcl_oracle.h"
@@ -128,6 +129,29 @@ bool has_vertex_inside(const TestScene& scene, std::size_t pair, std::size_t sid
   return false;
 }
 
+// Whether the ray of a vertex of the chunk meets the open target within its exit.
+bool has_ray_that_meets(const TestScene& scene, std::size_t pair, std::size_t side,
+                        const VertexChunk& chunk) {
+  const Mesh& source = scene.built_mesh_of(pair, side);
+  const Mesh& target = scene.built_mesh_of(pair, 1 - side);
+  const TestPose &ps = scene.pose_of(pair, side), &pt = scene.pose_of(pair, 1 - side);
+  const auto in_target = [&](Vec3d p) {
+    const Point q = rotate_back(pt, rotate(ps, {p.x, p.y, p.z}) + (ps.position - pt.position));
+    return Vec3d{q[0], q[1], q[2]};
+  };
+  for (std::uint32_t v = chunk.first; v < chunk.first + chunk.count; ++v) {
+    if (!std::isfinite(source.exits[v])) continue;
+    const Vec3d from(source.vertices[v]);
+    const Vec3d to = from - double{source.exits[v]} * Vec3d(source.normals[v]);
+    const Segment ray{in_target(from), in_target(to)};
+    for (const Triangle& t : target.triangles)
+      if (crosses(ray, {Vec3d(target.vertices[t[0]]), Vec3d(target.vertices[t[1]]),
+                        Vec3d(target.vertices[t[2]])}))
+        return true;
+  }
+  return false;
+}
+
 double longest_exit(const Mesh& mesh, const VertexChunk& chunk) {
   double longest = 0;
   for (std::uint32_t v = chunk.first; v < chunk.first + chunk.count; ++v)
@@ -152,12 +176,22 @@ Tasks tasks_of(const TestScene& scene, const std::vector<ox_pair>& pairs) {
         for (const Point& axis : whole.axes) apart = std::max(apart, gap_along(box, whole, axis));
         if (!target.closed) apart -= longest_exit(source, chunk);  // its rays reach beyond it
         if (gap < 2 * epsilon && apart < 2 * epsilon) tasks.possible.insert({i, side, k});
-        if (gap < 0 && apart < 0 && (!target.closed || has_vertex_inside(scene, i, side, chunk)))
+        if (gap < 0 && apart < 0 &&
+            (target.closed ? has_vertex_inside(scene, i, side, chunk)
+                           : has_ray_that_meets(scene, i, side, chunk)))
           tasks.certain.insert({i, side, k});
       }
     }
   }
   return tasks;
+}
+
+// How many records of chunks a rigid mesh has: its runs, and groups of them.
+std::uint32_t records_of(const Mesh& mesh) {
+  const auto with_groups = [](std::size_t runs) {
+    return static_cast<std::uint32_t>(runs + (runs + kRunsPerGroup - 1) / kRunsPerGroup);
+  };
+  return with_groups(mesh.chunks.size()) + with_groups(mesh.edge_chunks.size());
 }
 
 TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {
@@ -175,8 +209,7 @@ TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {
   std::set<Task> tasks;
   std::vector<std::uint32_t> chunk_first{0};
   for (const auto& mesh : scene.scene.meshes)
-    chunk_first.push_back(chunk_first.back() + static_cast<std::uint32_t>(
-                                                   mesh->chunks.size() + mesh->edge_chunks.size()));
+    chunk_first.push_back(chunk_first.back() + records_of(*mesh));
   for (const ox_chunk_task& task : records.tasks) {
     const std::size_t pair = task.pair_side >> 1;
     const std::uint32_t side = task.pair_side & 1;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How near to the surface of a mesh something may come: by the clearance grid, and where it knows
+// too little by the slab at the block. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_NEAR_SURFACE_H
+#define ODE_EXT_KERNELS_SHARED_NEAR_SURFACE_H
+
+#include "shared/transform.h"
+
+// Where a point is in the grids of a mesh.
+typedef struct {
+  uint block;     // the nearest one
+  float3 within;  // [m] of the nearest point of the grid, from the middle of the block
+  float within2;  // the same, squared, in steps of the clearance
+  float beyond2;  // how far it is from there to the point, likewise; 0: the point is in the grid
+} ox_grid_place;
+
+static inline ox_grid_place ox_place_in_grid(__global const ox_mesh* mesh, float3 p) {
+  const float point[3] = {p.x, p.y, p.z};
+  float within[3];
+  ox_grid_place place;
+  place.block = 0u;
+  place.within2 = 0.0f;
+  place.beyond2 = 0.0f;
+  const float steps_per_metre = 1.0f / mesh->clearance_step;
+  for (uint axis = 3u; axis-- > 0u;) {
+    const uint cells = mesh->grid_cells[axis];
+    const float side = 1.0f / mesh->grid_scale[axis];
+    const float cell = (point[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
+    const float nearest = ox_min(ox_max(cell, 0.0f), (float)cells);
+    const uint blocks = (cells + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
+    const uint at = (uint)nearest / OX_BLOCK_CELLS;
+    const uint block = at < blocks ? at : blocks - 1u;
+    within[axis] = (nearest - (float)(block * OX_BLOCK_CELLS + OX_BLOCK_CELLS / 2u)) * side;
+    const float steps = within[axis] * steps_per_metre;
+    place.within2 += steps * steps;
+    // Bounded, so that its square is finite; what is nearer than it is still is.
+    const float beyond = ox_min(fabs(cell - nearest) * side * steps_per_metre, 1e18f);
+    place.beyond2 += beyond * beyond;
+    place.block = place.block * blocks + block;
+  }
+  place.within = (float3)(within[0], within[1], within[2]);
+  return place;
+}
+
+// No point within the absolute value of this [m] is on the surface of the mesh. Positive outside,
+// so that none within it is inside either. As clearance() on the host (geometry/clearance_grid.h).
+static inline float ox_clearance(__global const ox_mesh* mesh, __global const uint* grids,
+                                 const ox_grid_place* place) {
+  const uint word = grids[mesh->clearance_first + (place->block >> 2)];
+  const float steps = (float)(char)(word >> 8u * (place->block & 3u) & 255u);
+  const float known = ox_max(fabs(steps) - sqrt(place->within2), 0.0f);
+  if (place->beyond2 == 0.0f) return (steps < 0.0f ? -known : known) * mesh->clearance_step;
+  return sqrt(place->beyond2 + known * known) * mesh->clearance_step;
+}
+
+// The word of the slab at a place, for what is within `radius` of it; OX_NONE: none is known.
+static inline uint ox_find_slab(__global const ox_mesh* mesh, __global const uint* grids,
+                                const ox_grid_place* place, float radius) {
+  if (!(radius <= mesh->slab_reach) || place->beyond2 != 0.0f) return OX_NONE;
+  const uint word = mesh->slab_bits_first + 2u * (place->block >> 5);
+  const uint bit = 1u << (place->block & 31u);
+  const uint bits = grids[word];
+  if ((bits & bit) == 0u) return OX_NONE;
+  const uint rank = grids[word + 1u] + popcount(bits & (bit - 1u));
+  return mesh->slab_first + OX_SLAB_WORDS * rank;
+}
+
+static inline float3 ox_slab_normal(__global const uint* slab) {
+  return (float3)(as_float(slab[0]), as_float(slab[1]), as_float(slab[2]));
+}
+
+// Whether what reaches so far along the normal, from `height`, is apart from the slab; `below` too,
+// or only where that is outside.
+static inline bool ox_clears_slab(__global const uint* slab, float height, float reach,
+                                  bool below) {
+  const bool above = height - reach > as_float(slab[4]);
+  return below ? above || height + reach < as_float(slab[3]) : above && slab[5] != 0u;
+}
+
+// Whether the surface of the mesh may come within `radius` of a point.
+static inline bool ox_may_near_surface(__global const ox_mesh* mesh, __global const uint* grids,
+                                       float3 p, float radius) {
+  if ((mesh->flags & OX_MESH_CLEARANCE) == 0u) return true;
+  const ox_grid_place place = ox_place_in_grid(mesh, p);
+  if (fabs(ox_clearance(mesh, grids, &place)) > radius) return false;
+  const uint slab = ox_find_slab(mesh, grids, &place, radius);
+  return slab == OX_NONE ||
+         !ox_clears_slab(grids + slab, ox_dot(ox_slab_normal(grids + slab), place.within), radius,
+                         true);
+}
+
+#endif

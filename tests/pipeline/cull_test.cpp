@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the grids of a mesh dismiss may change how much work is done, and nothing else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "pipeline/collider.h"
+#include "pipeline/rig.h"
+#include "pipeline/test_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+// Hills of large triangles, the top of a closed slab or a sheet alone.
+TestMesh hills(bool closed) {
+  TestMesh mesh = closed ? make_box({8, 8, 1}, 16, 16, 1) : make_sheet(8, 16);
+  const float top = closed ? 0.5f : 0;
+  for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3)
+    if (mesh.vertices[i + 2] == top)
+      mesh.vertices[i + 2] +=
+          0.2f * std::sin(1.5f * mesh.vertices[i]) * std::cos(mesh.vertices[i + 1]);
+  return mesh;
+}
+
+// Fine bodies, open and closed, on hills and on one another, most of them at the surface.
+TestScene scene_of(std::uint64_t seed) {
+  TestScene scene;
+  scene.add_mesh(hills(true));
+  scene.add_mesh(hills(false));
+  scene.add_mesh(jittered(make_icosphere(0.4, 3), 0.002, 1));
+  scene.add_mesh(jittered(make_torus(0.4, 0.12, 24, 12), 0.002, 2));
+  scene.add_mesh(make_plate(0.7, 0.02, 8));
+  scene.add_mesh(make_sheet(0.8, 10));
+  scene.add_mesh(make_cube(0.5));
+  Random random(seed);
+  for (int i = 0; i < 240; ++i) {
+    TestPose body = random.pose(0.5);
+    const auto kind = 2 + static_cast<std::uint32_t>(random.below(5));
+    const auto other = static_cast<std::uint32_t>(random.below(7));
+    if (other < 2) {  // over or in the ground
+      body.position = {random.uniform(-3.5, 3.5), random.uniform(-3.5, 3.5),
+                       (other == 0 ? 0.5 : 0) + random.uniform(-0.4, 0.7)};
+      scene.add_pair(kind, body, other, TestPose{});
+    } else {
+      scene.add_pair(kind, body, other, random.pose(0.5));
+    }
+  }
+  return scene;
+}
+
+// The same without grids.
+Scene stripped(const TestScene& scene) {
+  Scene result = scene.scene;
+  for (std::size_t i = 0; i < result.meshes.size(); ++i)
+    result.meshes[i] =
+        std::make_shared<const Mesh>(build_mesh(soup_of(scene.meshes[i]), {.grids = false}));
+  return result;
+}
+
+std::vector<ContactBits> collide(const Scene& scene, const ColliderOptions& options,
+                                 StepReport& report) {
+  Collider collider(options);
+  std::vector<ContactBits> bits;
+  for (const Contact& contact : collider.collide(scene, nullptr).contacts)
+    bits.push_back(bits_of(contact));
+  report = collider.report();
+  return bits;
+}
+
+std::uint64_t count_of(const StepReport& report, Arrow arrow) {
+  return report.actual[static_cast<std::size_t>(arrow)];
+}
+
+TEST(Cull, ChangesNoContact) {
+  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic})
+    for (const std::uint64_t seed : {71u, 72u}) {
+      const TestScene scene = scene_of(seed);
+      ColliderOptions options;
+      options.organisation = organisation;
+      StepReport with, without;
+      const auto contacts = collide(scene.scene, options, with);
+      EXPECT_EQ(contacts, collide(stripped(scene), options, without));
+      EXPECT_GT(contacts.size(), 500u);
+      EXPECT_EQ(count_of(with, Arrow::kHits), count_of(without, Arrow::kHits));
+      EXPECT_EQ(count_of(with, Arrow::kCrossings), count_of(without, Arrow::kCrossings));
+    }
+}
+
+// In a valley, within the box of the hills and 12 cm above them: two cells.
+TEST(Cull, LeavesNoRayToABodyJustAboveHills) {
+  for (const bool closed : {true, false}) {
+    const TestScene scene =
+        one_pair(jittered(make_icosphere(0.1, 3), 0.001, 1),
+                 at(-std::numbers::pi / 3, 0, (closed ? 0.5 : 0) - 0.2 + 0.12 + 0.1), hills(closed),
+                 TestPose{});
+    StepReport with, without;
+    collide(scene.scene, {}, with);
+    collide(stripped(scene), {}, without);
+    EXPECT_EQ(with.pairs_bounded, 1u);
+    // The rays of vertices are as long as the body is thick: at an open target they are cast.
+    if (closed) {
+      EXPECT_EQ(count_of(with, Arrow::kRaysBvh), 0u);
+    }
+    // Some edges of the hills are as long as the body is wide, and so are the balls about them.
+    EXPECT_LT(count_of(with, Arrow::kRaysEdges), 20u);
+    EXPECT_GT(count_of(without, Arrow::kRaysEdges), 1000u);
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
