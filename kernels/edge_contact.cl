@@ -7,9 +7,8 @@
 // item  1 crossing; 1 pair (grid-stride)
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
-#include "shared/edge_axis.h"
+#include "shared/deep_parts.h"
 #include "shared/spokesmen.h"
-#include "shared/way_out.h"
 
 // in: crossings. out: those of each pair together, as they are needed, and per pair room for an
 // order and a queue of them. item: 1 crossing.
@@ -123,26 +122,17 @@ static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
       continue;
     __global ox_edge_crossing* end = p->crossings + c->other;
     if (end->other != p->order[k]) continue;
-    const ox_wedge wedge = ox_wedge_of(p, c);
-    if (wedge.faces != 2u) continue;
-    const float3 outward = wedge.normal[0] + wedge.normal[1];
-    const float length2 = ox_dot(outward, outward);
-    if (!ox_supports(&wedge, outward) || length2 < 1.0e-6f) continue;  // concave, or back to back
-    const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
-    const float3 inward = -outward / sqrt(length2);
-    const ox_nearest exit = ox_look(p, 1u - side, middle, inward, nodes);
-    if (!(exit.back_t < exit.front_t)) continue;
+    ox_middle middle;
     // As for vertices, not beyond where it leaves its own mesh.
-    const ox_nearest own = ox_look(p, side, middle, inward, nodes);
-    if (own.back_t < own.front_t && exit.back_t > own.back_t + p->pair->epsilon) continue;
-    const uint face = exit.back;
-    const ox_way_out way = ox_through(p, side, face);
-    const float depth = ox_depth_below(&way, middle);
-    if (!(depth > 1.5f * ox_max(c->paired, end->paired)) ||
-        !(depth <= wedge.chord[1] - wedge.chord[0]) || !(depth > p->pair->epsilon) ||
-        ox_dot(way.normal, outward) > 0.0f)
+    if (!ox_look_from_middle(p, c, nodes, &middle) ||
+        middle.exit_t > middle.own_t + p->pair->epsilon)
       continue;
-    ox_add_point(p, side, p->edges[c->edge].triangle[0], face, c->region, middle,
+    const ox_way_out way = ox_through(p, side, middle.exit);
+    const float depth = ox_depth_below(&way, middle.position);
+    if (!(depth > 1.5f * ox_max(c->paired, end->paired)) || !(depth <= fabs(c->other_t - c->t)) ||
+        !(depth > p->pair->epsilon) || ox_dot(way.normal, middle.inward) < 0.0f)
+      continue;
+    ox_add_point(p, side, p->edges[c->edge].triangle[0], middle.exit, c->region, middle.position,
                  side == 0u ? way.normal : -way.normal, depth);
   }
 }
@@ -291,61 +281,17 @@ static void ox_admit_touching(const ox_edge_pair* p) {
   for (uint i = 0u; i < p->candidate_count; ++i) p->candidates[i].distance2 = INFINITY;
 }
 
-// A vertex beyond its own exit, and not because surfaces run along one another (nearest.h).
-static bool ox_is_deep(const ox_edge_pair* p, uint i, uint side) {
-  return ox_is_fallback(p, i, side) &&
-         p->candidates[i].t > p->vertices[p->candidates[i].vertex].exit + 2.0f * p->pair->epsilon;
-}
-
-// Whether the way out that some contact says leads this vertex out as well. Its plane is only as
-// wide as the part is thick, twice: farther off nothing is known of the surface it stands for.
-static bool ox_is_led_out(const ox_edge_pair* p, uint i, uint side) {
-  const float3 vertex = vload3(0, p->candidates[i].position);
-  for (uint k = 0u; k < p->candidate_count; ++k) {
-    __global const ox_candidate* d = p->candidates + k;
-    if ((d->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
-    const bool same_side = ((d->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u);
-    const float3 away = vload3(0, d->position) - vertex;
-    const float reach = 2.0f * ox_max(d->depth, p->vertices[p->candidates[i].vertex].exit);
-    if (ox_dot(away, away) > reach * reach) continue;
-    float3 out = vload3(0, d->normal);
-    if (side != 0u) out = -out;
-    // The target's surface there: the face it leaves through, or that about the target's vertex.
-    float3 surface = vload3(0, d->position);
-    float3 normal = out;
-    if (same_side) {
-      surface += d->depth * out;
-    } else if ((d->side_kind & OX_HIT_POINT) == 0u) {
-      normal = -vload3(0, p->vertices[d->vertex].direction);
-      if (side == 1u) normal = ox_turn(p->pair, 0u, normal);  // the target is A
-    }
-    if (ox_dot(surface - vertex, normal) <= 1.1f * d->depth * ox_dot(out, normal)) return true;
-  }
-  return false;
-}
-
-// Whether a chord of the region ends in such a vertex.
-static bool ox_ends_deep(const ox_edge_pair* p, uint region, uint side) {
-  for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + k;
-    const uint vertex = c->region == region && ox_side(c) == side ? ox_inner_vertex(p, c) : OX_NONE;
-    for (uint i = 0u; i < p->candidate_count && vertex != OX_NONE; ++i)
-      if (p->candidates[i].vertex == vertex && ox_is_deep(p, i, side)) return true;
-  }
-  return false;
-}
-
 // Thin parts deep in the target (a plate in a block): the vertices that know a way out, those near
 // a face that the part cuts, lead the others nowhere. The face below which all of it is least deep
 // does.
 static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
   for (uint side = 0u; side < 2u; ++side) {
-    uint deep = 0u;
-    for (uint i = 0u; i < p->candidate_count; ++i)
-      if (ox_is_deep(p, i, side) && !ox_is_led_out(p, i, side)) ++deep;
-    if (deep == 0u) continue;
+    // First all are found, then led out: what leads one out may lead out others, and their order is
+    // that of the hits.
+    ox_mark_deep_vertices(p, side);
+    ox_mark_deep_chords(p, side, nodes);
     for (uint region = 0u; region < p->regions; ++region)
-      if (ox_ends_deep(p, region, side)) ox_lead_region_out(p, region, true, nodes);
+      if (ox_take_mark(p, region)) ox_lead_region_out(p, region, true, nodes);
   }
 }
 

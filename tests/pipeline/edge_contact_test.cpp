@@ -194,6 +194,31 @@ TEST(EdgeContacts, LeadAPlateThatStandsDeepInABlockBackUp) {
   }
 }
 
+// A level plate, 5 mm thick, 10 mm below the top of a block, whose end reaches askew across the rim
+// from a corner just inside one side to beyond the next side. The corner, and where it is finely
+// cut its neighbours, leave by the side; the rest of the end is led out by none but the top.
+Placed plate_in_rim(const Point& middle, double angle, int cells) {
+  return {make_box({0.3, 0.15, 0.005}, 2 * cells, cells), make_cube(0.2, cells),
+          turned({0, 0, 1}, angle, middle), at(0, 0, 0)};
+}
+
+void expect_led_up(const Placed& plate) {
+  for (const TestPose& frame : frames()) {
+    const auto found = plate.contacts(frame);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found[0].depth, 0.01, plate.tolerance(frame));
+    EXPECT_NEAR(found[0].normal.z, 1, 1e-6);
+  }
+}
+
+TEST(EdgeContacts, LeadALongEdgeOutThatRunsDeepFromAVertexThatIsNot) {
+  expect_led_up(plate_in_rim({0.2265, 0.08538, 0.0925}, 0.219, 1));
+}
+
+TEST(EdgeContacts, LeadVerticesOutThatAreDeepWhereNoEdgeCrosses) {
+  expect_led_up(plate_in_rim({0.23309, -0.00541, 0.0925}, -0.2368, 5));
+}
+
 TEST(EdgeContacts, OfCubesThatCoincideDoNotOpposeOneAnother) {
   Random random(82);
   for (const double slip : {0.0, 1e-9, 1e-6, 1e-3}) {

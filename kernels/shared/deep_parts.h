@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thin parts deep in the target: what is farther from the target's surface than from the other side
+// of its own mesh, and that no contact leads out. Frame of B. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_DEEP_PARTS_H
+#define ODE_EXT_KERNELS_SHARED_DEEP_PARTS_H
+
+#include "shared/edge_axis.h"
+#include "shared/pair_hits.h"
+#include "shared/way_out.h"
+
+// Beside 1u in ox_edge_crossing::covered.
+#define OX_DEEP 2u  // its region has such a part
+
+// A vertex beyond its own exit, and not because surfaces run along one another (nearest.h).
+static inline bool ox_is_deep(const ox_edge_pair* p, uint i, uint side) {
+  return ox_is_fallback(p, i, side) &&
+         p->candidates[i].t > p->vertices[p->candidates[i].vertex].exit + 2.0f * p->pair->epsilon;
+}
+
+// Whether the way out that some contact says leads a point of the source out as well; exit: how
+// thick the source is there.
+static inline bool ox_is_led_out(const ox_edge_pair* p, uint side, float3 point, float exit) {
+  for (uint k = 0u; k < p->candidate_count; ++k) {
+    __global const ox_candidate* d = p->candidates + k;
+    if ((d->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
+    const bool same_side = ((d->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u);
+    // Its plane is only as wide as the part is thick, twice: farther off nothing is known of the
+    // surface it stands for.
+    const float3 away = vload3(0, d->position) - point;
+    const float reach = 2.0f * ox_max(d->depth, exit);
+    if (ox_dot(away, away) > reach * reach) continue;
+    float3 out = vload3(0, d->normal);
+    if (side != 0u) out = -out;
+    // The target's surface there: the face it leaves through, or that about the target's vertex.
+    float3 surface = vload3(0, d->position);
+    float3 normal = out;
+    if (same_side) {
+      surface += d->depth * out;
+    } else if ((d->side_kind & OX_HIT_POINT) == 0u) {
+      normal = -vload3(0, p->vertices[d->vertex].direction);
+      if (side == 1u) normal = ox_turn(p->pair, 0u, normal);  // the target is A
+    }
+    if (ox_dot(surface - point, normal) <= 1.1f * d->depth * ox_dot(out, normal)) return true;
+  }
+  return false;
+}
+
+// A crossing of the region that a vertex inside is in: one of a chord that ends there, or else (all
+// edges at it are inside, or in a facet) the nearest.
+static inline uint ox_crossing_near(const ox_edge_pair* p, uint side, uint i) {
+  const float3 point = vload3(0, p->candidates[i].position);
+  uint nearest = OX_NONE;
+  float least = INFINITY;
+  for (uint k = 0u; k < p->count;
+       ++k) {  // in order, so that the first of equals is always the same
+    __global const ox_edge_crossing* c = p->crossings + p->order[k];
+    if (ox_side(c) == side && ox_inner_vertex(p, c) == p->candidates[i].vertex) return p->order[k];
+    const float3 away = vload3(0, c->position) - point;
+    if (!(ox_dot(away, away) < least)) continue;
+    least = ox_dot(away, away);
+    nearest = p->order[k];
+  }
+  return nearest;
+}
+
+static inline void ox_mark_deep_vertices(const ox_edge_pair* p, uint side) {
+  for (uint i = 0u; i < p->candidate_count; ++i) {
+    if (!ox_is_deep(p, i, side) || ox_is_led_out(p, side, vload3(0, p->candidates[i].position),
+                                                 p->vertices[p->candidates[i].vertex].exit))
+      continue;
+    const uint near = ox_crossing_near(p, side, i);
+    if (near != OX_NONE) p->crossings[near].covered |= OX_DEEP;
+  }
+}
+
+// The middle of a chord, looked at as if it were a vertex.
+typedef struct {
+  float3 position, inward;  // inward: unit
+  uint exit;                // the face of the target that a ray inward meets
+  float exit_t, own_t;      // [m] how far off that is; where the ray leaves its own mesh
+} ox_middle;
+
+// False: it is not inside, or the edge is concave and has no direction inward.
+static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_edge_crossing* c,
+                                       __global const ox_node* nodes, ox_middle* middle) {
+  const uint side = ox_side(c);
+  const ox_wedge wedge = ox_wedge_of(p, c);
+  if (wedge.faces != 2u) return false;
+  const float3 outward = wedge.normal[0] + wedge.normal[1];
+  const float length2 = ox_dot(outward, outward);
+  if (!ox_supports(&wedge, outward) || length2 < 1.0e-6f) return false;  // concave, or back to back
+  middle->position = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
+  middle->inward = -outward / sqrt(length2);
+  const ox_nearest exit = ox_look(p, 1u - side, middle->position, middle->inward, nodes);
+  if (!(exit.back_t < exit.front_t)) return false;
+  const ox_nearest own = ox_look(p, side, middle->position, middle->inward, nodes);
+  middle->exit = exit.back;
+  middle->exit_t = exit.back_t;
+  middle->own_t = own.back_t < own.front_t ? own.back_t : INFINITY;
+  return true;
+}
+
+// A long edge of a thin part runs deep through the target between ends that are not: the rim of a
+// plate that sticks out of the block's far side, say, while its corner is near another. Where the
+// part is cut finely it has deep vertices there.
+static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side,
+                                       __global const ox_node* nodes) {
+  if ((p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u) return;
+  for (uint k = 0u; k < p->count; ++k) {
+    __global ox_edge_crossing* c = p->crossings + p->order[k];
+    if (ox_side(c) != side || (c->leaves != 0u && c->other != OX_NONE)) continue;
+    // Mostly some contacts lead out both ends, and what is between them with them. How thick the
+    // source is there is not asked: that would take a ray for every chord.
+    if (ox_is_led_out(p, side, ox_chord_end(p, c, 0u), INFINITY) &&
+        ox_is_led_out(p, side, ox_chord_end(p, c, 1u), INFINITY))
+      continue;
+    ox_middle middle;
+    if (ox_look_from_middle(p, c, nodes, &middle) &&
+        middle.exit_t > middle.own_t + 2.0f * p->pair->epsilon)
+      c->covered |= OX_DEEP;
+  }
+}
+
+// Whether a part of the region was marked; no more then.
+static inline bool ox_take_mark(const ox_edge_pair* p, uint region) {
+  bool marked = false;
+  for (uint i = 0u; i < p->count; ++i) {
+    __global ox_edge_crossing* c = p->crossings + i;
+    if (c->region != region || (c->covered & OX_DEEP) == 0u) continue;
+    c->covered &= ~OX_DEEP;
+    marked = true;
+  }
+  return marked;
+}
+
+#endif
