@@ -159,23 +159,26 @@ static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint 
 }
 
 // Two contacts contradict one another if they push opposite ways and a way out by one of them leads
-// deeper into the other: what lies between their places along the normal is less than their depth.
-// (A peg between two walls has opposite contacts too, but as far apart as it is thick.) The shorter
-// way out stands. Equal bodies in one place have as many ways out as faces; then the order decides.
-static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b) {
+// deeper into the other: what lies between their places along the normal is not more than their
+// depth, to within rounding: where boxes in line are half inside one another, and in equal bodies
+// in one place, it is the same length. (A peg between two walls has opposite contacts too, but as
+// far apart as it is thick.) The shorter way out stands. Equal bodies in one place have as many
+// ways out as faces; then the order decides.
+static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b,
+                           float epsilon) {
   const float3 normal = vload3(0, a->normal);
   if (ox_dot(normal, vload3(0, b->normal)) > -0.5f) return false;
   const float apart = ox_dot(vload3(0, a->position) - vload3(0, b->position), normal);
-  return fabs(apart) < ox_max(a->depth, b->depth);
+  return fabs(apart) <= ox_max(a->depth, b->depth) + epsilon;
 }
 
 static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, uint kind,
-                               uint candidate) {
+                               float epsilon, uint candidate) {
   __global ox_candidate* c = candidates + candidate;
   for (uint k = 0u; k < count; ++k) {
     __global const ox_candidate* d = candidates + k;
     if (k == candidate || ox_kind(d) != kind || d->patch == OX_DROPPED || !ox_deeper(c, d) ||
-        !ox_contradicts(c, d))
+        !ox_contradicts(c, d, epsilon))
       continue;
     c->patch = OX_DROPPED;
     return true;
@@ -191,7 +194,7 @@ static bool ox_is_near(__global const ox_candidate* candidates, uint candidate, 
 }
 
 // edges: every region has a contact, and what lies beyond a source's exit says nothing more.
-static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2,
+static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge2, float epsilon,
                       uint max_contacts, bool edges, uint* taken) {
   // Contacts within the source's exit say most; those beyond it speak only where there are none,
   // and touches only where a pair has nothing else.
@@ -206,16 +209,17 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_deeper(candidates + i, candidates + best)))
         best = i;
     if (best == count) break;
-    if (edges && ox_is_contradicted(candidates, count, kind, best)) continue;
+    if (edges && ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
     ox_open_patch(candidates, count, best, n);
     if (edges) ox_mark_outline(candidates, count, kind, n, best);
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
-  while (n < max_contacts) {  // what alone speaks for a region
+  while (n < max_contacts) {  // what alone speaks for a region; touches do not, as above
     uint best = count;
     for (uint i = 0u; i < count; ++i)
-      if (ox_is_left(candidates + i) && candidates[i].region != OX_NONE &&
+      if (ox_is_left(candidates + i) && ox_kind(candidates + i) == kind &&
+          candidates[i].region != OX_NONE &&
           (best == count || ox_deeper(candidates + i, candidates + best)))
         best = i;
     if (best == count) break;
@@ -223,6 +227,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
       candidates[best].region = OX_NONE;
       continue;
     }
+    if (ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
@@ -234,7 +239,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
           (best == count || ox_farther(candidates + i, candidates + best)))
         best = i;
     if (best == count || candidates[best].distance2 <= merge2) break;
-    if (edges && ox_is_contradicted(candidates, count, kind, best)) continue;
+    if (edges && ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
@@ -313,7 +318,8 @@ __kernel void contact_reduce(__global volatile uint* counters, __global const ox
     // Contacts closer than 2 % of the smaller mesh's radius hold it up no better than one.
     const float merge = 0.02f * ox_min(a->radius, b->radius);
     uint taken[OX_MAX_CONTACTS];
-    const uint n = ox_reduce(mine, count, merge * merge, deformable ? max_deformable : max_contacts,
+    const uint n = ox_reduce(mine, count, merge * merge, pairs[p].epsilon,
+                             deformable ? max_deformable : max_contacts,
                              (rays_mode & OX_RAYS_EDGES) != 0u, taken);
     const uint room = ox_place_contacts(counters, lists, n, pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
