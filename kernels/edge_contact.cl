@@ -8,6 +8,7 @@
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/deep_parts.h"
+#include "shared/exit_edge.h"
 #include "shared/spokesmen.h"
 
 // in: crossings. out: those of each pair together, as they are needed, and per pair room for an
@@ -124,7 +125,7 @@ static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
     if (end->other != p->order[k]) continue;
     ox_middle middle;
     // As for vertices, not beyond where it leaves its own mesh.
-    if (!ox_look_from_middle(p, c, nodes, &middle) ||
+    if (!ox_look_from_middle(p, c, nodes, &middle) || middle.on_surface ||
         middle.exit_t > middle.own_t + p->pair->epsilon)
       continue;
     const ox_way_out way = ox_through(p, side, middle.exit);
@@ -358,6 +359,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.candidates = candidates + pair_segments[i];
     pair.candidate_count = pair_hits[i];
     pair.most_candidates = pair_hits[i] + OX_POINTS_PER_CROSSING * crossed;
+    ox_choose_exits(&pair);
     if (crossed == 0u) {
       ox_drop_apart(&pair);
       for (uint side = 0u; side < 2u; ++side) {

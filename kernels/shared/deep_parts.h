@@ -78,6 +78,7 @@ typedef struct {
   float3 position, inward;  // inward: unit
   uint exit;                // the face of the target that a ray inward meets
   float exit_t, own_t;      // [m] how far off that is; where the ray leaves its own mesh
+  bool on_surface;          // of the target, and inside as rounding has it
 } ox_middle;
 
 // False: it is not inside, or the edge is concave and has no direction inward.
@@ -95,6 +96,7 @@ static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_
   if (!(exit.back_t < exit.front_t)) return false;
   const ox_nearest own = ox_look(p, side, middle->position, middle->inward, nodes);
   middle->exit = exit.back;
+  middle->on_surface = exit.entered;
   middle->exit_t = exit.back_t;
   middle->own_t = own.back_t < own.front_t ? own.back_t : INFINITY;
   return true;

@@ -258,6 +258,22 @@ TEST(EdgeContacts, OfEqualBricksInOnePlaceAreNoTouchesAtOppositeEnds) {
   expect_none_opposed({brick, brick, at(0, 0, 0), at(0, 0, 0)}, frames(60));
 }
 
+// The rays from two corners of the small box leave both boxes at the edge they share. Through one
+// of the large one's faces there they are 0.18 deep, through the other 0.68; two corners are deeper
+// below the former, and out they all go that way.
+TEST(EdgeContacts, OfBoxesThatShareAnEdgeAreNotDeeperThanTheShorterWayThroughIt) {
+  const double angle = -5 * std::numbers::pi / 6;
+  TestPose pose = composed(turned({0, 1, 0}, angle), at(0.25, 0, 0.25));
+  pose.position = pose.position + Point{0.5, 0, 0.5};
+  const Placed boxes{make_cube(0.5), make_cube(1), pose, at(0, 0, 0)};
+  const double depth = 0.5 * std::sin(kRight / 1.5);
+  for (const TestPose& frame : frames()) {
+    const auto found = boxes.contacts(frame);
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(found[0].depth, depth, boxes.tolerance(frame));
+  }
+}
+
 // What decides how long a step takes must not decide what it gives.
 TEST(EdgeContacts, AreTheSameBytesInEveryMode) {
   std::vector<TestMesh> meshes = small_meshes();
