@@ -26,8 +26,7 @@ static inline bool ox_chunk_may_near(__global const ox_pair* pair, uint side,
   const float more = pair->epsilon + reach;
   const float radius = chunk->radius + more;
   const ox_grid_place place = ox_place_in_grid(target, middle);
-  const float clearance = ox_clearance(target, grids, &place);
-  if ((solid ? clearance : fabs(clearance)) > radius) return false;
+  if (ox_is_clear(target, grids, &place, radius, solid)) return false;
   const uint slab = ox_find_slab(target, grids, &place, radius);
   if (slab == OX_NONE) return true;
   const float3 normal = ox_slab_normal(grids + slab);

@@ -21,6 +21,6 @@ typedef struct {
   ox_f32 on_surface;        // where a ray from a vertex begins [m]
   ox_u32 measure_first;     // of its triangles in the measures, in triangles
 } ox_move;
-OX_STATIC_ASSERT(sizeof(ox_move) == 188, ox_move_is_188_bytes);
+OX_STATIC_ASSERT(sizeof(ox_move) == 200, ox_move_is_200_bytes);
 
 #endif

@@ -15,42 +15,37 @@ typedef struct {
 } ox_grid_place;
 
 static inline ox_grid_place ox_place_in_grid(__global const ox_mesh* mesh, float3 p) {
-  const float point[3] = {p.x, p.y, p.z};
-  float within[3];
+  const uint3 cells = vload3(0, mesh->grid_cells);
+  const float3 side = vload3(0, mesh->grid_side);
+  const float3 cell = (p - vload3(0, mesh->grid_origin)) * vload3(0, mesh->grid_scale);
+  const float3 nearest = fmin(fmax(cell, 0.0f), convert_float3(cells));
+  const uint3 blocks = (cells + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
+  const uint3 block = min(convert_uint3(nearest) / OX_BLOCK_CELLS, blocks - 1u);
+  const float3 middle = convert_float3(block * OX_BLOCK_CELLS + OX_BLOCK_CELLS / 2u);
+  // Bounded, so that its square is finite; what is nearer than it is still is.
+  const float3 beyond = fmin(fabs(cell - nearest) * side * mesh->steps_per_metre, 1e18f);
   ox_grid_place place;
-  place.block = 0u;
-  place.within2 = 0.0f;
-  place.beyond2 = 0.0f;
-  const float steps_per_metre = 1.0f / mesh->clearance_step;
-  for (uint axis = 3u; axis-- > 0u;) {
-    const uint cells = mesh->grid_cells[axis];
-    const float side = 1.0f / mesh->grid_scale[axis];
-    const float cell = (point[axis] - mesh->grid_origin[axis]) * mesh->grid_scale[axis];
-    const float nearest = ox_min(ox_max(cell, 0.0f), (float)cells);
-    const uint blocks = (cells + (OX_BLOCK_CELLS - 1u)) / OX_BLOCK_CELLS;
-    const uint at = (uint)nearest / OX_BLOCK_CELLS;
-    const uint block = at < blocks ? at : blocks - 1u;
-    within[axis] = (nearest - (float)(block * OX_BLOCK_CELLS + OX_BLOCK_CELLS / 2u)) * side;
-    const float steps = within[axis] * steps_per_metre;
-    place.within2 += steps * steps;
-    // Bounded, so that its square is finite; what is nearer than it is still is.
-    const float beyond = ox_min(fabs(cell - nearest) * side * steps_per_metre, 1e18f);
-    place.beyond2 += beyond * beyond;
-    place.block = place.block * blocks + block;
-  }
-  place.within = (float3)(within[0], within[1], within[2]);
+  place.block = (block.z * blocks.y + block.y) * blocks.x + block.x;
+  place.within = (nearest - middle) * side;
+  const float3 steps = place.within * mesh->steps_per_metre;
+  place.within2 = ox_dot(steps, steps);
+  place.beyond2 = ox_dot(beyond, beyond);
   return place;
 }
 
-// No point within the absolute value of this [m] is on the surface of the mesh. Positive outside,
-// so that none within it is inside either. As clearance() on the host (geometry/clearance_grid.h).
-static inline float ox_clearance(__global const ox_mesh* mesh, __global const uint* grids,
-                                 const ox_grid_place* place) {
+// Whether no point within `radius` [m] of the place is on the surface of the mesh or, if `solid`,
+// inside. As clearance() on the host (geometry/clearance_grid.h).
+static inline bool ox_is_clear(__global const ox_mesh* mesh, __global const uint* grids,
+                               const ox_grid_place* place, float radius, bool solid) {
   const uint word = grids[mesh->clearance_first + (place->block >> 2)];
   const float steps = (float)(char)(word >> 8u * (place->block & 3u) & 255u);
+  const float reach = radius * mesh->steps_per_metre;
+  if (place->beyond2 == 0.0f) {
+    const float left = (solid ? steps : fabs(steps)) - reach;
+    return left > 0.0f && left * left > place->within2;
+  }
   const float known = ox_max(fabs(steps) - sqrt(place->within2), 0.0f);
-  if (place->beyond2 == 0.0f) return (steps < 0.0f ? -known : known) * mesh->clearance_step;
-  return sqrt(place->beyond2 + known * known) * mesh->clearance_step;
+  return place->beyond2 + known * known > reach * reach;
 }
 
 // The word of the slab at a place, for what is within `radius` of it; OX_NONE: none is known.
@@ -82,7 +77,7 @@ static inline bool ox_may_near_surface(__global const ox_mesh* mesh, __global co
                                        float3 p, float radius) {
   if ((mesh->flags & OX_MESH_CLEARANCE) == 0u) return true;
   const ox_grid_place place = ox_place_in_grid(mesh, p);
-  if (fabs(ox_clearance(mesh, grids, &place)) > radius) return false;
+  if (ox_is_clear(mesh, grids, &place, radius, false)) return false;
   const uint slab = ox_find_slab(mesh, grids, &place, radius);
   return slab == OX_NONE ||
          !ox_clears_slab(grids + slab, ox_dot(ox_slab_normal(grids + slab), place.within), radius,

@@ -98,16 +98,17 @@ typedef struct {
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
   ox_f32 grid_origin[3];
-  ox_f32 grid_scale[3];   // cells per metre
-  ox_f32 extent;          // largest distance of a box corner from the local origin
-  ox_f32 radius;          // of the vertices about the box's centre
-  ox_f32 clearance_step;  // [m]
-  ox_f32 slab_reach;      // [m]; 0: there are no slabs
-  ox_f32 mean_edge;       // [m]
-  ox_f32 reach;           // of an open mesh: the longest ray of its vertices; 0: closed [m]
-  ox_f32 moved;           // the farthest a vertex went in its own frame at the last deformation [m]
+  ox_f32 grid_scale[3];    // cells per metre
+  ox_f32 grid_side[3];     // of a cell [m]
+  ox_f32 extent;           // largest distance of a box corner from the local origin
+  ox_f32 radius;           // of the vertices about the box's centre
+  ox_f32 steps_per_metre;  // of the clearance
+  ox_f32 slab_reach;       // [m]; 0: there are no slabs
+  ox_f32 mean_edge;        // [m]
+  ox_f32 reach;            // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 moved;  // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 144, ox_mesh_is_144_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 156, ox_mesh_is_156_bytes);
 
 typedef struct {
   ox_f32 position[3];

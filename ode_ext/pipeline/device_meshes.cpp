@@ -258,7 +258,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.slab_bits_first =
       record.clearance_first + static_cast<ox_u32>((built.clearance.steps.size() + 3) / 4);
   record.slab_first = record.slab_bits_first + 2 * static_cast<ox_u32>(built.slabs.bits.size());
-  record.clearance_step = built.clearance.step;
+  if (!built.clearance.steps.empty()) record.steps_per_metre = 1 / built.clearance.step;
   record.slab_reach = built.slabs.reach;
   std::copy(built.grid.cells.begin(), built.grid.cells.end(), record.grid_cells);
   record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) |
@@ -269,6 +269,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
                  (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
   store(record.grid_origin, built.grid.origin);
   store(record.grid_scale, built.grid.cells_per_meter);
+  for (std::size_t k = 0; k < 3; ++k) record.grid_side[k] = 1 / built.grid.cells_per_meter[k];
   measure(mesh, record);
 
   const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
