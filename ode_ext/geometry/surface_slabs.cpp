@@ -100,19 +100,16 @@ class SlabBuilder {
       centre[axis] =
           (static_cast<double>(block[axis]) * kBlockCells + kBlockCells / 2) * cell_[axis];
     const DoubleBox around{centre - half_size_, centre + half_size_};
-    collect(around);
-    Vec3d normal;
-    for (const Polygon& polygon : polygons_) normal = normal + polygon.area();
-    const double size = length(normal);
+    const Vec3d area = collect(around);
+    const double size = length(area);
     if (!(size > 0)) return {};
-    normal = (1 / size) * normal;
+    Vec3d normal = (1 / size) * area;
     double lo = INFINITY, hi = -INFINITY;
-    for (const Polygon& polygon : polygons_)
-      for (const Vec3d& corner : polygon) {
-        const double height = dot(normal, corner - centre);
-        lo = std::min(lo, height);
-        hi = std::max(hi, height);
-      }
+    for (const Vec3d& corner : corners_) {
+      const double height = dot(normal, corner - centre);
+      lo = std::min(lo, height);
+      hi = std::max(hi, height);
+    }
     if (!(hi - lo <= kThickest * reach_)) return {};
     bool outside = is_outside_beyond(centre, normal, hi);
     if (!outside && is_outside_beyond(centre, Vec3d{} - normal, -lo)) {
@@ -127,15 +124,18 @@ class SlabBuilder {
   }
 
  private:
-  // The parts of the triangles within the box.
-  void collect(const DoubleBox& around) {
-    polygons_.clear();
+  // The corners of the parts of the triangles within the box; returns the sum of their areas.
+  Vec3d collect(const DoubleBox& around) {
+    corners_.clear();
+    Vec3d area;
     for (std::size_t n = 0; n < bvh_.nodes.size();) {
       const BvhNode& node = bvh_.nodes[n];
       const Vec3d lo = Vec3d(node.lo) - origin_, hi = Vec3d(node.hi) - origin_;
-      bool apart = false;
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      bool apart = false, inside = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         apart = apart || lo[axis] > around.hi[axis] || hi[axis] < around.lo[axis];
+        inside = inside && lo[axis] >= around.lo[axis] && hi[axis] <= around.hi[axis];
+      }
       if (apart) {
         n = node.skip;
         continue;
@@ -143,11 +143,13 @@ class SlabBuilder {
       for (std::uint32_t k = node.leaf >> 3; k < (node.leaf >> 3) + (node.leaf & 7); ++k) {
         const Triangle& corners = triangles_[bvh_.order[k]];
         Polygon polygon(corner(corners[0]), corner(corners[1]), corner(corners[2]));
-        polygon.clip(around);
-        if (polygon.begin() != polygon.end()) polygons_.push_back(polygon);
+        if (!inside) polygon.clip(around);
+        area = area + polygon.area();
+        corners_.insert(corners_.end(), polygon.begin(), polygon.end());
       }
       ++n;
     }
+    return area;
   }
 
   Vec3d corner(std::uint32_t vertex) const { return Vec3d(vertices_[vertex]) - origin_; }
@@ -187,7 +189,7 @@ class SlabBuilder {
   Vec3d half_size_;   // of what is within reach of a block [m]
   double reach_;
   double padding_;  // [m]
-  std::vector<Polygon> polygons_;
+  std::vector<Vec3d> corners_;
 };
 
 }  // namespace
