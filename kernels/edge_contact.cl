@@ -9,6 +9,7 @@
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/deep_parts.h"
 #include "shared/exit_edge.h"
+#include "shared/region_width.h"
 #include "shared/spokesmen.h"
 
 // in: crossings. out: those of each pair together, as they are needed, and per pair room for an
@@ -167,10 +168,8 @@ static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
   }
 }
 
-// Contacts for a region in a closed target: the ends of its chords, those at least half as deep as
-// the deepest.
-static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
-                               __global const ox_node* nodes) {
+static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool vertices,
+                                  __global const ox_node* nodes) {
   ox_way_out best = ox_no_way_out();
   uint looked[2] = {0u, 0u};
   for (uint k = 0u; k < p->count; ++k) {
@@ -182,25 +181,38 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
     ++looked[ox_side(c)];
     ox_try_chord(p, region, vertices, c, nodes, &best);
   }
-  if (best.triangle == OX_NONE) return;
-  const float3 normal = best.side == 0u ? best.normal : -best.normal;
+  return best;
+}
+
+// Contacts for a region in a closed target: the ends of its chords, those at least half as deep as
+// the deepest.
+static void ox_leave_region_by(ox_edge_pair* p, uint region, bool vertices,
+                               const ox_way_out* best) {
+  if (best->triangle == OX_NONE) return;
+  const float3 normal = best->side == 0u ? best->normal : -best->normal;
   for (uint k = 0u; k < p->count; ++k) {
     __global const ox_edge_crossing* c = p->crossings + p->order[k];
     if (c->region != region) continue;
     // A crossing lies on both surfaces, whosever edge it is of. The far end of a chord speaks for
     // itself, and so does a vertex that knows its way out.
-    const bool own = ox_side(c) == best.side;
+    const bool own = ox_side(c) == best->side;
     const uint source = own ? p->edges[c->edge].triangle[0] : c->triangle;
     const uint vertex = own ? ox_inner_vertex(p, c) : OX_NONE;
-    const bool both = vertex != OX_NONE && !ox_has_hit(p, best.side, vertex);
+    const bool both = vertex != OX_NONE && !ox_has_hit(p, best->side, vertex);
     for (uint end = 0u; end < (both ? 2u : 1u); ++end) {
       const float3 point = ox_chord_end(p, c, end);
-      const float depth = ox_depth_below(&best, point);
-      if (depth >= 0.5f * best.depth)
-        ox_add_point(p, best.side, source, best.triangle, region, point, normal, depth);
+      const float depth = ox_depth_below(best, point);
+      if (depth >= 0.5f * best->depth)
+        ox_add_point(p, best->side, source, best->triangle, region, point, normal, depth);
     }
   }
-  if (vertices) ox_lead_vertices_out(p, &best);
+  if (vertices) ox_lead_vertices_out(p, best);
+}
+
+static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
+                               __global const ox_node* nodes) {
+  const ox_way_out best = ox_find_way_out(p, region, vertices, nodes);
+  ox_leave_region_by(p, region, vertices, &best);
 }
 
 // A contact for a region in an open target, where its shallowest crossing is. Nothing is known of
@@ -296,6 +308,36 @@ static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
   }
 }
 
+// Where two convex bodies overlap (in one region, then) and the deepest contact does not part them
+// along its normal, the least way that may becomes one: along the normal of some contact, or the
+// way out of the region.
+static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
+  if (p->regions != 1u || p->count > OX_MOST_CORNERS ||
+      (p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u)
+    return;
+  const uint deepest = ox_deepest(p);
+  if (deepest == OX_NONE) return;
+  ox_extent extent = ox_extent_of(p, vload3(0, p->candidates[deepest].normal));
+  // 10 %: less is not worth another contact.
+  if (extent.high - extent.low <= 1.1f * p->candidates[deepest].depth + p->pair->epsilon ||
+      !ox_is_convex(p))
+    return;
+  __global const ox_candidate* along = p->candidates + ox_narrowest(p, &extent);
+  const float width = extent.high - extent.low;
+  const ox_way_out way = ox_find_way_out(p, 0u, true, nodes);
+  if (way.triangle != OX_NONE && way.depth < width) {
+    ox_leave_region_by(p, 0u, true, &way);
+    return;
+  }
+  // The normal leads into A: what is deepest of A is lowest along it, what is of B highest.
+  const uint side = (along->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
+  __global const ox_edge_crossing* at =
+      p->crossings + (side == 0u ? extent.lowest : extent.highest);
+  ox_add_point(p, side, ox_side(at) == side ? p->edges[at->edge].triangle[0] : at->triangle,
+               along->triangle, 0u, side == 0u ? extent.lowest_corner : extent.highest_corner,
+               vload3(0, along->normal), width);
+}
+
 // Rays that look for a way out of what holds the whole mesh.
 #define OX_MOST_VERTICES 64u
 
@@ -380,6 +422,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       ox_cast_middles(&pair, nodes);
       ox_lead_regions_out(&pair, nodes);
       ox_lead_deep_out(&pair, nodes);
+      ox_deepen(&pair, nodes);
       ox_choose_spokesmen(&pair, pair_hits[i]);
     }
     ox_admit_touching(&pair);
