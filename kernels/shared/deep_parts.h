@@ -51,8 +51,8 @@ static inline uint ox_crossing_near(const ox_edge_pair* p, uint side, uint i) {
   const float3 point = vload3(0, p->candidates[i].position);
   uint nearest = OX_NONE;
   float least = INFINITY;
-  for (uint k = 0u; k < p->count;
-       ++k) {  // in order, so that the first of equals is always the same
+  // In order, so that the first of equals is always the same.
+  for (uint k = 0u; k < p->count; ++k) {
     __global const ox_edge_crossing* c = p->crossings + p->order[k];
     if (ox_side(c) == side && ox_inner_vertex(p, c) == p->candidates[i].vertex) return p->order[k];
     const float3 away = vload3(0, c->position) - point;

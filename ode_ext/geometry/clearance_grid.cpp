@@ -39,7 +39,11 @@ Field along(std::size_t axis, double side, const Field& cells) {
   for (std::size_t k = 0; k < axis; ++k) stride *= cells.counts[k];
   const std::size_t length = cells.counts[axis];
   const std::size_t results = blocks.counts[axis];
-  std::vector<float> line(length);
+  std::vector<float> line(length), squares(length);
+  for (std::size_t k = 0; k < length; ++k) {
+    const double away = side * static_cast<double>(k);
+    squares[k] = static_cast<float>(away * away);
+  }
   for (std::size_t row = 0; row < cells.values.size() / length; ++row) {
     const std::size_t from = row / stride * stride * length + row % stride;
     const std::size_t to = row / stride * stride * results + row % stride;
@@ -53,11 +57,9 @@ Field along(std::size_t axis, double side, const Field& cells) {
       const std::size_t centre = block * kBlockCells + kBlockCells / 2;  // a cell begins here
       float least = kFar;
       for (std::size_t k = 0; k < length; ++k) {
-        const double away = side * static_cast<double>(k);
-        const auto squared = static_cast<float>(away * away);
-        if (squared >= least) break;
-        if (centre + k < length) least = std::min(least, squared + line[centre + k]);
-        if (centre >= k + 1) least = std::min(least, squared + line[centre - k - 1]);
+        if (squares[k] >= least) break;
+        if (centre + k < length) least = std::min(least, squares[k] + line[centre + k]);
+        if (centre >= k + 1) least = std::min(least, squares[k] + line[centre - k - 1]);
       }
       blocks.values[to + block * stride] = least;
     }

@@ -53,14 +53,16 @@ class Polygon {
  private:
   // Keeps what is at most `limit` along the axis (Sutherland and Hodgman 1974).
   void clip(std::size_t axis, double sign, double limit) {
+    const auto above = [&](const Vec3d& corner) { return sign * corner[axis] > limit; };
+    if (std::none_of(begin(), end(), above)) return;
     std::array<Vec3d, 9> kept;
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3d from = corners_[i], to = corners_[(i + 1) % count_];
-      const double above = sign * from[axis] - limit, above_next = sign * to[axis] - limit;
-      if (above <= 0) kept[count++] = from;
-      if ((above > 0) != (above_next > 0)) {
-        Vec3d cut = from + above / (above - above_next) * (to - from);
+      const double height = sign * from[axis] - limit, next = sign * to[axis] - limit;
+      if (!above(from)) kept[count++] = from;
+      if (above(from) != above(to)) {
+        Vec3d cut = from + height / (height - next) * (to - from);
         cut[axis] = sign * limit;
         kept[count++] = cut;
       }
