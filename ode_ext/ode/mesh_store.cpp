@@ -16,6 +16,10 @@ namespace {
 // back.
 constexpr std::uint64_t kPassesKept = 600;
 
+// Grids and isolation take most of the time of building a mesh and pay in later passes only. A mesh
+// that changed in two passes running goes without until it has been the same for so many.
+constexpr std::uint64_t kPassesStill = 10;
+
 }  // namespace
 
 const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::uint64_t look,
@@ -30,8 +34,11 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
 
   entry.left_box = read_triangles(data, soup_);
   const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
-  if (entry.mesh == nullptr || entry.hash != hash ||
-      static_cast<std::size_t>(entry.triangle_count) != soup_.size() / 3) {
+  const bool same = entry.mesh != nullptr && entry.hash == hash &&
+                    static_cast<std::size_t>(entry.triangle_count) == soup_.size() / 3;
+  if (!same || (entry.restless && entry.changed_pass + kPassesStill <= pass)) {
+    entry.restless = !same && entry.mesh != nullptr && entry.changed_pass + 1 >= pass;
+    if (!same) entry.changed_pass = pass;
     update(entry, hash);
     entry.hash = hash;
     entry.triangle_count = static_cast<int>(soup_.size() / 3);
@@ -43,7 +50,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
 
 void MeshStore::update(Entry& entry, std::uint64_t hash) {
   if (!entry.deformable) {
-    entry.mesh = build(hash);
+    entry.mesh = build(hash, entry.restless);
   } else {
     if (entry.mesh != nullptr) ++deformed_;
     std::shared_ptr<const Mesh> shape;
@@ -59,11 +66,12 @@ void MeshStore::update(Entry& entry, std::uint64_t hash) {
                                 "contacts");
 }
 
-std::shared_ptr<const Mesh> MeshStore::build(std::uint64_t hash) {
+std::shared_ptr<const Mesh> MeshStore::build(std::uint64_t hash, bool restless) {
   std::weak_ptr<const Mesh>& known = by_content_[hash];
   if (auto mesh = known.lock()) return mesh;
-  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, {.open_thickness = open_thickness_}));
-  known = mesh;
+  auto mesh = std::make_shared<const Mesh>(build_mesh(
+      soup_, {.open_thickness = open_thickness_, .grids = !restless, .isolation = !restless}));
+  if (!restless) known = mesh;
   return mesh;
 }
 

@@ -59,14 +59,16 @@ class MeshStore {
     int triangle_count = 0;
     std::uint64_t last_look = 0;
     std::uint64_t last_pass = 0;
+    std::uint64_t changed_pass = 0;  // the last in which it was found to be another
     std::uint64_t order = 0;
     bool changed = false;  // announced
     bool deformable = false;
     bool left_box = false;
+    bool restless = false;  // changed pass after pass: built without what pays in later ones only
   };
 
   void update(Entry& entry, std::uint64_t hash);
-  std::shared_ptr<const Mesh> build(std::uint64_t hash);
+  std::shared_ptr<const Mesh> build(std::uint64_t hash, bool restless);
   static void drop(Entry& entry);
 
   float open_thickness_;
