@@ -64,6 +64,12 @@ static inline bool ox_may_be_inside(__global const ox_mesh* mesh, __global const
   const float3 limit = vload3(0, mesh->box_half) + epsilon;
   if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
   if ((mesh->flags & OX_MESH_GRID) == 0u) return true;
+  const ox_grid_place place = ox_place_in_grid(mesh, p);
+  // Cells know of points off the surface by less than their margin, 2e-5 of the box's half diagonal
+  // (geometry/mesh.cpp). Where a pair rounds to more than half of that, distances do.
+  const float3 half_size = vload3(0, mesh->box_half);
+  if (epsilon * epsilon > 1e-10f * ox_dot(half_size, half_size))
+    return !ox_is_clear(mesh, grids, &place, epsilon, true);
   // As may_be_inside on the host: compared before it is converted.
   const float point[3] = {p.x, p.y, p.z};
   uint bit = 0u;
@@ -73,7 +79,6 @@ static inline bool ox_may_be_inside(__global const ox_mesh* mesh, __global const
     bit = bit * mesh->grid_cells[axis] + (uint)cell;
   }
   if ((grids[mesh->grid_first + (bit >> 5)] >> (bit & 31u) & 1u) == 0u) return false;
-  const ox_grid_place place = ox_place_in_grid(mesh, p);
   const uint slab = ox_find_slab(mesh, grids, &place, epsilon);
   return slab == OX_NONE ||
          !ox_clears_slab(grids + slab, ox_dot(ox_slab_normal(grids + slab), place.within), epsilon,

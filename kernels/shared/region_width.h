@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How wide a region of overlap is. Two convex bodies that overlap have to move along a direction by
-// at least as much as their overlap is wide along it to be apart; a contact that says less was made
-// where they are not deepest. Frame of B. Device only.
+// at least as much as their overlap is wide along it for a plane across that direction to part
+// them; a contact that says less was made where they are not deepest. Frame of B. Device only.
 #ifndef ODE_EXT_KERNELS_SHARED_REGION_WIDTH_H
 #define ODE_EXT_KERNELS_SHARED_REGION_WIDTH_H
 
 #include "shared/way_out.h"
 
-// Regions of more crossings are let be, for the time it takes: where surfaces are so fine, there
-// are vertices near where they are deepest.
+// Regions of more crossings are let be, for the time it takes: where surfaces are so fine, vertices
+// are mostly near where they are deepest.
 #define OX_MOST_CORNERS 32u
 
 // The corners of a convex region are its crossings and the vertices inside at the ends of its

@@ -20,7 +20,9 @@ namespace {
 // The grid is asked about the very position whose ray would be cast, so only what may call that
 // position inside a little off the surface matters: a kernel computes it, and decides hits, to
 // within 2^-20 ~ 1e-6 of the extents (a handful of float roundings of 2^-24). Ten times that is
-// still less than 1/100 of the smallest cell (1/512 of a side) and costs nothing.
+// still less than 1/100 of the smallest cell (1/512 of a side) and costs nothing. A pair whose
+// other mesh is much larger, or far off, rounds to more and asks for distances instead
+// (shared/cull.h).
 constexpr double kGridMargin = 1e-5;  // of the box's diagonal
 
 float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {

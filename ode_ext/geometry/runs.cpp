@@ -16,7 +16,10 @@ using Iterator = std::vector<std::uint32_t>::iterator;
 void split(const std::vector<Vec3f>& points, Iterator first, Iterator last) {
   for (;;) {
     const auto count = static_cast<std::uint32_t>(last - first);
-    if (count <= kRunLength) return;
+    if (count <= kRunLength) {
+      std::sort(first, last);  // nth_element leaves them in an order of its own
+      return;
+    }
     const std::uint32_t group = kRunLength * kRunsPerGroup;
     const std::uint32_t unit = count > group ? group : kRunLength;
     // The nearest to a half that leaves something on both sides.

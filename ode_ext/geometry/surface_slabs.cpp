@@ -55,7 +55,7 @@ class Polygon {
   void clip(std::size_t axis, double sign, double limit) {
     const auto above = [&](const Vec3d& corner) { return sign * corner[axis] > limit; };
     if (std::none_of(begin(), end(), above)) return;
-    std::array<Vec3d, 9> kept;
+    std::array<Vec3d, 12> kept;
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       const Vec3d from = corners_[i], to = corners_[(i + 1) % count_];
@@ -71,7 +71,7 @@ class Polygon {
     count_ = count;
   }
 
-  std::array<Vec3d, 9> corners_;  // each side of the box adds one at most
+  std::array<Vec3d, 12> corners_;  // each side of the box adds one, rounding now and then another
   std::size_t count_;
 };
 
@@ -167,6 +167,7 @@ class SlabBuilder {
     for (int i = 1; i < kSamples; ++i) {
       const double along = height + i * (farthest - height) / kSamples;
       if (!(along > height)) return false;
+      if (along < -farthest) continue;  // not in the box
       std::size_t index = 0;
       bool beyond = false;
       for (std::size_t axis = 3; axis-- > 0;) {

@@ -87,6 +87,32 @@ TEST(Cull, ChangesNoContact) {
     }
 }
 
+// Pairs round to more than the grids' margin, a share of the target's own size, where meshes lie
+// far from their own origin, or the source is much larger.
+TEST(Cull, ChangesNoContactWhereRoundingIsCoarse) {
+  for (const double offset : {0.0, 1e2, 1e4}) {
+    const double scale = offset == 0 ? 1000 : 1;
+    const Point far{offset, 0, 0};
+    TestScene scene;
+    for (const TestMesh& mesh : {jittered(make_icosphere(0.6, 2), 0.01, 1),
+                                 jittered(make_torus(0.5, 0.2, 16, 10), 0.01, 2), make_l(1)})
+      scene.add_mesh(moved(mesh, far));
+    scene.add_mesh(scaled(make_cube(1, 4), scale));
+    Random random(74);
+    for (int i = 0; i < 150; ++i) {
+      TestPose a = random.pose(0.4);
+      if (scale != 1) a.position[2] += 0.5 * scale;
+      a.position = a.position - rotate(a, far);
+      scene.add_pair(static_cast<std::uint32_t>(random.below(3)), a, 3, TestPose{});
+    }
+    StepReport with, without;
+    const auto contacts = collide(scene.scene, {}, with);
+    EXPECT_EQ(contacts, collide(stripped(scene), {}, without)) << offset;
+    EXPECT_EQ(count_of(with, Arrow::kHits), count_of(without, Arrow::kHits)) << offset;
+    EXPECT_GT(contacts.size(), 100u) << offset;
+  }
+}
+
 // In a valley, within the box of the hills and 12 cm above them: two cells.
 TEST(Cull, LeavesNoRayToABodyJustAboveHills) {
   for (const bool closed : {true, false}) {
