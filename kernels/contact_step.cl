@@ -6,6 +6,7 @@
 // Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
 // with (side, position, vertex), so the result is what hits sorted in that order would give.
 #include "shared/append.h"
+#include "shared/contradiction.h"
 
 #define OX_NO_PATCH 0xffffffffu
 #define OX_TAKEN 0xfffffffeu
@@ -62,29 +63,12 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     candidate->distance2 = INFINITY;
     candidate->region = OX_NONE;
     candidate->outline = 0u;
+    candidate->stands = 0u;
   }
 }
 
 static bool ox_is_left(__global const ox_candidate* c) {
   return c->patch != OX_TAKEN && c->patch != OX_DROPPED;
-}
-
-static uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_HIT_KIND; }
-
-// By side and place; by the order of the vertices, which for a deformed mesh tells of the shape it
-// was built in, only where rounding has put two in one place.
-static bool ox_key_less(__global const ox_candidate* a, __global const ox_candidate* b) {
-  const uint side_a = a->side_kind & OX_HIT_SIDE;
-  const uint side_b = b->side_kind & OX_HIT_SIDE;
-  if (side_a != side_b) return side_a < side_b;
-  for (uint k = 0u; k < 3u; ++k)
-    if (a->position[k] != b->position[k]) return a->position[k] < b->position[k];
-  if (a->vertex != b->vertex) return a->vertex < b->vertex;
-  return a->triangle < b->triangle;
-}
-
-static bool ox_deeper(__global const ox_candidate* a, __global const ox_candidate* b) {
-  return a->depth != b->depth ? a->depth > b->depth : ox_key_less(a, b);
 }
 
 static bool ox_farther(__global const ox_candidate* a, __global const ox_candidate* b) {
@@ -158,27 +142,13 @@ static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint 
   }
 }
 
-// Two contacts contradict one another if they push opposite ways and a way out by one of them leads
-// deeper into the other: what lies between their places along the normal is not more than their
-// depth, to within rounding: where boxes in line are half inside one another, and in equal bodies
-// in one place, it is the same length. (A peg between two walls has opposite contacts too, but as
-// far apart as it is thick.) The shorter way out stands. Equal bodies in one place have as many
-// ways out as faces; then the order decides.
-static bool ox_contradicts(__global const ox_candidate* a, __global const ox_candidate* b,
-                           float epsilon) {
-  const float3 normal = vload3(0, a->normal);
-  if (ox_dot(normal, vload3(0, b->normal)) > -0.5f) return false;
-  const float apart = ox_dot(vload3(0, a->position) - vload3(0, b->position), normal);
-  return fabs(apart) <= ox_max(a->depth, b->depth) + epsilon;
-}
-
 static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, uint kind,
                                float epsilon, uint candidate) {
   __global ox_candidate* c = candidates + candidate;
   for (uint k = 0u; k < count; ++k) {
     __global const ox_candidate* d = candidates + k;
     if (k == candidate || ox_kind(d) != kind || d->patch == OX_DROPPED || !ox_deeper(c, d) ||
-        !ox_contradicts(c, d, epsilon))
+        (c->stands != 0u && d->stands == 0u) || !ox_contradicts(c, d, epsilon))
       continue;
     c->patch = OX_DROPPED;
     return true;

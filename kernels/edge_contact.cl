@@ -9,6 +9,7 @@
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/deep_parts.h"
 #include "shared/exit_edge.h"
+#include "shared/reconcile.h"
 #include "shared/region_width.h"
 #include "shared/spokesmen.h"
 
@@ -213,6 +214,22 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
                                __global const ox_node* nodes) {
   const ox_way_out best = ox_find_way_out(p, region, vertices, nodes);
   ox_leave_region_by(p, region, vertices, &best);
+}
+
+// No region is left without a contact because its own push the other way.
+static void ox_reconcile_regions(ox_edge_pair* p, uint points, __global const ox_node* nodes) {
+  for (uint region = 0u; region < p->regions && p->regions > 1u; ++region) {
+    const uint standing = ox_find_standing(p, points, region);
+    if (standing == OX_NONE) continue;
+    __global const ox_candidate* own = p->candidates + ox_find_shallowest(p, points, region);
+    if (!ox_are_of_different_parts(own, p->candidates + standing)) continue;
+    const float3 normal = vload3(0, p->candidates[standing].normal);
+    const ox_way_out way = ox_find_way_along(p, region, normal, nodes);
+    const uint end = p->candidate_count;
+    if (way.triangle != OX_NONE && way.depth <= OX_FARTHEST_WAY * own->depth)
+      ox_leave_region_by(p, region, false, &way);
+    ox_settle_region(p, points, region, end, p->candidate_count == end);
+  }
 }
 
 // A contact for a region in an open target, where its shallowest crossing is. Nothing is known of
@@ -423,6 +440,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       ox_lead_regions_out(&pair, nodes);
       ox_lead_deep_out(&pair, nodes);
       ox_deepen(&pair, nodes);
+      ox_reconcile_regions(&pair, pair_hits[i], nodes);
       ox_choose_spokesmen(&pair, pair_hits[i]);
     }
     ox_admit_touching(&pair);

@@ -218,6 +218,7 @@ static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint ta
   candidate->distance2 = INFINITY;
   candidate->region = region;
   candidate->outline = 0u;
+  candidate->stands = 0u;
 }
 
 #endif

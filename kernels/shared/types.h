@@ -302,7 +302,7 @@ typedef struct {
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch
   ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
   ox_u32 outline;    // whether it is farthest of its patch in some direction
-  ox_u32 padding;
+  ox_u32 stands;     // whether its region would have nothing without it (reconcile.h)
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 

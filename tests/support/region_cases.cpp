@@ -62,6 +62,20 @@ RegionCase angle_on_plate() {
           slightly_turned(pose),     {},    2};
 }
 
+// Two feet of a body, 8 m apart: one stands 3 cm in a floor, the other is 2 cm in a ceiling at the
+// same height. What holds the body up must not be left out for what holds it down.
+RegionCase lever_between_floor_and_ceiling() {
+  const TestMesh foot = make_cube(1);
+  const TestMesh block = make_box({3, 3, 1});
+  const double dip = 2 * kDip;
+  return {"LeverBetweenFloorAndCeiling",
+          merged(moved(foot, {-4, 0, 0.5}), moved(foot, {4, 0, kDip - 0.5})),
+          merged(moved(block, {-4, 0, dip + kDip - 0.5}), moved(block, {4, 0, kDip - dip + 0.5})),
+          {},
+          {},
+          2};
+}
+
 }  // namespace
 
 std::vector<RegionCase> region_cases() {
@@ -88,6 +102,7 @@ std::vector<RegionCase> region_cases() {
       beam_on_block_and_wall(),
       crossed_rods(),
       angle_on_plate(),
+      lever_between_floor_and_ceiling(),
   };
 }
 
