@@ -23,6 +23,11 @@ class Buffer {
   void reserve(std::size_t bytes);
   // The same, but what was in it stays, and all that is new is 0. Old and new need room at once.
   void extend(std::size_t bytes);
+  // Gives the memory back; commands already enqueued keep it until they are done.
+  void release() {
+    capacity_ = 0;
+    memory_.reset();
+  }
   std::size_t capacity() const { return capacity_; }  // [bytes]
   cl_mem get() const { return memory_.get(); }
 

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "device/device.h"
 
+#include <algorithm>
+
 namespace ode_ext {
 
-Device::Device(const std::string& selection)
+Device::Device(const std::string& selection, std::uint64_t largest_buffer)
     : info_(choose_device(selection)),
       label_(info_.name + " (driver " + info_.driver + ", " + info_.platform_name + ")") {
+  if (largest_buffer != 0)
+    info_.largest_buffer = std::min<cl_ulong>(info_.largest_buffer, largest_buffer);
   const cl_context_properties properties[] = {
       CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(info_.platform), 0};
   cl_int code = CL_SUCCESS;

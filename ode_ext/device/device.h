@@ -47,7 +47,9 @@ std::string describe_devices(const std::string& selection);
 // be used from distinct threads.
 class Device {
  public:
-  explicit Device(const std::string& selection);  // chooses; throws DeviceError
+  // Chooses; throws DeviceError. `largest_buffer` [bytes]: no buffer is to be larger, for tests of
+  // what happens on small devices; 0: as the device has it.
+  explicit Device(const std::string& selection, std::uint64_t largest_buffer = 0);
   ~Device();  // waits until the device no longer touches any host memory
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

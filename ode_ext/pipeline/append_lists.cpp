@@ -15,10 +15,34 @@ static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SM
 // Counters and indices have 32 bits; tiles are cut so that nothing needs more.
 constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 30;
 
+// What a record of each list takes in all buffers together [bytes].
+constexpr ArrowCounts kRecordBytes = [] {
+  ArrowCounts bytes{};
+  for (std::size_t i = 0; i < kArrowCount; ++i)
+    bytes[i] = i <= OX_LIST_CHUNKS_EDGES ? sizeof(ox_chunk_task) : sizeof(ox_ray);
+  bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
+  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) + 2 * sizeof(ox_u32) +
+                             OX_POINTS_PER_CROSSING * sizeof(ox_candidate);
+  bytes[OX_LIST_CONTACTS] = sizeof(ox_contact);
+  return bytes;
+}();
+
+std::uint64_t bytes_of(const ArrowCounts& counts) {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * kRecordBytes[i];
+  return bytes;
+}
+
+// Memory goes back where for this many steps, a few seconds of simulation, less than a quarter of
+// it was of use; what is less than the floor is not worth the growing again.
+constexpr int kStepsNoted = 256;
+constexpr std::uint64_t kNotWorthReleasing = std::uint64_t{32} << 20;  // [bytes]
+
 }  // namespace
 
 AppendLists::AppendLists(Device& device)
-    : counters_(device),
+    : device_(&device),
+      counters_(device),
       lists_(device),
       tasks_(device),
       rays_(device),
@@ -33,15 +57,37 @@ AppendLists::AppendLists(Device& device)
 }
 
 void AppendLists::reserve(const ArrowCounts& counts) {
+  ArrowCounts grown = capacities_;
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    if (counts[i] > capacities_[i])
-      capacities_[i] = std::min(counts[i] + counts[i] / 4, std::max(kMostRecords, counts[i]));
-  reserve_buffers();
+    if (counts[i] > grown[i])
+      grown[i] = std::min(counts[i] + counts[i] / 4, std::max(kMostRecords, counts[i]));
+  resize(grown);
 }
 
-void AppendLists::limit(const ArrowCounts& counts) {
-  capacities_ = counts;
-  reserve_buffers();
+void AppendLists::limit(const ArrowCounts& counts) { resize(counts); }
+
+ArrowCounts AppendLists::affordable(const ArrowCounts& expected) const {
+  const std::uint64_t cheap = device_->info().largest_buffer / 16;  // [bytes]
+  ArrowCounts counts{};
+  for (std::size_t i = 0; i < kArrowCount; ++i)
+    counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / kRecordBytes[i]));
+  return counts;
+}
+
+void AppendLists::release() {
+  capacities_ = {};
+  for (Buffer* buffer : {&tasks_, &rays_, &hits_, &candidates_, &crossings_, &gathered_crossings_,
+                         &crossing_order_, &contacts_})
+    buffer->release();
+}
+
+void AppendLists::note_use(const ArrowCounts& stored) {
+  for (std::size_t i = 0; i < kArrowCount; ++i) most_used_[i] = std::max(most_used_[i], stored[i]);
+  if (++steps_noted_ < kStepsNoted) return;
+  const std::uint64_t held = bytes_of(capacities_);
+  if (held > kNotWorthReleasing && held / 4 > bytes_of(most_used_)) release();
+  most_used_ = {};
+  steps_noted_ = 0;
 }
 
 AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
@@ -58,16 +104,23 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
           after(Arrow::kCrossings, Arrow::kCrossings), after(Arrow::kContacts, Arrow::kContacts)};
 }
 
-void AppendLists::reserve_buffers() {
-  const Ends ends = lay_out(capacities_);
-  tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
-  rays_.reserve(ends.rays * sizeof(ox_ray));
-  hits_.reserve(ends.hits * sizeof(ox_hit));
-  candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) * sizeof(ox_candidate));
-  crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-  gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-  crossing_order_.reserve(2 * ends.crossings * sizeof(ox_u32));
-  contacts_.reserve(ends.contacts * sizeof(ox_contact));
+void AppendLists::resize(const ArrowCounts& capacities) {
+  const Ends ends = lay_out(capacities);
+  try {
+    tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
+    rays_.reserve(ends.rays * sizeof(ox_ray));
+    hits_.reserve(ends.hits * sizeof(ox_hit));
+    candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
+                        sizeof(ox_candidate));
+    crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
+    gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
+    crossing_order_.reserve(2 * ends.crossings * sizeof(ox_u32));
+    contacts_.reserve(ends.contacts * sizeof(ox_contact));
+  } catch (...) {
+    release();
+    throw;
+  }
+  capacities_ = capacities;
 }
 
 bool AppendLists::overflowed(const ArrowCounts& counts) const {

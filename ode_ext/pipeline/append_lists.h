@@ -17,10 +17,20 @@ class AppendLists {
   explicit AppendLists(Device& device);
 
   // Room for at least so many records; a quarter more where a list has to grow, so that it rarely
-  // does.
+  // does. Throws DeviceError where the device has no room for them: then there is none at all, and
+  // what the lists held before is given back for a smaller step to take.
   void reserve(const ArrowCounts& counts);
   // Room for exactly so many, whatever there was.
   void limit(const ArrowCounts& counts);
+  // What is only expected gets room as far as it is cheap, a sixteenth of the largest buffer a list
+  // (or what the list has): an expectation may be off by any factor, and what then overflows is
+  // known exactly and mended.
+  ArrowCounts affordable(const ArrowCounts& expected) const;
+  // Gives all room back.
+  void release();
+  // After each step, with what it stored: lists that were far too large for a long time are given
+  // back, so that one crowded moment is not paid for ever after.
+  void note_use(const ArrowCounts& stored);
   const ArrowCounts& capacities() const { return capacities_; }
   // The place of a list's first record in its buffer.
   std::uint64_t first(Arrow list) const {
@@ -56,9 +66,12 @@ class AppendLists {
     std::uint64_t tasks, rays, hits, crossings, contacts;
   };
   Ends lay_out(const ArrowCounts& room);
-  void reserve_buffers();
+  void resize(const ArrowCounts& capacities);
 
+  Device* device_;
   ArrowCounts capacities_{};
+  ArrowCounts most_used_{};  // in the steps noted so far
+  int steps_noted_ = 0;
   std::array<ox_list, kArrowCount> host_lists_{};
   Buffer counters_, lists_, tasks_, rays_, hits_, candidates_, crossings_, gathered_crossings_,
       crossing_order_, contacts_;

@@ -40,7 +40,7 @@ bool is_out_of_memory(int code) {
 Collider::Collider(const ColliderOptions& options)
     : options_(options),
       settings_(settings_of(options)),
-      device_(options.device),
+      device_(options.device, options.largest_buffer),
       program_(device_, options.count_work ? "-DOX_COUNT_WORK" : ""),
       steps_(program_),
       meshes_(program_),
@@ -76,7 +76,9 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
               options_.confidence);
   // Without a history nothing was predicted that could be wrong.
   misprediction_ = has_history ? options_.misprediction : Misprediction::kRedo;
-  const std::vector<Tile> tiles = cut_into_tiles(scene, options_.tile_vertices);
+  const std::vector<Tile> tiles = cut_into_tiles(
+      scene, options_.tile_vertices,
+      memory != nullptr && memory->tile_pairs != 0 ? memory->tile_pairs : scene.pairs.size());
   temporal_ = &nothing_;
   memory_ = memory;
   try {
@@ -115,7 +117,12 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   take_kernel_times();
   report_.ms_total =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  if (memory != nullptr) memory->history = {report_.pairs, report_.actual};
+  lists_.note_use(report_.actual);
+  if (memory != nullptr) {
+    memory->history = {report_.pairs, report_.actual};
+    // A little more each time: what did not fit once may have been short of memory for a moment.
+    if (memory->tile_pairs != 0) memory->tile_pairs += memory->tile_pairs / 64 + 1;
+  }
   return result_;
 }
 
@@ -132,8 +139,10 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
   const ArrowCounts most = most_records(scene, tile, options_);
   ArrowCounts predicted{};
   for (std::size_t i = 0; i < kArrowCount; ++i) predicted[i] = std::min(expected[i], most[i]);
+  if (!may_lose()) predicted = lists_.affordable(predicted);
+  ArrowCounts needed = predicted;
+  bool measured = false;  // `needed` is what a run of this tile had, not what was expected of it
   try {
-    ArrowCounts needed = predicted;
     for (;;) {
       reserve(needed);
       actual = run_tile(scene, tile, predicted, most);
@@ -142,6 +151,7 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
       // lower bound and may overflow in the next round; each round mends at least one list.
       const ArrowCounts counts = stored(actual);
       for (std::size_t i = 0; i < kArrowCount; ++i) needed[i] = std::max(needed[i], counts[i]);
+      measured = true;
       report_.work = work;
       // To backtrack, the true counts have to be known: it is run again, for them alone.
       if (misprediction_ == Misprediction::kBacktrack)
@@ -150,20 +160,30 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
         ++report_.redone;
     }
   } catch (const DeviceError& error) {
+    const bool hinted =
+        !measured && !may_lose() &&
+        std::any_of(predicted.begin(), predicted.end(), [](auto n) { return n > 1; });
     const bool remembered = remembers();
-    if (!is_out_of_memory(error.code()) || (tile.count < 2 && !remembered)) throw;
-    // It does not fit: it might without temporal data, or in halves.
+    if (!is_out_of_memory(error.code()) || (tile.count < 2 && !remembered && !hinted)) throw;
+    // It does not fit: it might without room for what was only expected, without temporal data, or
+    // in halves.
     ++report_.redone;
     report_.work = work;
+    lists_.release();
+    if (hinted) {
+      collide_tile(scene, tile, {});
+      return;
+    }
     if (remembered) forget_temporal_data();
     if (tile.count < 2) {
-      collide_tile(scene, tile, predicted);
+      collide_tile(scene, tile, {});
       return;
     }
     const std::size_t half = tile.count / 2;
-    collide_tile(scene, {tile.first, half}, share(predicted, half, tile.count));
+    if (memory_ != nullptr) memory_->tile_pairs = half;
+    collide_tile(scene, {tile.first, half}, share(needed, half, tile.count));
     collide_tile(scene, {tile.first + half, tile.count - half},
-                 share(predicted, tile.count - half, tile.count));
+                 share(needed, tile.count - half, tile.count));
     return;
   }
   for (std::size_t i = 0; i < kArrowCount; ++i) {

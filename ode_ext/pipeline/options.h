@@ -34,6 +34,7 @@ struct ColliderOptions {
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that no
   // counter and no index passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;
+  std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it
 };
 
 // The largest max_contacts (OX_MAX_CONTACTS in contact_step.cl).

@@ -13,6 +13,8 @@ namespace ode_ext {
 struct PassMemory {
   History history;
   std::unique_ptr<TemporalCache> temporal;
+  // How many pairs to collide at a time since all at once did not fit the device; 0: they do.
+  std::size_t tile_pairs = 0;
 };
 
 }  // namespace ode_ext

@@ -7,14 +7,15 @@
 
 namespace ode_ext {
 
-std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices) {
+std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices,
+                                 std::size_t tile_pairs) {
   std::vector<Tile> tiles;
   std::uint64_t vertices = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     std::uint64_t of_pair = 0;
     for (const std::uint32_t object : scene.pairs[i])
       of_pair += kChunkVertices * topology(*scene.meshes[scene.objects[object].mesh]).chunks.size();
-    if (tiles.empty() || vertices + of_pair > tile_vertices) {
+    if (tiles.empty() || vertices + of_pair > tile_vertices || tiles.back().count == tile_pairs) {
       tiles.push_back({i, 0});
       vertices = 0;
     }

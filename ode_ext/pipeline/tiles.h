@@ -15,7 +15,9 @@ struct Tile {
   std::size_t first, count;  // pairs
 };
 
-std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices);
+// Tiles of at most so many vertices, unless it is a single pair's, and at most so many pairs.
+std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices,
+                                 std::size_t tile_pairs);
 
 // What a tile can append at the very most.
 ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options);

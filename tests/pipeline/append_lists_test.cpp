@@ -72,6 +72,49 @@ TEST(AppendLists, CanBeLimitedToExactlyWhatWasPredicted) {
   EXPECT_TRUE(lists.overflowed(all(4)));
 }
 
+// A list with more room than there is memory would fail every later step, however small.
+TEST(AppendLists, AreAsEmptyAsBeforeWhereTheDeviceHasNoRoomForThem) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve(all(1000));
+  EXPECT_THROW(lists.reserve(all(std::uint64_t{1} << 40)), DeviceError);
+  EXPECT_EQ(lists.capacities(), all(0));
+  EXPECT_EQ(lists.rays().capacity(), 0u);
+  lists.reserve(all(1000));
+  EXPECT_EQ(lists.capacities(), all(1250));
+}
+
+TEST(AppendLists, FindRoomForTheExpectedOnlyAsFarAsItIsCheap) {
+  constexpr std::uint64_t kLargest = 1 << 20;  // [bytes]
+  Device device("", kLargest);
+  AppendLists lists(device);
+  EXPECT_EQ(lists.affordable(all(100)), all(100));
+  const ArrowCounts bounded = lists.affordable(all(std::uint64_t{1} << 40));
+  lists.reserve(bounded);
+  EXPECT_LE(lists.candidates().capacity(), kLargest / 4);
+  // Room that is there already costs nothing.
+  ArrowCounts crossings{};
+  crossings[OX_LIST_CROSSINGS] = 2000;
+  lists.reserve(crossings);
+  EXPECT_EQ(lists.affordable(all(2500))[OX_LIST_CROSSINGS], 2500u);
+}
+
+TEST(AppendLists, GiveBackWhatNobodyUsedForLong) {
+  Device device("");
+  AppendLists lists(device);
+  const ArrowCounts peak = all(1000000);
+  lists.reserve(peak);
+  lists.note_use(peak);
+  for (int i = 0; i < 255; ++i) lists.note_use(all(1000));
+  EXPECT_GE(lists.capacities()[0], 1000000u) << "the peak was not long ago";
+  for (int i = 0; i < 256; ++i) lists.note_use(all(1000));
+  EXPECT_EQ(lists.capacities(), all(0));
+  EXPECT_EQ(lists.candidates().capacity(), 0u);
+  lists.reserve(all(1000));
+  for (int i = 0; i < 1000; ++i) lists.note_use(all(1));
+  EXPECT_EQ(lists.capacities(), all(1250)) << "so little is not worth growing again";
+}
+
 TEST(AppendLists, CanGrowAfterGrowingFailed) {
   Device device("");
   AppendLists lists(device);

@@ -220,6 +220,57 @@ TEST(Collider, GivesTheSameBytesInManyTiles) {
   }
 }
 
+// What does not fit the device is cut up, pass after pass, and small steps are as ever.
+TEST(Collider, GivesTheSameBytesOnADeviceOfSmallBuffers) {
+  const TestScene scene = random_scene(2000, 51), small = random_scene(3, 57);
+  Collider whole({});
+  const Bits expected = bits_of(whole.collide(scene.scene, nullptr));
+  const std::uint64_t crossings = whole.report().actual[OX_LIST_CROSSINGS];
+  const Bits of_small = bits_of(whole.collide(small.scene, nullptr));
+  ColliderOptions options;
+  options.initial_capacity = 64;
+  options.largest_buffer = std::uint64_t{3} << 20;  // the meshes, which are not cut up, take less
+  ASSERT_GT(crossings * OX_POINTS_PER_CROSSING * sizeof(ox_candidate), 2 * options.largest_buffer)
+      << "it would fit at once";
+  Collider collider(options);
+  PassMemory memory, memory_of_small;
+  for (int pass = 0; pass < 3; ++pass) {
+    EXPECT_EQ(bits_of(collider.collide(scene.scene, &memory)), expected) << "pass " << pass;
+    EXPECT_GT(memory.tile_pairs, 0u);
+    EXPECT_LT(memory.tile_pairs, scene.pairs.size());
+    EXPECT_EQ(bits_of(collider.collide(small.scene, &memory_of_small)), of_small);
+    EXPECT_EQ(memory_of_small.tile_pairs, 0u);
+  }
+}
+
+TEST(Collider, TriesAgainAfterAWhileWhatDidNotFit) {
+  const TestScene scene = random_scene(65, 58);
+  Collider collider({});
+  PassMemory memory;
+  memory.tile_pairs = 20;
+  for (int pass = 0; pass < 200; ++pass) collider.collide(scene.scene, &memory);
+  EXPECT_GE(memory.tile_pairs, scene.pairs.size());
+}
+
+// Equation 1 multiplies what one pair of fine meshes had by however many pairs come next.
+TEST(Collider, IsNotHeldUpByAPredictionThatExceedsTheDevice) {
+  const TestScene scene = random_scene(65, 59);
+  const Bits expected = collide(scene);
+  Collider collider({});
+  for (const std::uint64_t count : {std::uint64_t{1} << 24, std::uint64_t{1} << 31}) {
+    PassMemory memory;
+    memory.history.pairs = 1;
+    memory.history.counts.fill(count);
+    EXPECT_EQ(bits_of(collider.collide(scene.scene, &memory)), expected);
+    EXPECT_EQ(collider.report().redone, 0);
+    std::uint64_t records = 0;
+    for (const std::uint64_t capacity : collider.report().capacity) records += capacity;
+    EXPECT_LT(records, count * 65 / 8);
+    EXPECT_EQ(memory.history.pairs, 65u);
+    EXPECT_EQ(memory.history.counts, collider.report().actual);
+  }
+}
+
 TEST(Collider, GivesAPairTheSameBytesAloneAndAmongOthers) {
   const TestScene scene = scene_with_large_meshes();
   Collider collider({});

@@ -55,16 +55,18 @@ class Rig {
 
   StepRecords run_with_edges(const Scene& scene, Organisation organisation,
                              Launch launch = {8, 64}) {
-    upload(scene, 16, true);
-    if (organisation == Organisation::kMonolithic) {
-      steps_.pair.run(launch, lists_, meshes_, pairs_, temporal_, settings_, true);
-      steps_.monolithic.run(launch, lists_, dense_vertex_tasks_, dense_tasks_, meshes_, pairs_,
-                            temporal_, settings_, works_);
-    } else {
-      run_vertices(launch);
-      steps_.edge.run(launch, lists_, meshes_, pairs_, works_);
-      steps_.edge_rays.run(launch, lists_, meshes_, pairs_, works_);
-    }
+    do {
+      upload(scene, 16, true);
+      if (organisation == Organisation::kMonolithic) {
+        steps_.pair.run(launch, lists_, meshes_, pairs_, temporal_, settings_, true);
+        steps_.monolithic.run(launch, lists_, dense_vertex_tasks_, dense_tasks_, meshes_, pairs_,
+                              temporal_, settings_, works_);
+      } else {
+        run_vertices(launch);
+        steps_.edge.run(launch, lists_, meshes_, pairs_, works_);
+        steps_.edge_rays.run(launch, lists_, meshes_, pairs_, works_);
+      }
+    } while (grow_for_crossings());
     steps_.contact.run(launch, launch, launch, lists_, meshes_, pairs_, settings_);
     StepRecords records = read_back();
     read_back_edges(organisation, records);
@@ -95,6 +97,18 @@ class Rig {
       steps_.vertex.run(category, launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
     for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
       step->run(launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
+  }
+
+  // Whether there were more crossings than room for them, which there now is.
+  bool grow_for_crossings() {
+    std::vector<ox_u32> counters(AppendLists::kCounterBytes / sizeof(ox_u32));
+    lists_.read_counters(counters.data());
+    device_.finish();
+    ArrowCounts needed{};
+    needed[OX_LIST_CROSSINGS] = counters[OX_LIST_CROSSINGS * OX_COUNTER_STRIDE];
+    if (!lists_.overflowed(needed)) return false;
+    lists_.reserve(needed);
+    return true;
   }
 
   void upload(const Scene& scene, std::uint32_t max_contacts, bool with_edges) {
@@ -131,10 +145,10 @@ class Rig {
     pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
     pairs_.dense_first.write(host_dense_first_.data(), host_dense_first_.size() * sizeof(ox_u32));
     const std::uint64_t tasks = std::uint64_t{chunks} + 1;
-    // An edge may cross every triangle; that all of them do takes more memory than there is.
+    // An edge may cross every triangle; that all of them do takes more memory than there is, so
+    // the room for crossings follows what there were.
     lists_.reserve({tasks, tasks, tasks, std::uint64_t{edge_chunks} + 1, vertices, vertices,
-                    vertices, edges, vertices, 64 * edges,
-                    std::uint64_t{count} * max_contacts + 1});
+                    vertices, edges, vertices, edges, std::uint64_t{count} * max_contacts + 1});
     lists_.begin(lists_.capacities());
     lists_.tasks().reserve((dense_tasks_ + 1) * sizeof(ox_chunk_task));
     temporal_.begin_without(count);
