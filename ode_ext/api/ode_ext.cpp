@@ -15,15 +15,19 @@
 #include <string>
 
 #include "device/device.h"
+#include "device/fork_guard.h"
 #include "ode/batch_collider.h"
 #include "ode/messages.h"
 #include "ode/override.h"
+#include "ode/pass.h"
 #include "ode/registry.h"
 #include "ode/trace.h"
 
 namespace {
 
 using ode_ext::BatchCollider;
+using ode_ext::CallMark;
+using ode_ext::Pass;
 using ode_ext::PassRoot;
 
 // Runs `body`; an exception becomes the last error, prefixed with the call, and `failure`.
@@ -45,6 +49,14 @@ Result guarded(const char* call, Result failure, Body body) noexcept {
 }
 
 [[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument(why); }
+
+// In a forked child nothing of the parent's may be touched, not even a lock: ODE's own collider
+// answers there, and the handles are dead.
+bool is_dead(dBatchColliderID handle) {
+  if (handle == nullptr || !ode_ext::is_lost_by_fork()) return false;
+  ode_ext::say_that_a_fork_lost_the_device();
+  return true;
+}
 
 std::shared_ptr<BatchCollider> live(dBatchColliderID handle) {
   auto collider = ode_ext::find_collider(handle);
@@ -147,7 +159,7 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
 
 int collide(const char* call, dBatchColliderID handle, const PassRoot& root, void* data,
             dNearCallback* callback) {
-  if (handle == nullptr) {
+  if (handle == nullptr || is_dead(handle)) {
     if (root.second == nullptr)
       dSpaceCollide(reinterpret_cast<dSpaceID>(root.first), data, callback);
     else
@@ -156,12 +168,13 @@ int collide(const char* call, dBatchColliderID handle, const PassRoot& root, voi
   }
   // A callback of the program may throw; that is between it and its caller, so only what this
   // library does itself is guarded.
-  std::shared_ptr<BatchCollider> collider;
-  std::optional<BatchCollider::Pass> pass;
+  const CallMark mark;
+  std::optional<Pass> pass;
   const bool begun = guarded(call, false, [&] {
-    collider = live(handle);
+    Pass::end_those_left(mark);
+    const auto collider = live(handle);
     ode_ext::install_override();
-    pass.emplace(*collider, root);
+    pass.emplace(collider, root, mark);
     return true;
   });
   if (!begun) return -1;
@@ -188,6 +201,7 @@ template <class Visit>
 void visit_colliders(const char* call, dBatchColliderID handle, dTriMeshDataID data, Visit visit) {
   guarded(call, 0, [&] {
     if (data == nullptr) refuse("the mesh is NULL");
+    if (ode_ext::is_lost_by_fork()) return 0;
     if (handle != nullptr)
       visit(*live(handle));
     else
@@ -216,6 +230,10 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
     check(complete_params);
     if (dCheckConfiguration("ODE_double_precision") == 0)
       refuse("this ODE was built in single precision, ode_ext for double");
+    if (ode_ext::is_lost_by_fork())
+      refuse(
+          "this process was forked from one that had used OpenCL, and its driver does not work "
+          "here; fork before the first collider is created, or call exec in the child");
     ode_ext::set_log_level(ode_ext::log_level_of_environment());
     ode_ext::open_trace_of_environment();
     auto collider = std::make_shared<BatchCollider>(
@@ -228,8 +246,10 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
 }
 
 void dBatchColliderDestroy(dBatchColliderID handle) {
-  if (handle == nullptr) return;
+  if (handle == nullptr || ode_ext::is_lost_by_fork()) return;
+  const CallMark mark;
   guarded("dBatchColliderDestroy", 0, [&] {
+    Pass::end_those_left(mark);
     if (!ode_ext::unregister_collider(live(handle))) refuse("a pass of this collider is running");
     return 0;
   });
@@ -264,7 +284,7 @@ int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g1, dGeomID g
 int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, int pair_count,
                                int flags, dContactGeom* contacts, int skip, int* contact_counts) {
   return guarded("dBatchColliderCollidePairs", -1, [&] {
-    const auto found = collider == nullptr ? nullptr : live(collider);
+    const auto found = collider == nullptr || is_dead(collider) ? nullptr : live(collider);
     if (pair_count < 0) refuse("pair_count is " + std::to_string(pair_count));
     if (pair_count > 0 && (pairs == nullptr || contacts == nullptr))
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
@@ -313,7 +333,10 @@ void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats* stat
     dBatchColliderStats found{};
     std::memcpy(static_cast<void*>(stats), &found, size);
     stats->struct_size = size;
-    found = live(collider)->stats();
+    if (is_dead(collider))
+      found.status = dBatchStatusDeviceFailed;
+    else
+      found = live(collider)->stats();
     found.struct_size = size;
     std::memcpy(static_cast<void*>(stats), &found, size);
     return 0;
@@ -322,6 +345,8 @@ void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats* stat
 
 int dBatchColliderDescribeDevices(const char* selection, char* text, size_t size) {
   return guarded("dBatchColliderDescribeDevices", 0, [&] {
+    if (ode_ext::is_lost_by_fork())
+      refuse("this process was forked from one that had used OpenCL; call exec in the child");
     const std::string description = ode_ext::describe_devices(selection_or_environment(selection));
     if (text != nullptr && size > 0) {
       const std::size_t count = std::min(description.size(), size - 1);

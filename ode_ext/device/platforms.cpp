@@ -8,6 +8,7 @@
 #include "device/choice.h"
 #include "device/device.h"
 #include "device/error.h"
+#include "device/fork_guard.h"
 
 namespace ode_ext {
 namespace {
@@ -92,6 +93,7 @@ struct Survey {
 // One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or
 // shows no device where several threads make it at once.
 Survey survey() {
+  note_opencl_is_used();
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   Survey result;

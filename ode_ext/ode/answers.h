@@ -35,6 +35,7 @@ struct Answer {
   std::uint64_t gathered_pass = 0;   // the last outermost pass that gathered it
   std::uint64_t last_pass = 0;       // the last one that gathered it or in which it was asked for
   std::uint64_t passes_unasked = 0;  // that gathered it since the program last asked
+  std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead
 
   // Whether this is the answer for these two, in either order.
   bool holds(const PairMember& a, const PairMember& b) const;

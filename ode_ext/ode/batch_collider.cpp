@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
-#include <tuple>
 
 #include "device/error.h"
 #include "ode/contact_export.h"
 #include "ode/messages.h"
+#include "ode/pass_stats.h"
 #include "ode/pose_of.h"
 #include "ode/program_callbacks.h"
 #include "ode/stock_collider.h"
@@ -22,8 +22,14 @@ namespace {
 // How many answers computed outside of any pass are kept, for programs that never make one.
 constexpr std::uint64_t kAnswersOutside = 65536;
 
-// The passes running on this thread, outermost first.
-thread_local std::vector<std::pair<BatchCollider*, PassRoot>> running;
+// So many questions in one pass for pairs that nobody asked for of late are taken for a pile that
+// wakes up: what else was not computed ahead then is, in one batch.
+constexpr std::uint64_t kQuestionsOfAPileThatWakes = 4;
+
+// Temporal data of spaces beside the one that is collided: what a device can easily spare.
+std::size_t most_temporal_bytes(const DeviceInfo& info) {
+  return static_cast<std::size_t>(info.largest_buffer / 16);
+}
 
 class Stopwatch {
  public:
@@ -54,49 +60,7 @@ bool can_collide(dGeomID g1, dGeomID g2) {
   return g1 != g2 && (dGeomGetBody(g1) == nullptr || dGeomGetBody(g1) != dGeomGetBody(g2));
 }
 
-PairMember known_member(const MeshStore& meshes, dGeomID geom) {
-  const dTriMeshDataID data = dGeomTriMeshGetData(geom);
-  return {geom, data, meshes.known(data, dGeomTriMeshGetTriangleCount(geom)), pose_of(geom)};
-}
-
 }  // namespace
-
-BatchCollider::Pass::Pass(BatchCollider& collider, const PassRoot& root)
-    : collider_(collider), root_(root) {
-  const std::lock_guard lock(collider_.mutex_);
-  outer_failed_ = collider_.failed_;
-  if (collider_.depth_ != 0 && collider_.pass_thread_ != std::this_thread::get_id())
-    throw std::runtime_error(
-        "another thread runs a pass of this collider; give each thread a collider of its own");
-  collider_.run_batch(root);
-  backtracked_ = (collider_.stats_.status & dBatchStatusBacktracked) != 0;
-  running.emplace_back(&collider_, root);
-  collider_.pass_thread_ = std::this_thread::get_id();
-  ++collider_.depth_;
-}
-
-BatchCollider::Pass::~Pass() {
-  running.pop_back();
-  --collider_.depth_;
-  collider_.failed_ = outer_failed_;
-}
-
-bool BatchCollider::Pass::deliver(void* data, dNearCallback* callback) {
-  if (backtracked_) return false;
-  if (root_.second == nullptr)
-    dSpaceCollide(reinterpret_cast<dSpaceID>(root_.first), data, callback);
-  else
-    dSpaceCollide2(root_.first, root_.second, data, callback);
-  return true;
-}
-
-bool BatchCollider::RootLess::operator()(const PassRoot& a, const PassRoot& b) const {
-  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-}
-
-BatchCollider* BatchCollider::passing_on_this_thread() {
-  return running.empty() ? nullptr : running.back().first;
-}
 
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
                              bool trust_meshes, bool triangle_callbacks)
@@ -109,26 +73,49 @@ BatchCollider::BatchCollider(const ColliderOptions& options, float open_thicknes
   std::strncpy(stats_.device, info.name.c_str(), sizeof(stats_.device) - 1);
 }
 
-void BatchCollider::run_batch(const PassRoot& root) {
+bool BatchCollider::claim() {
   const std::lock_guard lock(mutex_);
+  if (depth_ != 0 && pass_thread_ != std::this_thread::get_id())
+    throw std::runtime_error(
+        "another thread runs a pass of this collider; give each thread a collider of its own");
+  pass_thread_ = std::this_thread::get_id();
+  if (depth_++ == 0) {
+    ++pass_;
+    asked_unasked_ = 0;
+    unasked_pairs_.clear();
+    unasked_members_.clear();
+  }
+  ++look_;
+  return failed_;
+}
+
+void BatchCollider::unclaim(bool outer_failed) {
+  const std::lock_guard lock(mutex_);
+  --depth_;
+  failed_ = outer_failed;
+}
+
+bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> traversed) {
   const Stopwatch whole;
-  if (depth_ == 0) ++pass_;
+  // ODE's broad phase asks geoms of the program's own classes for their boxes, which is code of the
+  // program: it runs before the lock is taken.
+  std::vector<GatheredPair> pairs;
+  const bool may_hold_pair = may_hold_mesh_pair(root);
+  if (may_hold_pair) pairs = gather_pairs(root, traversed);
+  const double ms_gather = whole.milliseconds();
+
+  const HeldMessages held;
+  const std::lock_guard lock(mutex_);
   ++look_;
   failed_ = false;
   asked_outside_ = 0;
   begin_stats();
-
-  if (!may_hold_mesh_pair(root)) {
+  if (!may_hold_pair) {
     stats_.status |= dBatchStatusGatherSkipped;
   } else {
-    std::vector<PassRoot> traversed;
-    for (const auto& [collider, outer] : running) traversed.push_back(outer);
-    const Stopwatch gathering;
-    const std::vector<GatheredPair> pairs = gather_pairs(root, traversed);
-    stats_.ms[dBatchStageGather] = gathering.milliseconds();
-    if (memories_.size() > 4096) memories_.clear();  // spaces come and go; these are only hints
+    stats_.ms[dBatchStageGather] = ms_gather;
     try {
-      compute_ahead(pairs, memories_[root]);
+      compute_ahead(pairs, root);
       if (stats_.pairs_computed != 0) failure_said_ = false;  // the device works
     } catch (const std::exception& error) {
       failed_ = true;
@@ -137,32 +124,66 @@ void BatchCollider::run_batch(const PassRoot& root) {
   }
   answers_.prune(pass_);
   meshes_.prune(pass_);
+  memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
   stats_.meshes = static_cast<int>(meshes_.size());
   stats_.ms[dBatchStagePass] = whole.milliseconds();
   trace_pass(whole.start(), stats_);
+  return (stats_.status & dBatchStatusBacktracked) != 0;
 }
 
-void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, PassMemory& memory) {
+void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root) {
   const Stopwatch reading;
   begin_scene();
   std::vector<const Answer*> gathered;
+  bool familiar = pairs.empty();
   for (const GatheredPair& pair : pairs) {
     Answer& answer = answers_.entry(pair.first.geom, pair.second.geom);
     if (answer.gathering == look_) continue;
     answer.gathering = look_;
     gathered.push_back(&answer);
+    familiar = familiar || answer.gathered_pass != 0;
     if (answer.gathered_pass != pass_) ++answer.passes_unasked;
     answer.gathered_pass = answer.last_pass = pass_;
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
-    if (answer.passes_unasked <= kPassesRemembered) add_unless_answered(answer, pair);
+    if (answer.passes_unasked <= kPassesRemembered)
+      add_unless_answered(answer, member_of(pair.first), member_of(pair.second));
+    else
+      note_unasked(answer, pair);
   }
   stats_.pairs = static_cast<long long>(gathered.size());
   stats_.ms[dBatchStageMeshes] = reading.milliseconds();
-  collide_scene(&memory);
+  collide_scene(&memories_.of(root, pass_, familiar));
   note_report();
   stats_.pairs_colliding = std::count_if(
       gathered.begin(), gathered.end(),
       [](const Answer* answer) { return answer->valid && !answer->contacts.empty(); });
+}
+
+// Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
+// was last read: where it has changed since, the answer will not hold.
+void BatchCollider::note_unasked(Answer& answer, const GatheredPair& pair) {
+  if (answer.noted_pass == pass_) return;  // in a pass around this one
+  answer.noted_pass = pass_;
+  for (const PlacedGeom& placed : {pair.first, pair.second}) {
+    const auto [place, is_new] = unasked_members_.try_emplace(placed.geom);
+    if (!is_new) continue;
+    const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
+    place->second = {placed.geom, data, meshes_.keep(data, pass_), placed.pose};
+  }
+  unasked_pairs_.push_back({pair.first.geom, pair.second.geom});
+}
+
+void BatchCollider::compute_unasked() {
+  begin_scene();
+  for (const auto& [first, second] : unasked_pairs_) {
+    const PairMember &a = unasked_members_.at(first), &b = unasked_members_.at(second);
+    if (meshes_.is_as_known(a.data, a.mesh) && meshes_.is_as_known(b.data, b.mesh))
+      add_unless_answered(answers_.entry(first, second), member_of(a), member_of(b));
+  }
+  unasked_pairs_.clear();
+  unasked_members_.clear();
+  collide_scene(nullptr);
+  stats_.pairs_computed += static_cast<long long>(collider_.report().pairs);
 }
 
 // Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
@@ -177,7 +198,7 @@ void BatchCollider::count_outside(std::size_t pairs) {
 void BatchCollider::compute_alone(Answer& answer, const GatheredPair& pair) {
   if (depth_ == 0) ++look_;
   begin_scene();
-  add_unless_answered(answer, pair);
+  add_unless_answered(answer, member_of(pair.first), member_of(pair.second));
   collide_scene(nullptr);
 }
 
@@ -189,9 +210,7 @@ void BatchCollider::begin_scene() {
   pending_.clear();
 }
 
-void BatchCollider::add_unless_answered(Answer& answer, const GatheredPair& pair) {
-  std::uint32_t a = member_of(pair.first);
-  std::uint32_t b = member_of(pair.second);
+void BatchCollider::add_unless_answered(Answer& answer, std::uint32_t a, std::uint32_t b) {
   if (answer.holds(members_[a], members_[b])) return;
   if (!in_canonical_order(members_[a], members_[b])) std::swap(a, b);
   answer.valid = false;
@@ -206,16 +225,27 @@ void BatchCollider::add_unless_answered(Answer& answer, const GatheredPair& pair
 }
 
 std::uint32_t BatchCollider::member_of(const PlacedGeom& placed) {
+  const auto known = member_index_.find(placed.geom);
+  if (known != member_index_.end()) return known->second;
+  const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
+  const auto& mesh = meshes_.refresh(data, look_, pass_);
+  if (!mesh->finite) stats_.status |= dBatchStatusMeshRefused;
+  if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
+  return member_of(PairMember{placed.geom, data, mesh, placed.pose});
+}
+
+std::uint32_t BatchCollider::member_of(const PairMember& member) {
   const auto [place, is_new] =
-      member_index_.try_emplace(placed.geom, static_cast<std::uint32_t>(members_.size()));
-  if (is_new) {
-    const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-    const auto& mesh = meshes_.refresh(data, look_, pass_);
-    if (!mesh->finite) stats_.status |= dBatchStatusMeshRefused;
-    if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
-    members_.push_back({placed.geom, data, mesh, placed.pose});
-  }
+      member_index_.try_emplace(member.geom, static_cast<std::uint32_t>(members_.size()));
+  if (is_new) members_.push_back(member);
   return place->second;
+}
+
+// As the program sees it now. Within a pass every mesh is looked at once.
+PairMember BatchCollider::current_member(dGeomID geom) {
+  const dTriMeshDataID data = dGeomTriMeshGetData(geom);
+  if (depth_ != 0) return {geom, data, meshes_.refresh(data, look_, pass_), pose_of(geom)};
+  return {geom, data, meshes_.known(data, dGeomTriMeshGetTriangleCount(geom)), pose_of(geom)};
 }
 
 void BatchCollider::collide_scene(PassMemory* memory) {
@@ -236,35 +266,50 @@ void BatchCollider::collide_scene(PassMemory* memory) {
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
+  const HeldMessages held;
   std::unique_lock lock(mutex_);
-  Answer* known = answers_.find(g1, g2);
-  if (known != nullptr) {
-    known->last_pass = pass_;
-    known->passes_unasked = 0;
-  }
-  if (known == nullptr || !known->holds(known_member(meshes_, g1), known_member(meshes_, g2))) {
-    if (depth_ != 0 && failed_) {
-      ++stats_.pairs_stock;
-      return -1;
-    }
-    count_outside(1);
-    known = &answers_.entry(g1, g2);
-    known->last_pass = pass_;
-    try {
-      compute_alone(*known, {placed(g1), placed(g2)});
-    } catch (const std::exception& error) {
-      if (depth_ != 0) failed_ = true;  // one attempt is enough for this pass
-      fail(error);
-      ++stats_.pairs_stock;
-      return -1;
-    }
-    ++stats_.pairs_alone;
+  const Answer* known = find_or_compute(g1, g2);
+  if (known == nullptr) {
+    ++stats_.pairs_stock;
+    return -1;
   }
   if (!has_callbacks(g1, g2, triangle_callbacks_))
     return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts, skip);
   const Answer asked = *known;
   lock.unlock();
   return export_asked(asked, g1, g2, limit, contacts, skip);
+}
+
+// Null: the device fails.
+const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
+  Answer* known = answers_.find(g1, g2);
+  bool was_unasked = false;
+  if (known != nullptr) {
+    was_unasked = depth_ != 0 && known->noted_pass == pass_;
+    known->last_pass = pass_;
+    known->passes_unasked = 0;
+  }
+  const auto holds = [&] {
+    return known != nullptr && known->holds(current_member(g1), current_member(g2));
+  };
+  if (holds()) return known;
+  if (depth_ != 0 && failed_) return nullptr;
+  try {
+    if (was_unasked && ++asked_unasked_ >= kQuestionsOfAPileThatWakes && !unasked_pairs_.empty()) {
+      compute_unasked();
+      if (holds()) return known;
+    }
+    count_outside(1);
+    known = &answers_.entry(g1, g2);
+    known->last_pass = pass_;
+    compute_alone(*known, {placed(g1), placed(g2)});
+  } catch (const std::exception& error) {
+    if (depth_ != 0) failed_ = true;  // one attempt is enough for this pass
+    fail(error);
+    return nullptr;
+  }
+  ++stats_.pairs_alone;
+  return known;
 }
 
 int BatchCollider::export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit,
@@ -274,61 +319,77 @@ int BatchCollider::export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int
 }
 
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
+  const HeldMessages held;
   const std::lock_guard lock(mutex_);
   const Answer* known = answers_.find(g1, g2);
-  return known != nullptr && known->holds(known_member(meshes_, g1), known_member(meshes_, g2));
+  return known != nullptr && known->holds(current_member(g1), current_member(g2));
 }
 
 int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,
                                  int skip, int* counts) {
-  std::unique_lock lock(mutex_);
   const Stopwatch whole;
-  begin_stats();
-  bool stock = false;
-  try {
-    compute_pairs(geoms);
-    if (stats_.pairs_computed != 0) failure_said_ = false;
-  } catch (const std::exception& error) {
-    fail(error);
-    stock = true;
-  }
-
+  const std::size_t pair_count = geoms.size() / 2;
   const int limit = flags & 0xffff;
+  int total = 0;
+  long long colliding = 0;
   const auto target = [&](std::size_t pair) {
     auto* bytes = reinterpret_cast<unsigned char*>(contacts);
     return reinterpret_cast<dContactGeom*>(bytes +
                                            static_cast<std::ptrdiff_t>(pair) * limit * skip);
   };
-  int total = 0;
   const auto note_count = [&](std::size_t pair, int count) {
     if (counts != nullptr) counts[pair] = count;
     total += count;
+    colliding += count > 0;
   };
-  std::vector<std::pair<std::size_t, Answer>> to_ask;  // callbacks, when the lock is gone
-  for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
-    const dGeomID g1 = geoms[2 * i];
-    const dGeomID g2 = geoms[2 * i + 1];
-    int count = 0;
-    if (can_collide(g1, g2)) {
-      const Answer& answer = answers_.entry(g1, g2);
-      if (!stock && has_callbacks(g1, g2, triangle_callbacks_)) {
-        if (!answer.contacts.empty()) ++stats_.pairs_colliding;
-        to_ask.emplace_back(i, answer);
+
+  // What the program's code has a part in waits until the lock is gone: callbacks, and ODE's own
+  // collider, which calls them.
+  std::vector<std::pair<std::size_t, Answer>> to_ask;
+  bool stock = false;
+  {
+    const HeldMessages held;
+    const std::lock_guard lock(mutex_);
+    begin_stats();
+    try {
+      compute_pairs(geoms);
+      if (stats_.pairs_computed != 0) failure_said_ = false;
+    } catch (const std::exception& error) {
+      fail(error);
+      stock = true;
+    }
+    for (std::size_t i = 0; i < pair_count && !stock; ++i) {
+      const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
+      if (!can_collide(g1, g2)) {
+        note_count(i, 0);
         continue;
       }
-      count = stock ? stock_collide(g1, g2, flags, target(i), skip)
-                    : export_contacts(answer.contacts, answer.members[0].geom, g1, g2, limit,
-                                      target(i), skip);
-      if (stock) ++stats_.pairs_stock;
+      const Answer& answer = answers_.entry(g1, g2);
+      if (has_callbacks(g1, g2, triangle_callbacks_))
+        to_ask.emplace_back(i, answer);
+      else
+        note_count(i, export_contacts(answer.contacts, answer.members[0].geom, g1, g2, limit,
+                                      target(i), skip));
     }
-    if (count > 0) ++stats_.pairs_colliding;
-    note_count(i, count);
   }
-  stats_.meshes = static_cast<int>(meshes_.size());
-  stats_.ms[dBatchStagePass] = whole.milliseconds();
-  lock.unlock();
   for (const auto& [i, answer] : to_ask)
     note_count(i, export_asked(answer, geoms[2 * i], geoms[2 * i + 1], limit, target(i), skip));
+  long long answered_by_stock = 0;
+  for (std::size_t i = 0; i < pair_count && stock; ++i) {
+    const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
+    if (!can_collide(g1, g2)) {
+      note_count(i, 0);
+      continue;
+    }
+    ++answered_by_stock;
+    note_count(i, stock_collide(g1, g2, flags, target(i), skip));
+  }
+
+  const std::lock_guard lock(mutex_);
+  stats_.pairs_colliding = colliding;
+  stats_.pairs_stock += answered_by_stock;
+  stats_.meshes = static_cast<int>(meshes_.size());
+  stats_.ms[dBatchStagePass] = whole.milliseconds();
   return total;
 }
 
@@ -343,7 +404,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
     Answer& answer = answers_.entry(g1, g2);
     answer.last_pass = pass_;
     answer.passes_unasked = 0;
-    add_unless_answered(answer, {placed(g1), placed(g2)});
+    add_unless_answered(answer, member_of(placed(g1)), member_of(placed(g2)));
   }
   stats_.pairs = static_cast<long long>(geoms.size() / 2);
   collide_scene(nullptr);
@@ -360,7 +421,7 @@ void BatchCollider::fail(const std::exception& error) {
 
 void BatchCollider::begin_stats() {
   dBatchColliderStats fresh{};
-  if (depth_ != 0)
+  if (depth_ > 1)
     fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;
@@ -370,42 +431,8 @@ void BatchCollider::begin_stats() {
 }
 
 void BatchCollider::note_report() {
-  const StepReport& report = collider_.report();
-  if (report.redone != 0) stats_.status |= dBatchStatusRedone;
-  stats_.redone = report.redone;
-  stats_.synchronizations = report.synchronizations;
-  stats_.pairs_computed = static_cast<long long>(report.pairs);
-  stats_.pairs_bounded = static_cast<long long>(report.pairs_bounded);
-  for (std::size_t i = 0; i < kArrowCount; ++i) {
-    stats_.predicted[i] = static_cast<long long>(report.predicted[i]);
-    stats_.actual[i] = static_cast<long long>(report.actual[i]);
-    stats_.capacity[i] = static_cast<long long>(report.capacity[i]);
-  }
-  if (report.missed != 0) stats_.status |= dBatchStatusMissed;
-  if (report.backtracked) stats_.status |= dBatchStatusBacktracked;
-  stats_.missed = static_cast<long long>(report.missed);
-  stats_.iterative_unproven = static_cast<long long>(report.unproven);
-  stats_.dropped = static_cast<long long>(report.dropped);
-  stats_.temporal_pairs = static_cast<long long>(report.temporal_pairs);
-  for (std::size_t i = 0; i < kWorkerCount; ++i) {
-    const WorkCount& work = report.work[i];
-    stats_.work[i] = {static_cast<long long>(work.items), static_cast<long long>(work.units),
-                      static_cast<long long>(work.lockstep32),
-                      static_cast<long long>(work.lockstep64)};
-  }
+  ode_ext::note_report(collider_.report(), stats_);
   stats_.deformed = static_cast<long long>(meshes_.take_deformed());
-  stats_.ms[dBatchStageDeformStep] = report.ms_deform_step;
-  stats_.ms[dBatchStagePairStep] = report.ms_pair_step;
-  stats_.ms[dBatchStageVertexStep] = report.ms_vertex_step;
-  stats_.ms[dBatchStageIterativeRays] = report.ms_iterative_rays;
-  stats_.ms[dBatchStageBvhRays] = report.ms_bvh_rays;
-  stats_.ms[dBatchStageBasicRays] = report.ms_basic_rays;
-  stats_.ms[dBatchStageMonolithic] = report.ms_monolithic;
-  stats_.ms[dBatchStageEdgeStep] = report.ms_edge_step;
-  stats_.ms[dBatchStageEdgeRays] = report.ms_edge_rays;
-  stats_.ms[dBatchStageEdgeContacts] = report.ms_edge_contacts;
-  stats_.ms[dBatchStageContactStep] = report.ms_contact_step;
-  stats_.ms[dBatchStageDevice] = report.ms_total;
 }
 
 void BatchCollider::announce_change(dTriMeshDataID data) {

@@ -8,16 +8,17 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <span>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "ode/answers.h"
 #include "ode/mesh_store.h"
 #include "ode/pair_gather.h"
+#include "ode/space_memories.h"
 #include "ode_ext/ode_ext.h"
 #include "pipeline/collider.h"
 
@@ -28,26 +29,14 @@ class BatchCollider {
   BatchCollider(const ColliderOptions& options, float open_thickness, bool trust_meshes,
                 bool triangle_callbacks);
 
-  // A collide pass: the batch is computed where it begins, and while it lives dCollide on this
-  // thread asks this collider first. Nests. The collider must outlive it.
-  class Pass {
-   public:
-    // Throws std::runtime_error if another thread runs a pass of this collider. A failing device is
-    // not an error: ODE's own collider then answers this pass.
-    Pass(BatchCollider& collider, const PassRoot& root);
-    ~Pass();
-    Pass(const Pass&) = delete;
-    Pass& operator=(const Pass&) = delete;
-    // ODE's own pass with the program's callback, which may throw. False: nothing is delivered
-    // (dBatchMispredictionBacktrack), and no callback was made.
-    bool deliver(void* data, dNearCallback* callback);
-
-   private:
-    BatchCollider& collider_;
-    PassRoot root_;
-    bool backtracked_ = false;
-    bool outer_failed_ = false;  // what failed_ was in the pass around this one
-  };
+  // The parts of a Pass (ode/pass.h). The beginning of a pass on this thread, which the collider
+  // then belongs to until unclaim(). Returns whether the pass around it failed, for unclaim. Throws
+  // std::runtime_error if another thread runs a pass of this collider.
+  bool claim();
+  void unclaim(bool outer_failed);
+  // Gathers and computes; `traversed`: what the passes of this thread traverse. True: nothing is to
+  // be delivered. A failing device is noted, not thrown.
+  bool run_batch(const PassRoot& root, std::span<const PassRoot> traversed);
 
   // One batch over given mesh pairs; contacts of pair i from index i * (flags & 0xffff) on. Returns
   // the total.
@@ -60,7 +49,6 @@ class BatchCollider {
   bool holds(dGeomID g1, dGeomID g2);
 
   bool is_passing() const { return depth_ != 0; }
-  static BatchCollider* passing_on_this_thread();
 
   void announce_change(dTriMeshDataID data);
   void set_deformable(dTriMeshDataID data, bool deformable);
@@ -68,42 +56,48 @@ class BatchCollider {
   dBatchColliderStats stats();
 
  private:
-  struct RootLess {
-    bool operator()(const PassRoot& a, const PassRoot& b) const;
-  };
-
-  void run_batch(const PassRoot& root);
-  void compute_ahead(std::span<const GatheredPair> pairs, PassMemory& memory);
+  // All of these under the lock.
+  void compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root);
+  void note_unasked(Answer& answer, const GatheredPair& pair);
+  void compute_unasked();
   void compute_pairs(std::span<const dGeomID> geoms);
+  const Answer* find_or_compute(dGeomID g1, dGeomID g2);
+  void count_outside(std::size_t pairs);
+  void compute_alone(Answer& answer, const GatheredPair& pair);
+  PairMember current_member(dGeomID geom);
   // An answer after the program's callbacks had their say; without the lock.
   int export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts,
                    int skip) const;
-  void count_outside(std::size_t pairs);
-  void compute_alone(Answer& answer, const GatheredPair& pair);
 
   // A scene of what has no valid answer: begin, add, then collide and keep the answers.
   void begin_scene();
-  void add_unless_answered(Answer& answer, const GatheredPair& pair);
+  void add_unless_answered(Answer& answer, std::uint32_t a, std::uint32_t b);  // members
   void collide_scene(PassMemory* memory);
   std::uint32_t member_of(const PlacedGeom& placed);
+  std::uint32_t member_of(const PairMember& member);
 
   void begin_stats();
   void note_report();
   void fail(const std::exception& error);
 
-  std::recursive_mutex
-      mutex_;  // ODE's broad phase may call a program's user classes, which may ask
+  // Never held while code of the program runs: its callbacks, the box functions of its geom
+  // classes, its message handler.
+  std::mutex mutex_;
   Collider collider_;
   MeshStore meshes_;
   Answers answers_;
   const bool triangle_callbacks_;
-  std::map<PassRoot, PassMemory, RootLess> memories_;  // of collider_, and gone before it
+  SpaceMemories memories_;  // of collider_, and gone before it
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
   std::uint64_t pass_ = 0;  // outermost passes
   std::uint64_t look_ = 0;  // meshes are read anew when it changes
   std::uint64_t asked_outside_ = 0;
+  // What the outermost pass met and did not compute ahead, and how often it was asked for.
+  std::vector<std::array<dGeomID, 2>> unasked_pairs_;
+  std::unordered_map<dGeomID, PairMember> unasked_members_;
+  std::uint64_t asked_unasked_ = 0;
   bool failed_ = false;        // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;  // one message per run of failures
 

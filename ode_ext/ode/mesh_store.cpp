@@ -83,6 +83,19 @@ std::shared_ptr<const Mesh> MeshStore::known(dTriMeshDataID data, int triangle_c
   return found->second.mesh;
 }
 
+std::shared_ptr<const Mesh> MeshStore::keep(dTriMeshDataID data, std::uint64_t pass) {
+  const auto found = entries_.find(data);
+  if (found == entries_.end()) return nullptr;
+  found->second.last_pass = pass;
+  return found->second.mesh;
+}
+
+bool MeshStore::is_as_known(dTriMeshDataID data, const std::shared_ptr<const Mesh>& mesh) const {
+  const auto found = entries_.find(data);
+  return mesh != nullptr && found != entries_.end() && !found->second.changed &&
+         found->second.mesh == mesh;
+}
+
 void MeshStore::announce_change(dTriMeshDataID data) {
   const auto found = entries_.find(data);
   if (found != entries_.end()) found->second.changed = true;

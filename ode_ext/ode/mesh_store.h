@@ -32,6 +32,11 @@ class MeshStore {
   // another number of triangles than `triangle_count`.
   std::shared_ptr<const Mesh> known(dTriMeshDataID data, int triangle_count) const;
 
+  // The mesh as of the last refresh, not looked at, but in use by this pass; null if not known.
+  std::shared_ptr<const Mesh> keep(dTriMeshDataID data, std::uint64_t pass);
+  // Whether `mesh` is what was last read. Never dereferences the handle.
+  bool is_as_known(dTriMeshDataID data, const std::shared_ptr<const Mesh>& mesh) const;
+
   // Whether it lay, when last read, outside of the box that ODE knows of it.
   bool has_left_box(dTriMeshDataID data) const { return entries_.at(data).left_box; }
   // How often deformable meshes changed since the last call.

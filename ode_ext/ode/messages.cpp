@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cstdlib>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace ode_ext {
 namespace {
@@ -13,6 +15,16 @@ namespace {
 std::string& this_threads_error() {
   thread_local std::string message;
   return message;
+}
+
+struct Waiting {
+  int holders = 0;
+  std::vector<std::string> messages;
+};
+
+Waiting& waiting() {
+  thread_local Waiting of_this_thread;
+  return of_this_thread;
 }
 
 std::atomic<LogLevel> level_in_force{LogLevel::kWarning};
@@ -39,7 +51,30 @@ void set_log_level(LogLevel level) { level_in_force = level; }
 
 void log(LogLevel level, const std::string& message) {
   if (level > level_in_force.load()) return;
-  dMessage(0, "ode_ext: %s", message.c_str());
+  if (waiting().holders != 0)
+    waiting().messages.push_back(message);
+  else
+    dMessage(0, "ode_ext: %s", message.c_str());
+}
+
+void say_that_a_fork_lost_the_device() {
+  static std::atomic<bool> said{false};
+  if (said.exchange(true)) return;
+  const std::string message =
+      "this process was forked from one that had used OpenCL, and its driver does not work here: "
+      "ODE's own collider answers. Fork before the first collider is created, or call exec in the "
+      "child.";
+  set_last_error(message);
+  log(LogLevel::kError, message);
+}
+
+HeldMessages::HeldMessages() { ++waiting().holders; }
+
+HeldMessages::~HeldMessages() {
+  if (--waiting().holders != 0 || waiting().messages.empty()) return;
+  // Taken out first: the handler may call what logs again.
+  const std::vector<std::string> messages = std::exchange(waiting().messages, {});
+  for (const std::string& message : messages) dMessage(0, "ode_ext: %s", message.c_str());
 }
 
 }  // namespace ode_ext

@@ -20,4 +20,17 @@ void set_log_level(LogLevel level);
 // Through dMessage, so that a program's own dSetMessageHandler sees it.
 void log(LogLevel level, const std::string& message);
 
+// Once a process.
+void say_that_a_fork_lost_the_device();
+
+// While one lives, what its thread logs waits. A program's message handler is code of the program,
+// which never runs under a lock of ours: one of these stands before each lock.
+class HeldMessages {
+ public:
+  HeldMessages();
+  ~HeldMessages();  // says what waited, unless another one lives on this thread
+  HeldMessages(const HeldMessages&) = delete;
+  HeldMessages& operator=(const HeldMessages&) = delete;
+};
+
 }  // namespace ode_ext

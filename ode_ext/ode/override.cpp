@@ -3,7 +3,9 @@
 
 #include <ode/ode.h>
 
+#include "device/fork_guard.h"
 #include "ode/contact_export.h"
+#include "ode/messages.h"
 #include "ode/registry.h"
 #include "ode/stock_collider.h"
 
@@ -16,8 +18,12 @@ namespace {
 // symmetric in the arguments, so they are asked for as the program did and turned round here first.
 int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   try {
-    const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
-    if (count >= 0) return count;
+    if (is_lost_by_fork()) {
+      say_that_a_fork_lost_the_device();
+    } else {
+      const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
+      if (count >= 0) return count;
+    }
   } catch (...) {  // out of memory: nothing may pass through ODE, and there still is an answer
   }
   const int stock = stock_collide(g2, g1, flags, contacts, skip);

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <vector>
 
+#include "ode/pass.h"
+
 namespace ode_ext {
 namespace {
 
@@ -45,7 +47,7 @@ std::vector<std::shared_ptr<BatchCollider>> live_colliders() {
 }
 
 int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
-  BatchCollider* passing = BatchCollider::passing_on_this_thread();
+  BatchCollider* passing = Pass::collider_on_this_thread();
   if (passing != nullptr) return passing->answer(g1, g2, limit, contacts, skip);
   const auto colliders = live_colliders();
   for (auto it = colliders.rbegin(); it != colliders.rend(); ++it)

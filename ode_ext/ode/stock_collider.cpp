@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/stock_collider.h"
 
-#include <mutex>
+#include <atomic>
 
 #include "ode/messages.h"
 
@@ -16,17 +16,15 @@ namespace ode_ext {
 int stock_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   if (dGeomTriMeshGetTriangleCount(g1) == 1 && dGeomTriMeshGetTriangleCount(g2) == 1) return 0;
   if (&ode_ext_stock_trimesh_trimesh == nullptr) {
-    static std::once_flag said;
-    std::call_once(said, [] {
+    static std::atomic<bool> said{false};
+    if (!said.exchange(true))
       log(LogLevel::kError,
           "this ODE does not export its own trimesh-trimesh collider; without a working device "
-          "mesh "
-          "pairs get no contacts");
-    });
+          "mesh pairs get no contacts");
     return 0;
   }
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
+  // Without a lock: it may call the program's callbacks, which may come back here. As everywhere in
+  // ODE, a thread that collides meshes has called dAllocateODEDataForThread.
   return ode_ext_stock_trimesh_trimesh(g1, g2, flags, contacts, skip);
 }
 

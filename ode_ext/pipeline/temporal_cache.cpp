@@ -128,6 +128,11 @@ void TemporalCache::reserve_blocks(std::uint64_t tasks) {
   blocks_[1 - (step_ & 1)].reserve(sizeof(ox_temporal));
 }
 
+std::size_t TemporalCache::bytes() const {
+  return links_.capacity() + poses_.capacity() + directory_.capacity() + blocks_[0].capacity() +
+         blocks_[1].capacity();
+}
+
 void TemporalCache::clear() {
   slots_.clear();
   free_.clear();

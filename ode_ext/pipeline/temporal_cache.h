@@ -44,6 +44,7 @@ class TemporalCache {
   const Buffer& now() const { return blocks_[step_ & 1]; }
   cl_uint step() const { return step_; }
   std::size_t pairs() const { return slots_.size(); }
+  std::size_t bytes() const;  // of device memory
 
  private:
   using Key = std::array<std::uint64_t, 2>;

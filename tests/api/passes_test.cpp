@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a collider learns from one pass to the next, and that it never shows in an answer.
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {
@@ -150,6 +154,70 @@ TEST_F(ApiPasses, SeeAGeomGivenAnotherMeshWithoutAPass) {
   collider.pass(space);
   set_mesh(g1, world.mesh(make_icosphere(0.5, 2)).id());
   EXPECT_EQ(difference_with_geoms(collide(g1, g2), fresh_answer(g1, g2)), "");
+}
+
+// Bindings of scripting languages leave callbacks by longjmp, and ODE's own pass with them: its space
+// stays locked, so that its geoms can never go. Hence a process of its own for each.
+class ApiLongjmpDeathTest : public ::testing::Test {
+ protected:
+  ApiLongjmpDeathTest() { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+
+  struct Leave {
+    std::jmp_buf back;
+    static void callback(void* self, dGeomID, dGeomID) {
+      std::longjmp(static_cast<Leave*>(self)->back, 1);
+    }
+  };
+  struct Scene {
+    OdeWorld world;
+    dSpaceID left = world.space(SpaceKind::Simple), space = world.space(SpaceKind::Simple);
+    Pile in_left{world, left, 6, 3}, pile{world, space, 6, 4};
+    BatchCollider collider;
+  };
+  // From deep down, so that later calls stand above.
+  __attribute__((noinline)) static void leave(const Scene& scene, int depth = 20) {
+    volatile char room[512] = {};
+    if (depth > room[depth]) {
+      leave(scene, depth - 1);
+      return;
+    }
+    Leave leave;
+    if (setjmp(leave.back) == 0)
+      dBatchColliderSpaceCollide(scene.collider, scene.left, &leave, &Leave::callback);
+  }
+  static int end(bool good) {
+    std::fprintf(stderr, "%s\n", good ? "good" : last_error().c_str());
+    std::_Exit(good ? 0 : 1);
+  }
+};
+
+TEST_F(ApiLongjmpDeathTest, OutOfACallbackLeavesAColliderThatCanBeDestroyed) {
+  EXPECT_EXIT(
+      {
+        Scene& scene = *new Scene;
+        leave(scene);
+        dBatchColliderDestroy(scene.collider);
+        dBatchColliderStats stats{};
+        stats.struct_size = sizeof stats;
+        dBatchColliderGetStats(scene.collider, &stats);
+        end(last_error().find("not the handle of a live collider") != std::string::npos);
+      },
+      ::testing::ExitedWithCode(0), "good");
+}
+
+TEST_F(ApiLongjmpDeathTest, OutOfACallbackLeavesAColliderThatGoesOn) {
+  EXPECT_EXIT(
+      {
+        Scene& scene = *new Scene;
+        const Collected expected = scene.collider.pass(scene.space);
+        bool good = expected.total() > 0;
+        for (int i = 0; i < 3; ++i) {
+          leave(scene);
+          good = good && difference_with_geoms(scene.collider.pass(scene.space), expected).empty();
+        }
+        end(good);
+      },
+      ::testing::ExitedWithCode(0), "good");
 }
 
 }  // namespace

@@ -56,14 +56,14 @@ TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
 TEST_F(ApiTraceDeathTest, ThatCannotBeWrittenIsAMessageAndNoCollider) {
   EXPECT_EXIT(
       {
-        setenv("ODE_EXT_TRACE", "/nonexistent/trace.json", 1);
+        setenv("ODE_EXT_TRACE", "/dev/null/trace.json", 1);
         dInitODE2(0);
         if (dBatchColliderCreate(nullptr) != nullptr) std::exit(1);
         std::fputs(dBatchColliderGetLastErrorMessage(), stderr);
         dCloseODE();
         std::exit(0);
       },
-      testing::ExitedWithCode(0), "ODE_EXT_TRACE names '/nonexistent/trace.json'");
+      testing::ExitedWithCode(0), "ODE_EXT_TRACE names '/dev/null/trace.json'");
 }
 
 }  // namespace

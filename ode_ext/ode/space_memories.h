@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each space's last pass left for its next one. Spaces come and go unannounced, so everything
+// here ages, and what takes device memory ages soonest.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+#include "ode/pair_gather.h"
+#include "pipeline/pass_memory.h"
+
+namespace ode_ext {
+
+class SpaceMemories {
+ public:
+  // What the last pass of this root left. `familiar`: the pass meets a pair that was met before; if
+  // not, this is another space at an address that ODE has used again, which inherits nothing.
+  PassMemory& of(const PassRoot& root, std::uint64_t pass, bool familiar);
+  // Forgets what has not been used for long, and temporal data beyond `most_bytes`, the longest
+  // unused first, but never those of pass number `pass`.
+  void prune(std::uint64_t pass, std::size_t most_bytes);
+
+  std::size_t size() const { return memories_.size(); }
+  std::size_t temporal_bytes() const;  // of device memory
+
+ private:
+  struct RootLess {
+    bool operator()(const PassRoot& a, const PassRoot& b) const;
+  };
+  struct Entry {
+    PassMemory memory;
+    std::uint64_t last_pass = 0;
+  };
+
+  std::map<PassRoot, Entry, RootLess> memories_;
+};
+
+}  // namespace ode_ext

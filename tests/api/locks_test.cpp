@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Code of the program's runs under no lock of the library's: wherever it is called from, it may
+// call dCollide, and may wait for another thread that does.
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "device/error.h"
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+// Ends the program with a failure if it is not gone in time: a test that hangs says nothing.
+class Deadline {
+ public:
+  explicit Deadline(const char* what)
+      : thread_([this, what] {
+          std::unique_lock lock(mutex_);
+          if (gone_.wait_for(lock, std::chrono::seconds(100), [this] { return done_; })) return;
+          std::fprintf(stderr, "deadlock: %s\n", what);
+          std::abort();
+        }) {}
+  ~Deadline() {
+    {
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+    }
+    gone_.notify_all();
+    thread_.join();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable gone_;
+  bool done_ = false;
+  std::thread thread_;
+};
+
+// Two threads, and what each does when it is called: it waits until the other is called too, and
+// then asks for contacts, from whoever has them.
+class Meeting {
+ public:
+  void arrive_and_ask(dGeomID o1, dGeomID o2) {
+    {
+      std::unique_lock lock(mutex_);
+      ++here_;
+      all_here_.notify_all();
+      all_here_.wait(lock, [this] { return here_ >= 2; });
+    }
+    contacts += static_cast<int>(collide(o1, o2).size());
+  }
+  std::atomic<int> contacts{0};
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable all_here_;
+  int here_ = 0;
+};
+
+struct Caller {
+  Meeting* meeting = nullptr;
+  dGeomID o1 = nullptr, o2 = nullptr;
+  void call() {
+    Meeting* const once = std::exchange(meeting, nullptr);
+    if (once != nullptr) once->arrive_and_ask(o1, o2);
+  }
+};
+thread_local Caller caller;
+
+dColliderFn* no_collider(int) { return nullptr; }
+void box_of_own_class(dGeomID, dReal box[6]) {
+  caller.call();
+  for (int i = 0; i < 6; ++i) box[i] = i % 2 == 0 ? -9 : 9;
+}
+int own_class() {
+  static const int id = [] {
+    dGeomClass made{};
+    made.bytes = sizeof(int);
+    made.collider = &no_collider;
+    made.aabb = &box_of_own_class;
+    return dCreateGeomClass(&made);
+  }();
+  return id;
+}
+
+void message_that_calls(int, const char*, va_list) { caller.call(); }
+
+int merge_that_calls(dGeomID, int first, int) {
+  caller.call();
+  return first;
+}
+
+// A thread of the program with a space and a collider of its own.
+struct Task {
+  explicit Task(OdeWorld& world)
+      : space(world.space(SpaceKind::Simple)),
+        pile(world, space, 6, 11),
+        mesh(world.mesh(make_cube(1))) {
+    mark = world.own(dCreateGeom(own_class()));
+    dSpaceAdd(space, mark);
+    TestPose near;
+    near.position = {0.3, 0.2, 0.9};
+    o1 = world.geom(mesh, {});
+    o2 = world.geom(mesh, near);
+  }
+  template <class Run>
+  std::thread start(Meeting& meeting, Run run) {
+    return std::thread([this, &meeting, run] {
+      dAllocateODEDataForThread(dAllocateMaskAll);
+      caller = {&meeting, o1, o2};
+      run(*this);
+      dCleanupODEAllDataForThread();
+    });
+  }
+
+  dSpaceID space;
+  Pile pile;
+  OdeMesh& mesh;
+  dGeomID mark, o1, o2;
+  BatchCollider collider;
+};
+
+class ApiLocks : public ::testing::Test {
+ protected:
+  template <class Run>
+  void run_both(const char* what, Run run) {
+    const Deadline deadline(what);
+    Meeting meeting;
+    std::thread one = first.start(meeting, run);
+    std::thread two = second.start(meeting, run);
+    one.join();
+    two.join();
+    EXPECT_GT(meeting.contacts, 0);
+  }
+
+  OdeWorld world;
+  Task first{world}, second{world};
+};
+
+TEST_F(ApiLocks, AreNotHeldWhileAProgramsGeomClassIsAskedForABox) {
+  run_both("box functions of geom classes", [](Task& task) {
+    dGeomSetPosition(task.mark, 1, 0, 0);
+    task.collider.pass(task.space);
+  });
+}
+
+TEST_F(ApiLocks, AreNotHeldWhileAProgramsMessageHandlerRuns) {
+  dSetMessageHandler(&message_that_calls);
+  run_both("message handlers", [this](Task& task) {
+    TestMesh broken = make_cube(1);
+    broken.vertices[0] = NAN;
+    OdeMesh mesh(broken);
+    const dGeomID geom = dCreateTriMesh(nullptr, mesh.id(), nullptr, nullptr, nullptr);
+    const dGeomID pair[] = {geom, task.o1};
+    dContactGeom contact;
+    dBatchColliderCollidePairs(task.collider, pair, 1, 1, &contact, sizeof contact, nullptr);
+    dGeomDestroy(geom);
+  });
+  dSetMessageHandler(nullptr);
+}
+
+TEST_F(ApiLocks, AreNotHeldWhileAProgramsMergeCallbackRuns) {
+  for (const Task* task : {&first, &second})
+    for (const dGeomID geom : task->pile.geoms)
+      dGeomTriMeshSetTriMergeCallback(geom, &merge_that_calls);
+  run_both("merge callbacks", [](Task& task) { task.collider.pass(task.space); });
+}
+
+// ODE's own collider calls merge callbacks while it stands in, and after the last collider is gone.
+TEST_F(ApiLocks, AreNotHeldWhileOdesOwnColliderCallsBack) {
+  for (const Task* task : {&first, &second})
+    for (const dGeomID geom : task->pile.geoms)
+      dGeomTriMeshSetTriMergeCallback(geom, &merge_that_calls);
+  first.collider.destroy();
+  second.collider.destroy();
+  run_both("merge callbacks of ODE's own collider", [](Task& task) {
+    Collected collected;
+    dSpaceCollide(task.space, &collected, &collect);
+  });
+}
+
+}  // namespace
+}  // namespace ode_ext::test
