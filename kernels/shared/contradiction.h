@@ -8,13 +8,18 @@
 static inline uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_HIT_KIND; }
 
 // By side and place; by the order of the vertices, which for a deformed mesh tells of the shape it
-// was built in, only where rounding has put two in one place.
+// was built in, only where rounding has put two in one place. Points come after vertices: what their
+// `vertex` counts are triangles, and an index of one kind against one of another tells only how many
+// other meshes there are.
 static inline bool ox_key_less(__global const ox_candidate* a, __global const ox_candidate* b) {
   const uint side_a = a->side_kind & OX_HIT_SIDE;
   const uint side_b = b->side_kind & OX_HIT_SIDE;
   if (side_a != side_b) return side_a < side_b;
   for (uint k = 0u; k < 3u; ++k)
     if (a->position[k] != b->position[k]) return a->position[k] < b->position[k];
+  const uint point_a = a->side_kind & OX_HIT_POINT;
+  const uint point_b = b->side_kind & OX_HIT_POINT;
+  if (point_a != point_b) return point_a < point_b;
   if (a->vertex != b->vertex) return a->vertex < b->vertex;
   return a->triangle < b->triangle;
 }

@@ -8,6 +8,14 @@
 namespace ode_ext::test {
 namespace {
 
+// The contacts of two geoms that alone make a pass, seen from the first.
+Contacts contacts_of(const Collected& pass, dGeomID o1, dGeomID o2) {
+  if (const auto found = pass.contacts.find({o1, o2}); found != pass.contacts.end())
+    return found->second;
+  const auto found = pass.contacts.find({o2, o1});
+  return found == pass.contacts.end() ? Contacts{} : flipped(found->second);
+}
+
 class ApiDeterminism : public ::testing::Test {
  protected:
   std::vector<Contacts> answers(const BatchCollider::Change& change = {}) {
@@ -164,6 +172,53 @@ TEST_F(ApiDeterminism, FarFromTheOriginTheDeepestContactsAreAsDeepToATenthOfAMil
     ++compared;
   }
   EXPECT_GT(compared, 20);
+}
+
+// What else a collider knows decides where the parts of a mesh are in its arrays, and nothing more.
+TEST(ApiCompany, AnswersDoNotDependOnTheOtherMeshesOfTheCollider) {
+  OdeWorld world;
+  const dGeomID torus = world.geom(world.mesh(make_torus(0.5, 0.2, 10, 5)), {});
+  const dGeomID ball = world.geom(world.mesh(make_icosphere(0.5, 1)), {});
+  const OdeMesh& other = world.mesh(make_cube(1, 8));
+  const dGeomID unrelated[] = {world.geom(other, {}), world.geom(other, at(0.5, 0.25, 0.125))};
+  const BatchCollider alone, company;
+  ASSERT_FALSE(answer_of(company, unrelated[0], unrelated[1]).empty());
+  Random random(4);
+  int colliding = 0;
+  for (int i = 0; i < 500; ++i) {
+    set_pose(torus, random.pose(0.5));
+    set_pose(ball, random.pose(0.5));
+    const Contacts expected = answer_of(alone, torus, ball);
+    EXPECT_EQ(difference(answer_of(company, torus, ball), expected), "") << "pose " << i;
+    colliding += expected.empty() ? 0 : 1;
+  }
+  EXPECT_GT(colliding, 300);
+}
+
+// The order in which the meshes come to be known decides the same.
+TEST(ApiCompany, AnswersDoNotDependOnTheOrderInWhichGeomsWereMade) {
+  OdeWorld world;
+  const OdeMesh& torus = world.mesh(make_torus(0.5, 0.2, 10, 5));
+  const OdeMesh& ball = world.mesh(make_icosphere(0.5, 1));
+  const dSpaceID one = world.space(SpaceKind::Simple), two = world.space(SpaceKind::Simple);
+  const dGeomID first[] = {world.geom(torus, {}, one), world.geom(ball, {}, one)};
+  const dGeomID last_ball = world.geom(ball, {}, two);
+  const dGeomID second[] = {world.geom(torus, {}, two), last_ball};
+  const BatchCollider forward, backward;
+  Random random(5);
+  int colliding = 0;
+  for (int i = 0; i < 500; ++i) {
+    const TestPose poses[] = {random.pose(0.5), random.pose(0.5)};
+    for (std::size_t k = 0; k < 2; ++k) {
+      set_pose(first[k], poses[k]);
+      set_pose(second[k], poses[k]);
+    }
+    const Collected a = forward.pass(one), b = backward.pass(two);
+    const Contacts expected = contacts_of(a, first[0], first[1]);
+    EXPECT_EQ(difference(contacts_of(b, second[0], second[1]), expected), "") << "pose " << i;
+    colliding += expected.empty() ? 0 : 1;
+  }
+  EXPECT_GT(colliding, 300);
 }
 
 }  // namespace

@@ -54,19 +54,23 @@ class BatchCollider {
 
 inline std::string last_error() { return dBatchColliderGetLastErrorMessage(); }
 
-// The answer of a collider that knows nothing but this pair.
-inline Contacts fresh_answer(dGeomID o1, dGeomID o2, int limit = 64,
-                             const BatchCollider::Change& change = {}) {
-  const BatchCollider fresh(change);
+// What a collider answers for a pair alone.
+inline Contacts answer_of(const BatchCollider& collider, dGeomID o1, dGeomID o2, int limit = 64) {
   Contacts contacts(static_cast<std::size_t>(limit));
   const dGeomID pair[] = {o1, o2};
   int count = 0;
-  EXPECT_GE(dBatchColliderCollidePairs(fresh, pair, 1, limit, contacts.data(), sizeof(dContactGeom),
-                                       &count),
+  EXPECT_GE(dBatchColliderCollidePairs(collider, pair, 1, limit, contacts.data(),
+                                       sizeof(dContactGeom), &count),
             0)
       << last_error();
   contacts.resize(static_cast<std::size_t>(count));
   return contacts;
+}
+
+// The answer of a collider that knows nothing but this pair.
+inline Contacts fresh_answer(dGeomID o1, dGeomID o2, int limit = 64,
+                             const BatchCollider::Change& change = {}) {
+  return answer_of(BatchCollider(change), o1, o2, limit);
 }
 
 // Sets an environment variable for a scope.
