@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/temporal_cache.h"
 
+#include <bit>
 #include <utility>
 
 namespace ode_ext {
@@ -22,6 +23,11 @@ const std::shared_ptr<const Mesh>& topology_of(const std::shared_ptr<const Mesh>
 std::uint32_t chunk_count(const Mesh& mesh) {
   return static_cast<std::uint32_t>(mesh.chunks.size());
 }
+
+// Places come in powers of two, so that those of a mesh that is rebuilt a little larger or smaller
+// again and again are taken by one another: all the forgotten ones together are no more than the
+// sizes, 25 at most, each in the number that was once in use at a time.
+std::uint32_t place_size(std::uint32_t chunks) { return std::bit_ceil(chunks); }
 
 }  // namespace
 
@@ -79,8 +85,7 @@ ox_link TemporalCache::link(const Scene& scene, const std::array<std::uint32_t, 
   Slot& slot = found->second;
   const bool same = !is_new && slot.meshes[0] == low_mesh && slot.meshes[1] == high_mesh;
   if (!same) {
-    // What the last step wrote there must not be taken for that of the next owner.
-    if (!is_new) release(slot, step_ + 2);
+    if (!is_new) release(slot);
     slot = {{}, {low_mesh, high_mesh}, 0};
     if (!place(chunk_count(*low_mesh) + chunk_count(*high_mesh), slot.place)) {
       slots_.erase(found);
@@ -96,20 +101,23 @@ ox_link TemporalCache::link(const Scene& scene, const std::array<std::uint32_t, 
 }
 
 bool TemporalCache::place(std::uint32_t chunks, Place& place) {
-  std::vector<Free>& reusable = free_[chunks];
-  if (!reusable.empty() && reusable.back().ready <= step_) {
-    place = reusable.back().place;
-    reusable.pop_back();
+  if (chunks > kMostEntries) return false;
+  const std::uint32_t size = place_size(chunks);
+  std::vector<Place>& given_up = free_[size];
+  if (!given_up.empty()) {
+    place = given_up.back();
+    given_up.pop_back();
     return true;
   }
-  if (chunks > kMostEntries - entry_count_) return false;
+  if (size > kMostEntries - entry_count_) return false;
   place = {slot_count_++, entry_count_};
-  entry_count_ += chunks;
+  entry_count_ += size;
   return true;
 }
 
-void TemporalCache::release(const Slot& slot, std::uint32_t ready) {
-  free_[chunk_count(*slot.meshes[0]) + chunk_count(*slot.meshes[1])].push_back({slot.place, ready});
+void TemporalCache::release(const Slot& slot) {
+  const std::uint32_t chunks = chunk_count(*slot.meshes[0]) + chunk_count(*slot.meshes[1]);
+  free_[place_size(chunks)].push_back(slot.place);
 }
 
 void TemporalCache::evict() {
@@ -118,7 +126,7 @@ void TemporalCache::evict() {
       ++it;
       continue;
     }
-    release(it->second, step_);
+    release(it->second);
     it = slots_.erase(it);
   }
 }

@@ -45,6 +45,8 @@ class TemporalCache {
   cl_uint step() const { return step_; }
   std::size_t pairs() const { return slots_.size(); }
   std::size_t bytes() const;  // of device memory
+  // Of the directory, those of forgotten pairs among them, which are taken again.
+  std::size_t entries() const { return entry_count_; }
 
  private:
   using Key = std::array<std::uint64_t, 2>;
@@ -59,21 +61,19 @@ class TemporalCache {
     std::array<std::shared_ptr<const Mesh>, 2> meshes;  // of the lower and the higher identity
     std::uint32_t last_step;
   };
-  struct Free {
-    Place place;
-    std::uint32_t ready;  // the step from which it may be used again
-  };
 
   ox_link link(const Scene& scene, const std::array<std::uint32_t, 2>& pair);
+  // A place that was given up may be taken at once: the new owner's link is not `known`, so that
+  // its first step reads nothing there, and its second only what carries the number of its first.
   // False: there is no room left; the pair then is not kept.
   bool place(std::uint32_t chunks, Place& place);
-  void release(const Slot& slot, std::uint32_t ready);
+  void release(const Slot& slot);
   void evict();
   void upload();
 
   Device* device_;
   std::unordered_map<Key, Slot, KeyHash> slots_;
-  std::unordered_map<std::uint32_t, std::vector<Free>> free_;  // by the number of chunks
+  std::unordered_map<std::uint32_t, std::vector<Place>> free_;  // by place_size
   std::uint32_t slot_count_ = 0;
   std::uint32_t entry_count_ = 0;
   std::uint32_t step_ = 1;  // 0 is in memory that nobody has written to
