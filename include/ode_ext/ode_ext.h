@@ -129,8 +129,8 @@ typedef struct dBatchColliderParams {
   int workload;          /**< dBatchWorkload... */
   int prediction;        /**< dBatchPrediction... */
   int trust_meshes;      /**< nonzero: meshes change only where the program says so through
-                                dBatchColliderTriMeshDataUpdate / ...Destroyed; saves hashing every
-                                mesh in every pass (default 0) */
+                                dBatchColliderTriMeshDataUpdate / ...Destroyed; saves comparing
+                                every mesh in every pass with what it was (default 0) */
   dReal confidence;      /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only,
                                 unless `misprediction` is not redo */
   dReal open_thickness;  /**< [m] how far below an open surface it is solid; 0 (default): the mean
@@ -268,7 +268,7 @@ enum {
 /** The timed stages of a pass. */
 enum {
   dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
-  dBatchStageMeshes = 1,     /**< hashing, and rebuilding the meshes that changed, host */
+  dBatchStageMeshes = 1,     /**< comparing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
                                   next ten */
   dBatchStagePairStep = 3,

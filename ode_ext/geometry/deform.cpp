@@ -38,6 +38,7 @@ std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const Mesh>& base,
                                      const TriangleSoup& soup) {
   if (!base->finite || base->corner_vertex.size() != soup.size()) return nullptr;
   Mesh shape;
+  shape.soup = soup;
   shape.deformable = true;
   shape.open_thickness = base->open_thickness;
   shape.content_hash = hash_soup(soup.data(), soup.size());

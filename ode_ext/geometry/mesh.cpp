@@ -37,6 +37,7 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 
 Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   Mesh mesh;
+  mesh.soup = soup;
   mesh.content_hash = hash_soup(soup.data(), soup.size());
   mesh.shape_hash = mesh.content_hash;
   mesh.deformable = options.deformable;

@@ -36,6 +36,9 @@ inline constexpr std::uint32_t kChunkVertices = kRunLength;
 // A mesh as it was built, or a shape of a deformable one: then `base` is the mesh as it was built,
 // and only the vertices, what is measured of them and the flags are the shape's own.
 struct Mesh {
+  // What it was made of, bit for bit: by this it is known to be unchanged, or the same as another.
+  // 36 bytes a triangle, about a tenth of the rest.
+  TriangleSoup soup;
   // Vertices welded by exact equality, in runs (runs.h) [m], local frame.
   // Those of a shape are in the order of its base.
   std::vector<Vec3f> vertices;
@@ -77,7 +80,7 @@ struct Mesh {
   bool closed = false;       // every edge has exactly two triangles, of opposite direction
   bool inverted = false;     // the winding was turned: the closed mesh had a negative volume
   bool reoriented = false;   // the winding was made consistent: each part now faces outward
-  bool finite = true;        // false: a coordinate is NaN or infinite, everything above is empty
+  bool finite = true;        // false: a coordinate is NaN or infinite, all but the soup is empty
   bool deformable = false;   // its vertices are expected to move
   float open_thickness = 0;  // of deformable meshes: as in MeshOptions
   std::uint64_t content_hash = 0;  // of the soup: equal soups have equal hashes
@@ -103,7 +106,10 @@ struct MeshOptions {
 // Builds everything above. Throws std::bad_alloc only.
 Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options = {});
 
-// The hash that build_mesh stores, alone: cheap enough for every pass.
+// The hash that build_mesh stores, alone. What has one hash need not be one soup (soup_hash.cpp).
 std::uint64_t hash_soup(const Vec3f* corners, std::size_t corner_count);
+
+// A total order of soups by their bits: 0 for the same, and a NaN is the same as itself.
+int compare_soups(const TriangleSoup& a, const TriangleSoup& b);
 
 }  // namespace ode_ext

@@ -2,7 +2,8 @@
 // Detects accidents, not attacks: every step is a bijection of the state for a given word and of
 // the word for a given state, so soups of equal length that differ within one 8-byte word always
 // have different hashes, and others the same by chance, 1 in 2^64. Whoever wants collisions can
-// make them. Raw bits count: -0 and +0 are different soups here, though they weld together.
+// make them, so that a hash only says where to look: what is found there has to be compared.
+// Raw bits count: -0 and +0 are different soups here, though they weld together.
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -52,6 +53,11 @@ std::uint64_t hash_soup(const Vec3f* corners, std::size_t corner_count) {
   for (; left >= kWord; left -= kWord, bytes += kWord) hash = absorb(hash, load(bytes));
   if (left > 0) hash = absorb(hash, load(bytes, left));
   return mix(hash) ^ mix(hash) >> 32;
+}
+
+int compare_soups(const TriangleSoup& a, const TriangleSoup& b) {
+  if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
+  return a.empty() ? 0 : std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f));
 }
 
 }  // namespace ode_ext

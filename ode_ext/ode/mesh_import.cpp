@@ -3,69 +3,60 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "geometry/measures.h"
+#include <cstring>
 
 namespace ode_ext {
 namespace {
 
-class PrivateGeom {
- public:
-  explicit PrivateGeom(dTriMeshDataID data)
-      : geom_(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr)) {}
-  ~PrivateGeom() { dGeomDestroy(geom_); }
-  PrivateGeom(const PrivateGeom&) = delete;
-  PrivateGeom& operator=(const PrivateGeom&) = delete;
-  dGeomID get() const { return geom_; }
+// One call a triangle, which takes most of the time of reading or comparing a mesh: ODE has none
+// that gives more.
+void read_triangle(dGeomID geom, std::size_t index, Vec3f* corners) {
+  dVector3 exact[3];
+  dGeomTriMeshGetTriangle(geom, static_cast<int>(index), &exact[0], &exact[1], &exact[2]);
+  for (std::size_t k = 0; k < 3; ++k)
+    corners[k] = {static_cast<float>(exact[k][0]), static_cast<float>(exact[k][1]),
+                  static_cast<float>(exact[k][2])};
+}
 
- private:
-  dGeomID geom_;
-};
+}  // namespace
 
-Vec3f to_vec(const dReal* v) {
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+MeshReader::MeshReader(dTriMeshDataID data)
+    : geom_(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr)) {}
+
+MeshReader::~MeshReader() { dGeomDestroy(geom_); }
+
+std::size_t MeshReader::triangle_count() const {
+  return static_cast<std::size_t>(dGeomTriMeshGetTriangleCount(geom_));
+}
+
+void MeshReader::read(TriangleSoup& soup) const {
+  const std::size_t count = triangle_count();
+  soup.resize(3 * count);
+  for (std::size_t i = 0; i < count; ++i) read_triangle(geom_, i, &soup[3 * i]);
+}
+
+bool MeshReader::still_gives(const TriangleSoup& soup) const {
+  const std::size_t count = triangle_count();
+  if (soup.size() != 3 * count) return false;
+  Vec3f corners[3];
+  for (std::size_t i = 0; i < count; ++i) {
+    read_triangle(geom_, i, corners);
+    if (std::memcmp(corners, &soup[3 * i], sizeof(corners)) != 0) return false;
+  }
+  return true;
 }
 
 // ODE keeps the box of the float coordinates as a centre and extents, in its own precision: what it
 // gives back may be off by the rounding of those, less than the last digit of a float.
-class KnownBox {
- public:
-  explicit KnownBox(dGeomID geom) {
-    dReal bounds[6];
-    dGeomGetAABB(geom, bounds);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double slack =
-          0x1p-23 * std::max(std::fabs(bounds[2 * k]), std::fabs(bounds[2 * k + 1]));
-      lo_[k] = bounds[2 * k] - slack;
-      hi_[k] = bounds[2 * k + 1] + slack;
-    }
+bool MeshReader::knows(const Box& box) const {
+  dReal bounds[6];
+  dGeomGetAABB(geom_, bounds);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double lo = bounds[2 * k], hi = bounds[2 * k + 1];
+    const double slack = 0x1p-23 * std::max(std::fabs(lo), std::fabs(hi));
+    if (!(box.lo[k] >= lo - slack && box.hi[k] <= hi + slack)) return false;
   }
-  bool holds(const TriangleSoup& soup) const {
-    bool inside = true;
-    for (const Vec3f& corner : soup)
-      for (std::size_t k = 0; k < 3; ++k) inside &= corner[k] >= lo_[k] && corner[k] <= hi_[k];
-    return inside;
-  }
-
- private:
-  Vec3d lo_, hi_;
-};
-
-}  // namespace
-
-bool read_triangles(dTriMeshDataID data, TriangleSoup& soup) {
-  const PrivateGeom geom(data);
-  const int count = dGeomTriMeshGetTriangleCount(geom.get());
-  soup.resize(3 * static_cast<std::size_t>(count));
-  Vec3f* corner = soup.data();
-  for (int i = 0; i < count; ++i) {
-    dVector3 v0, v1, v2;
-    dGeomTriMeshGetTriangle(geom.get(), i, &v0, &v1, &v2);
-    *corner++ = to_vec(v0);
-    *corner++ = to_vec(v1);
-    *corner++ = to_vec(v2);
-  }
-  return !KnownBox(geom.get()).holds(soup) && is_finite(soup);
+  return true;
 }
 
 }  // namespace ode_ext

@@ -9,9 +9,26 @@
 
 namespace ode_ext {
 
-// Overwrites `soup`. The geom lives only in here, in no space; allowed inside callbacks. Returns
-// whether the corners are finite and some lie outside of the box that ODE took of the data when it
-// was built, by which it finds pairs.
-bool read_triangles(dTriMeshDataID data, TriangleSoup& soup);
+// The geom lives only in here, in no space; allowed inside callbacks. A reader must go before the
+// data do, and before any code of the program runs.
+class MeshReader {
+ public:
+  explicit MeshReader(dTriMeshDataID data);
+  ~MeshReader();
+  MeshReader(const MeshReader&) = delete;
+  MeshReader& operator=(const MeshReader&) = delete;
+
+  void read(TriangleSoup& soup) const;  // overwrites it
+  // Whether read() would give `soup`, bit for bit; looks no further than the first difference.
+  bool still_gives(const TriangleSoup& soup) const;
+  // Whether `box` is within the one that ODE took of the data when it was built, by which it finds
+  // pairs.
+  bool knows(const Box& box) const;
+
+ private:
+  std::size_t triangle_count() const;
+
+  dGeomID geom_;
+};
 
 }  // namespace ode_ext

@@ -32,25 +32,23 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   entry.last_pass = pass;
   if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) return entry.mesh;
 
-  entry.left_box = read_triangles(data, soup_);
-  const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
-  const bool same = entry.mesh != nullptr && entry.hash == hash &&
-                    static_cast<std::size_t>(entry.triangle_count) == soup_.size() / 3;
+  const MeshReader reader(data);
+  const bool same = entry.mesh != nullptr && reader.still_gives(entry.mesh->soup);
   if (!same || (entry.restless && entry.changed_pass + kPassesStill <= pass)) {
     entry.restless = !same && entry.mesh != nullptr && entry.changed_pass + 1 >= pass;
     if (!same) entry.changed_pass = pass;
-    update(entry, hash);
-    entry.hash = hash;
-    entry.triangle_count = static_cast<int>(soup_.size() / 3);
+    reader.read(soup_);
+    update(entry);
     resident_is_stale_ = true;
   }
+  entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(entry.mesh->box);
   entry.changed = false;
   return entry.mesh;
 }
 
-void MeshStore::update(Entry& entry, std::uint64_t hash) {
+void MeshStore::update(Entry& entry) {
   if (!entry.deformable) {
-    entry.mesh = build(hash, entry.restless);
+    entry.mesh = build(entry.restless);
   } else {
     if (entry.mesh != nullptr) ++deformed_;
     std::shared_ptr<const Mesh> shape;
@@ -66,21 +64,26 @@ void MeshStore::update(Entry& entry, std::uint64_t hash) {
                                 "contacts");
 }
 
-std::shared_ptr<const Mesh> MeshStore::build(std::uint64_t hash, bool restless) {
-  std::weak_ptr<const Mesh>& known = by_content_[hash];
-  if (auto mesh = known.lock()) return mesh;
+std::shared_ptr<const Mesh> MeshStore::build(bool restless) {
+  const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
+  const auto [first, last] = by_content_.equal_range(hash);
+  for (auto known = first; known != last; ++known) {
+    auto mesh = known->second.lock();
+    if (mesh != nullptr && compare_soups(mesh->soup, soup_) == 0) return mesh;
+  }
   auto mesh = std::make_shared<const Mesh>(build_mesh(
       soup_, {.open_thickness = open_thickness_, .grids = !restless, .isolation = !restless}));
-  if (!restless) known = mesh;
+  if (!restless) by_content_.emplace(hash, mesh);
   return mesh;
 }
 
 std::shared_ptr<const Mesh> MeshStore::known(dTriMeshDataID data, int triangle_count) const {
   const auto found = entries_.find(data);
-  if (found == entries_.end() || found->second.changed ||
-      found->second.triangle_count != triangle_count)
-    return nullptr;
-  return found->second.mesh;
+  if (found == entries_.end() || found->second.changed) return nullptr;
+  const std::shared_ptr<const Mesh>& mesh = found->second.mesh;
+  const bool fits =
+      mesh != nullptr && mesh->soup.size() == 3 * static_cast<std::size_t>(triangle_count);
+  return fits ? mesh : nullptr;
 }
 
 std::shared_ptr<const Mesh> MeshStore::keep(dTriMeshDataID data, std::uint64_t pass) {

@@ -22,9 +22,9 @@ class MeshStore {
   // announced.
   MeshStore(float open_thickness, bool trust) : open_thickness_(open_thickness), trust_(trust) {}
 
-  // The mesh as it is now: read, compared by a hash of its corners, and if it changed rebuilt, or
-  // followed where it is deformable and only its vertices moved. Looks once per mesh and value of
-  // `look`; `pass` is what prune goes by.
+  // The mesh as it is now: its triangles are compared with those it was made of, and if they are
+  // others it is rebuilt, or followed where it is deformable and only its vertices moved. Looks
+  // once per mesh and value of `look`; `pass` is what prune goes by.
   const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, std::uint64_t look,
                                              std::uint64_t pass);
 
@@ -60,8 +60,6 @@ class MeshStore {
   struct Entry {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const Mesh> base;  // of a deformable mesh: as it was built
-    std::uint64_t hash = 0;
-    int triangle_count = 0;
     std::uint64_t last_look = 0;
     std::uint64_t last_pass = 0;
     std::uint64_t changed_pass = 0;  // the last in which it was found to be another
@@ -72,15 +70,15 @@ class MeshStore {
     bool restless = false;  // changed pass after pass: built without what pays in later ones only
   };
 
-  void update(Entry& entry, std::uint64_t hash);
-  std::shared_ptr<const Mesh> build(std::uint64_t hash, bool restless);
+  void update(Entry& entry);  // from soup_
+  std::shared_ptr<const Mesh> build(bool restless);
   static void drop(Entry& entry);
 
   float open_thickness_;
   bool trust_;
   std::unordered_map<dTriMeshDataID, Entry> entries_;
-  // Equal content of rigid meshes is built once, whoever holds it.
-  std::unordered_map<std::uint64_t, std::weak_ptr<const Mesh>> by_content_;
+  // Equal content of rigid meshes is built once, whoever holds it. By content_hash.
+  std::unordered_multimap<std::uint64_t, std::weak_ptr<const Mesh>> by_content_;
   std::vector<std::shared_ptr<const Mesh>> resident_;
   std::unordered_map<const Mesh*, std::uint32_t> index_;
   bool resident_is_stale_ = false;

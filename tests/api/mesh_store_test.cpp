@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "ode/answers.h"
+#include "pipeline/test_scene.h"
+#include "support/forged_meshes.h"
 #include "support/mesh_makers.h"
 #include "support/ode_world.h"
 
@@ -51,6 +56,63 @@ TEST_F(MeshStoreTest, BuildsTheGridsOnceAMeshHasComeToRest) {
   EXPECT_LT(passes, 20);
   const Mesh* after = &pass();
   EXPECT_EQ(&pass(), after) << "built again and again";
+}
+
+TEST_F(MeshStoreTest, BuildsEqualContentOnceWhoeverHoldsIt) {
+  const OdeMesh& copy = world_.mesh(mesh_.mesh());
+  const OdeMesh& other = world_.mesh(make_icosphere(1.5, 2));
+  pass();
+  EXPECT_EQ(store_.refresh(copy.id(), 1, 1).get(), &pass());
+  EXPECT_NE(store_.refresh(other.id(), 1, 1).get(), &pass());
+  EXPECT_EQ(store_.resident().size(), 2u);
+}
+
+TEST_F(MeshStoreTest, DoesNotTakeMeshesOfOneHashForOne) {
+  const auto forged = cube_and_plate_of_one_hash();
+  for (int i = 0; i < 2; ++i) {
+    const Mesh* cube = store_.refresh(world_.mesh(forged[0]).id(), 1, 1).get();
+    const Mesh* plate = store_.refresh(world_.mesh(forged[1]).id(), 1, 1).get();
+    EXPECT_NE(cube, plate);
+    EXPECT_EQ(cube->content_hash, plate->content_hash) << "nothing was shown";
+  }
+  EXPECT_EQ(store_.resident().size(), 2u);
+}
+
+TEST_F(MeshStoreTest, KeepsAMeshOfWhichACornerIsNotANumber) {
+  store_.set_deformable(mesh_.id(), true);  // else one of equal content would be found again
+  const Mesh* before = &pass(NAN);
+  EXPECT_FALSE(before->finite);
+  EXPECT_EQ(&pass(), before);
+}
+
+TEST_F(MeshStoreTest, SeesAnEditOfAnyCorner) {
+  const Mesh* before = &pass();
+  for (std::size_t i = 0; i < mesh_.mesh().vertices.size(); i += 7) {
+    float& moved = mesh_.edit().vertices[i];
+    moved = std::nextafter(moved, 2.0f);
+    const Mesh* after = &pass();
+    EXPECT_NE(after, before) << i;
+    before = after;
+  }
+}
+
+// What tells them apart when all else is equal must not be where they are in memory.
+TEST(CanonicalOrder, DependsOnTheTrianglesOfMeshesOfOneHash) {
+  const auto mesh = [](const TestMesh& made) {
+    Mesh built = build_mesh(soup_of(made));
+    built.shape_hash = built.content_hash = 1;
+    return std::make_shared<const Mesh>(std::move(built));
+  };
+  const PairMember cube{nullptr, nullptr, mesh(make_cube(1)), {}};
+  const PairMember ball{nullptr, nullptr, mesh(make_icosphere(1, 1)), {}};
+  const auto before = [](PairMember a, PairMember b, bool a_is_lower) {
+    int geoms[2];
+    a.geom = reinterpret_cast<dGeomID>(geoms + (a_is_lower ? 0 : 1));
+    b.geom = reinterpret_cast<dGeomID>(geoms + (a_is_lower ? 1 : 0));
+    return in_canonical_order(a, b);
+  };
+  EXPECT_EQ(before(cube, ball, true), before(cube, ball, false));
+  EXPECT_NE(before(cube, ball, true), before(ball, cube, true));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "support/batch_collider.h"
+#include "support/forged_meshes.h"
 
 namespace ode_ext::test {
 namespace {
@@ -113,6 +114,40 @@ TEST_F(ApiMeshes, WithTheSameTriangleCountButOtherIndicesAreSeen) {
   EXPECT_EQ(difference_with_geoms(after, right()), "");
 }
 
+class ApiMeshesOfOneHash : public ApiMeshes {
+ protected:
+  void SetUp() override {
+    set_pose(g1, {});
+    set_pose(g2, at(0.5, 3, 3));  // on the plate, far off the cube
+  }
+
+  const std::array<TestMesh, 2> forged = cube_and_plate_of_one_hash();
+  OdeMesh& cube = world.mesh(forged[0]);
+  OdeMesh& plate = world.mesh(forged[1]);
+};
+
+TEST_F(ApiMeshesOfOneHash, AreToldApart) {
+  const BatchCollider collider;
+  set_mesh(g1, cube.id());
+  collider.pass(space);
+  EXPECT_TRUE(collide(g1, g2).empty());
+  set_mesh(g1, plate.id());
+  collider.pass(space);
+  EXPECT_FALSE(collide(g1, g2).empty());
+  EXPECT_EQ(difference_with_geoms(collide(g1, g2), right()), "");
+}
+
+TEST_F(ApiMeshesOfOneHash, AreSeenWhereOneIsEditedIntoTheOther) {
+  const BatchCollider collider;
+  set_mesh(g1, plate.id());  // the larger box is the one that ODE keeps
+  collider.pass(space);
+  EXPECT_FALSE(collide(g1, g2).empty());
+  plate.edit().vertices = forged[0].vertices;
+  dGeomTriMeshDataUpdate(plate.id());
+  collider.pass(space);
+  EXPECT_TRUE(collide(g1, g2).empty());
+}
+
 // ODE gives a new dTriMeshData the address of the one just destroyed.
 TEST_F(ApiMeshes, DestroyedAndReplacedAtTheSameAddressAreSeen) {
   const BatchCollider collider;
@@ -147,7 +182,7 @@ TEST_F(ApiMeshes, AnnouncedAsDestroyedAreForgotten) {
   EXPECT_EQ(collider.stats().meshes, known - 1);
 }
 
-TEST_F(ApiMeshes, ThatAreTrustedAreNotHashed) {
+TEST_F(ApiMeshes, ThatAreTrustedAreNotRead) {
   const BatchCollider collider(trusting());
   collider.pass(space);
   const Contacts before = collide(g1, g2);
