@@ -16,11 +16,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kNanBits = 0x7fc00000;
 
+// NaNs have many patterns, and a device may give any of them. Zeros are compared by value: some
+// drivers (Mesa's Rusticl on llvmpipe) give fma(0, -0, +0) the wrong sign, and no kernel can tell.
+// They compare floats, which takes both zeros for one; none looks at the bits of one; and those
+// that divide by what may be zero ask for that first (shared/cull.h, shared/ray_triangle.h).
 std::uint32_t bits_of(float value) {
-  return std::isnan(value) ? kNanBits : std::bit_cast<std::uint32_t>(value);
+  if (std::isnan(value)) return kNanBits;
+  return value == 0 ? 0 : std::bit_cast<std::uint32_t>(value);
 }
 
-// NaNs have many patterns, and a device may give any of them.
 std::uint32_t canonical(std::uint32_t bits) { return bits_of(std::bit_cast<float>(bits)); }
 
 // A product of two floats (24 bits each) is exact in double (53 bits), so that the one rounding is

@@ -32,7 +32,8 @@ using SelfTestResult = std::array<std::uint32_t, kSelfTestColumns>;
 // Always the same. The last one has a denormal product and is only recorded, not judged.
 std::vector<SelfTestCase> self_test_cases();
 
-// What a device that does what OpenCL 1.2 and IEEE 754 ask for gives; every NaN is 0x7fc00000.
+// What a device that does what OpenCL 1.2 and IEEE 754 ask for gives; every NaN is 0x7fc00000,
+// every zero +0.
 SelfTestResult expected_result(const SelfTestCase& c);
 
 // Throws DeviceError naming `device`, the property that does not hold and a case that shows it.

@@ -84,6 +84,41 @@ TEST(SelfTestCheck, AcceptsAnyNan) {
   EXPECT_EQ(planted.verdict(), "passed");
 }
 
+// As fma(0, -0, +0) on Mesa's llvmpipe.
+TEST(SelfTestCheck, TakesZerosOfEitherSignForOne) {
+  for (const std::uint32_t zero : {0u, 0x80000000u}) {
+    Results planted;
+    int zeros[kTicket] = {};
+    for (SelfTestResult& result : planted.results) {
+      for (int column = 0; column < kTicket; ++column) {
+        std::uint32_t& word = result[static_cast<std::size_t>(column)];
+        if (column == kComparisons || std::bit_cast<float>(word) != 0) continue;
+        word = zero;
+        ++zeros[column];
+      }
+    }
+    EXPECT_EQ(planted.verdict(), "passed");
+    EXPECT_GT(zeros[kProductError], 10) << "nothing was shown";
+    EXPECT_GT(zeros[kProduct], 10) << "nothing was shown";
+  }
+}
+
+TEST(SelfTestCheck, FindsAWrongSignOfAnythingButZero) {
+  const Results perfect;
+  int planted_faults = 0;
+  for (std::size_t i = 0; i + 1 < perfect.cases.size(); i += 3) {
+    for (int column = 0; column < kQuotient; ++column) {
+      const float good = std::bit_cast<float>(perfect.results[i][static_cast<std::size_t>(column)]);
+      if (column == kComparisons || std::isnan(good) || good == 0) continue;
+      Results planted = perfect;
+      planted.results[i][static_cast<std::size_t>(column)] ^= 0x80000000u;
+      ++planted_faults;
+      EXPECT_NE(planted.verdict(), "passed") << "case " << i << " column " << column;
+    }
+  }
+  EXPECT_GT(planted_faults, 1000);
+}
+
 TEST(SelfTestCheck, JudgesQuotientsWhereTheyAreInfiniteZeroOrNan) {
   const Results perfect;
   int judged = 0;
