@@ -98,12 +98,17 @@ std::string why_unusable(const DeviceInfo& device) {
   return "";
 }
 
+std::string platform_advice(const std::string& platform_name) {
+  if (platform_name != "Portable Computing Language") return "";
+  const char* directory = std::getenv("POCL_CACHE_DIR");
+  const std::string now =
+      directory != nullptr ? "now '" + std::string(directory) + "'" : "not set: ~/.cache/pocl";
+  return " PoCL fails without a word where it cannot write its cache: let POCL_CACHE_DIR (" + now +
+         ") name a directory that can be written.";
+}
+
 Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& selection) {
-  if (devices.empty()) {
-    return {nullptr,
-            "no OpenCL platform has a device; install pocl-opencl-icd (runs on any CPU) or "
-            "the OpenCL driver of your GPU"};
-  }
+  if (devices.empty()) return {nullptr, "no OpenCL platform has a device"};
   const Pattern pattern(selection);
   const DeviceInfo* best = nullptr;
   for (const DeviceInfo& device : devices) {

@@ -19,6 +19,10 @@ Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& s
 // Why this library cannot use the device, or "" if it can.
 std::string why_unusable(const DeviceInfo& device);
 
+// What may be the matter where a platform shows no device, or builds nothing: a sentence, after a
+// space, or "".
+std::string platform_advice(const std::string& platform_name);
+
 // One line a device, `chosen` (may be null) marked with '*'.
 std::string device_lines(const std::vector<DeviceInfo>& devices, const DeviceInfo* chosen);
 

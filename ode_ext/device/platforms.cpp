@@ -88,6 +88,7 @@ struct Survey {
   std::size_t platform_count = 0;
   std::vector<DeviceInfo> devices;
   std::string problems;  // a sentence for each platform left out
+  std::string advice;    // about those that show no device
 };
 
 // One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or
@@ -99,7 +100,9 @@ Survey survey() {
   Survey result;
   for (cl_platform_id platform : list_platforms()) {
     try {
-      for (DeviceInfo& device : devices_of(platform)) {
+      std::vector<DeviceInfo> devices = devices_of(platform);
+      if (devices.empty()) result.advice += platform_advice(text_of(platform, CL_PLATFORM_NAME));
+      for (DeviceInfo& device : devices) {
         device.index = static_cast<int>(result.devices.size());
         result.devices.push_back(std::move(device));
       }
@@ -115,13 +118,14 @@ Survey survey() {
 
 // Why nothing was chosen, and what there is instead.
 DeviceError refusal(const Survey& found, const std::string& reason) {
-  if (found.platform_count == 0) {
-    return DeviceError(CL_PLATFORM_NOT_FOUND_KHR,
-                       "There is no OpenCL platform. Install pocl-opencl-icd (runs on any CPU) or "
-                       "the OpenCL driver (ICD) of your GPU.");
-  }
-  return DeviceError(0, "No device chosen: " + reason + "." +
-                            (found.devices.empty() ? "" : " There are:\n") +
+  const std::string install =
+      " Install pocl-opencl-icd (runs on any CPU) or the OpenCL driver (ICD) of your GPU.";
+  if (found.platform_count == 0)
+    return DeviceError(CL_PLATFORM_NOT_FOUND_KHR, "There is no OpenCL platform." + install);
+  if (found.devices.empty())
+    return DeviceError(0, "No device chosen: " + reason + "." +
+                              (found.advice.empty() ? install : found.advice) + found.problems);
+  return DeviceError(0, "No device chosen: " + reason + "." + found.advice + " There are:\n" +
                             device_lines(found.devices, nullptr) + found.problems);
 }
 

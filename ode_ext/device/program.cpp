@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "device/choice.h"
 #include "device/embedded_kernels.h"
 #include "device/error.h"
 
@@ -56,7 +57,8 @@ Program::Program(Device& device, const std::string& source, const std::string& o
   const cl_device_id id = device.info().id;
   code = clBuildProgram(program_.get(), 1, &id, all_options.c_str(), nullptr, nullptr);
   device.check_call(code, "clBuildProgram", [&] {
-    return "Options: " + all_options + "\nBuild log:\n" + build_log(program_.get(), id);
+    return "Options: " + all_options + "\nBuild log:\n" + build_log(program_.get(), id) +
+           platform_advice(device.info().platform_name);
   });
 }
 

@@ -60,16 +60,24 @@ bool can_collide(dGeomID g1, dGeomID g2) {
   return g1 != g2 && (dGeomGetBody(g1) == nullptr || dGeomGetBody(g1) != dGeomGetBody(g2));
 }
 
+// Whoever waits is told for what: a driver that has not seen the kernels before takes seconds.
+const ColliderOptions& announced(const ColliderOptions& options) {
+  const DeviceInfo info = choose_device(options.device);
+  log(LogLevel::kInfo, "building the kernels for device '" + info.name + "' of " +
+                           info.platform_name + ", driver " + info.driver + ", " + info.version +
+                           "; this may take seconds, most of all the first time");
+  return options;
+}
+
 }  // namespace
 
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
                              bool trust_meshes, bool triangle_callbacks)
-    : collider_(options),
+    : collider_(announced(options)),
       meshes_(open_thickness, trust_meshes),
       triangle_callbacks_(triangle_callbacks) {
   const DeviceInfo& info = collider_.device_info();
-  log(LogLevel::kInfo, "device '" + info.name + "' of " + info.platform_name + ", driver " +
-                           info.driver + ", " + info.version);
+  log(LogLevel::kInfo, "the kernels are ready");
   std::strncpy(stats_.device, info.name.c_str(), sizeof(stats_.device) - 1);
 }
 

@@ -3,6 +3,11 @@
 // gets the batch back as soon as the device works again.
 #include <gtest/gtest.h>
 
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
 #include "device/error.h"
 #include "support/batch_collider.h"
 
@@ -14,11 +19,18 @@ struct Disarm {
 };
 
 int messages = 0;
-void count_message(int, const char*, va_list) { ++messages; }
+std::string said;  // one a line
+void count_message(int, const char* format, va_list values) {
+  ++messages;
+  char text[1024];
+  std::vsnprintf(text, sizeof(text), format, values);
+  said += text + std::string("\n");
+}
 
 struct CountMessages {
   CountMessages() {
     messages = 0;
+    said.clear();
     dSetMessageHandler(&count_message);
   }
   ~CountMessages() { dSetMessageHandler(nullptr); }
@@ -122,6 +134,38 @@ TEST_F(ApiDeviceFailure, AtAnyCallOfCreateIsAMessageAndNoCollider) {
     EXPECT_EQ(last_error().rfind("dBatchColliderCreate: ", 0), 0u) << last_error();
   }
   EXPECT_GT(failures, 10);
+}
+
+class ApiInformation : public ApiDeviceFailure {
+ protected:
+  ApiInformation() { setenv("ODE_EXT_LOG", "info", 1); }
+  ~ApiInformation() override { unsetenv("ODE_EXT_LOG"); }
+  const CountMessages count_;
+};
+
+TEST_F(ApiInformation, SaysThatKernelsAreBuiltAndWhenTheyAre) {
+  const BatchCollider collider;
+  const std::size_t building = said.find("building the kernels for device"),
+                    ready = said.find("the kernels are ready");
+  ASSERT_NE(building, std::string::npos) << said;
+  EXPECT_NE(said.find(collider.stats().device, building), std::string::npos) << said;
+  EXPECT_GT(ready, building) << said;
+  EXPECT_NE(ready, std::string::npos) << said;
+}
+
+TEST_F(ApiInformation, SaysThatKernelsAreBuiltBeforeTheyAre) {
+  for (long long nth = 1; nth < 100; ++nth) {
+    said.clear();
+    fault_injector::arm(nth, CL_OUT_OF_HOST_MEMORY);
+    const dBatchColliderID collider = dBatchColliderCreate(nullptr);
+    fault_injector::disarm();
+    if (collider != nullptr) dBatchColliderDestroy(collider);
+    if (last_error().find("clCreateProgramWithSource") == std::string::npos) continue;
+    EXPECT_NE(said.find("building the kernels"), std::string::npos) << said;
+    EXPECT_EQ(said.find("the kernels are ready"), std::string::npos) << said;
+    return;
+  }
+  FAIL() << "the build was never reached";
 }
 
 }  // namespace

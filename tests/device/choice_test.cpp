@@ -207,5 +207,29 @@ TEST(DevicesDeathTest, AreNoneWithoutAPlatformAndTheMessageSaysWhatToInstall) {
               "no OpenCL platform. Install pocl-opencl-icd.*no OpenCL platform. Install");
 }
 
+// PoCL shows no device then. (A path below a file stops root too.)
+TEST(DevicesDeathTest, WhereTheCacheOfPoclCannotBeMadeTheMessageSaysSo) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto try_without_cache = [] {
+    ::setenv("POCL_CACHE_DIR", "/dev/null/cache", 1);
+    try {
+      Device device("Portable Computing Language");
+    } catch (const DeviceError& error) {
+      const std::string text = error.what() + describe_devices("Portable Computing Language");
+      std::fputs(text.c_str(), stderr);
+      std::exit(text.find("nstall pocl") == std::string::npos ? 0 : 3);
+    }
+    std::exit(4);
+  };
+  EXPECT_EXIT(try_without_cache(), ::testing::ExitedWithCode(0),
+              "POCL_CACHE_DIR .now '/dev/null/cache'.*POCL_CACHE_DIR .now '/dev/null/cache'");
+}
+
+TEST(PlatformAdvice, IsForPoclAlone) {
+  EXPECT_NE(platform_advice("Portable Computing Language").find("POCL_CACHE_DIR"),
+            std::string::npos);
+  EXPECT_EQ(platform_advice("NVIDIA CUDA"), "");
+}
+
 }  // namespace
 }  // namespace ode_ext

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -92,6 +94,25 @@ TEST(Program, NamesDeviceDriverOptionsAndLogWhenItDoesNotBuild) {
         std::string("no_such_thing"), std::string("CL_BUILD_PROGRAM_FAILURE (-11)")}) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " is not in:\n" << message;
   }
+}
+
+// A cache that was there, and then could not be written: PoCL's log is empty but for the failure.
+TEST(ProgramDeathTest, ThatPoclCannotCacheSaysWhatToDo) {
+  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto try_with_cache_of_another = [] {
+    char folder[] = "/tmp/no_cache_XXXXXX";
+    if (!::mkdtemp(folder)) std::exit(2);
+    ::setenv("POCL_CACHE_DIR", folder, 1);
+    Device device("Portable Computing Language");
+    std::filesystem::remove_all(folder);
+    std::ofstream(folder).put('x');  // a file of this name: root cannot write below it either
+    const std::string message = error_of([&] { Program(device, kSource, ""); });
+    std::filesystem::remove(folder);
+    std::fputs(message.c_str(), stderr);
+    std::exit(0);
+  };
+  EXPECT_EXIT(try_with_cache_of_another(), ::testing::ExitedWithCode(0),
+              "CL_BUILD_PROGRAM_FAILURE.*POCL_CACHE_DIR .now '/tmp/no_cache_");
 }
 
 TEST(Kernel, SaysWhichOneDoesNotExist) {
