@@ -2,6 +2,7 @@
 #include "geometry/weld.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "geometry/runs.h"
 
@@ -17,6 +18,12 @@ bool before(const Corner& a, const Corner& b) {
   if (a.position.x != b.position.x) return a.position.x < b.position.x;
   if (a.position.y != b.position.y) return a.position.y < b.position.y;
   return a.position.z < b.position.z;
+}
+
+// From the lowest vertex on, which leaves the winding.
+Triangle rotated(const Triangle& t) {
+  const auto lowest = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+  return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
 }
 
 }  // namespace
@@ -57,6 +64,24 @@ WeldedMesh weld(const std::vector<Vec3f>& soup) {
     mesh.corner_vertex[3 * mesh.source_triangle[i / 3] + i % 3] = vertex[place[i]];
   }
   return mesh;
+}
+
+void order_by_vertices(WeldedMesh& mesh) {
+  struct Listed {
+    Triangle key, triangle;
+    std::uint32_t source;
+  };
+  std::vector<Listed> listed;
+  listed.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    listed.push_back({rotated(mesh.triangles[i]), mesh.triangles[i], mesh.source_triangle[i]});
+  std::sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) {
+    return std::tie(a.key, a.source) < std::tie(b.key, b.source);
+  });
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    mesh.triangles[i] = listed[i].triangle;
+    mesh.source_triangle[i] = listed[i].source;
+  }
 }
 
 }  // namespace ode_ext

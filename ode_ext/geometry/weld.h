@@ -25,4 +25,8 @@ struct WeldedMesh {
 // together). The vertices do not depend on the order of the triangles. All corners must be finite.
 WeldedMesh weld(const std::vector<Vec3f>& soup);
 
+// Numbers the triangles by their vertices, so that no choice between triangles that goes by their
+// numbers depends on the order in which the program lists them.
+void order_by_vertices(WeldedMesh& mesh);
+
 }  // namespace ode_ext
