@@ -6,7 +6,7 @@
 // Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
 // with (side, position, vertex), so the result is what hits sorted in that order would give.
 #include "shared/append.h"
-#include "shared/contradiction.h"
+#include "shared/candidate_order.h"
 
 #define OX_NO_PATCH 0xffffffffu
 #define OX_TAKEN 0xfffffffeu
@@ -62,8 +62,7 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     candidate->patch = OX_NO_PATCH;
     candidate->distance2 = INFINITY;
     candidate->region = OX_NONE;
-    candidate->outline = 0u;
-    candidate->stands = 0u;
+    candidate->marks = 0u;
   }
 }
 
@@ -138,22 +137,33 @@ static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint 
         farthest = reach;
       }
     }
-    if (best != count) candidates[best].outline = 1u;
+    if (best != count) candidates[best].marks |= OX_MARK_OUTLINE;
   }
 }
 
-static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, uint kind,
-                               float epsilon, uint candidate) {
-  __global ox_candidate* c = candidates + candidate;
-  for (uint k = 0u; k < count; ++k) {
-    __global const ox_candidate* d = candidates + k;
-    if (k == candidate || ox_kind(d) != kind || d->patch == OX_DROPPED || !ox_deeper(c, d) ||
-        (c->stands != 0u && d->stands == 0u) || !ox_contradicts(c, d, epsilon))
-      continue;
-    c->patch = OX_DROPPED;
-    return true;
+static bool ox_gives_way(__global const ox_candidate* candidates, float epsilon,
+                         __global const ox_candidate* c, uint to) {
+  __global const ox_candidate* d = candidates + candidates[to].ordered;
+  return d->patch != OX_DROPPED &&
+         ((c->marks & OX_MARK_STANDS) == 0u || (d->marks & OX_MARK_STANDS) != 0u) &&
+         ox_contradicts(c, d, epsilon);
+}
+
+// Whether the candidate at `rank` in the order of depths contradicts a shallower one that is not
+// dropped; it is dropped then. One that does not is taken, and few are, so it is those that do which
+// have to be found fast: by what the last one contradicted (`contradictor`, a rank), else among
+// those that are about as deep (in thick parts) and the shallowest (in thin ones) by turns.
+static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, float epsilon,
+                               uint rank, uint* contradictor) {
+  __global ox_candidate* c = candidates + candidates[rank].ordered;
+  bool found = *contradictor > rank && ox_gives_way(candidates, epsilon, c, *contradictor);
+  for (uint k = 0u; k + 1u < count - rank && !found; ++k) {
+    const uint at = (k & 1u) == 0u ? rank + 1u + k / 2u : count - 1u - k / 2u;
+    found = ox_gives_way(candidates, epsilon, c, at);
+    if (found) *contradictor = at;
   }
-  return false;
+  if (found) c->patch = OX_DROPPED;
+  return found;
 }
 
 static bool ox_is_near(__global const ox_candidate* candidates, uint candidate, const uint* taken,
@@ -171,45 +181,44 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
   uint kind = OX_HIT_TOUCHING;
   for (uint i = 0u; i < count; ++i) kind = min(kind, ox_kind(candidates + i));
 
+  const uint ordered = ox_order_by_depth(candidates, count, kind);
+  uint contradictor = 0u;
   uint n = 0u;
-  while (n < max_contacts) {  // the deepest, and of each patch the deepest
-    uint best = count;
-    for (uint i = 0u; i < count; ++i)
-      if (candidates[i].patch == OX_NO_PATCH && ox_kind(candidates + i) == kind &&
-          (best == count || ox_deeper(candidates + i, candidates + best)))
-        best = i;
-    if (best == count) break;
-    if (edges && ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
+  // the deepest, and of each patch the deepest
+  for (uint rank = 0u; rank < ordered && n < max_contacts; ++rank) {
+    const uint best = candidates[rank].ordered;
+    if (candidates[best].patch != OX_NO_PATCH ||
+        (edges && ox_is_contradicted(candidates, ordered, epsilon, rank, &contradictor)))
+      continue;
     ox_open_patch(candidates, count, best, n);
     if (edges) ox_mark_outline(candidates, count, kind, n, best);
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
-  while (n < max_contacts) {  // what alone speaks for a region; touches do not, as above
-    uint best = count;
-    for (uint i = 0u; i < count; ++i)
-      if (ox_is_left(candidates + i) && ox_kind(candidates + i) == kind &&
-          candidates[i].region != OX_NONE &&
-          (best == count || ox_deeper(candidates + i, candidates + best)))
-        best = i;
-    if (best == count) break;
-    if (ox_is_near(candidates, best, taken, n, merge2)) {
-      candidates[best].region = OX_NONE;
+  // what alone speaks for a region; touches do not, as above
+  for (uint rank = 0u; rank < ordered && n < max_contacts; ++rank) {
+    const uint best = candidates[rank].ordered;
+    if (!ox_is_left(candidates + best) || candidates[best].region == OX_NONE ||
+        ox_is_near(candidates, best, taken, n, merge2) ||
+        ox_is_contradicted(candidates, ordered, epsilon, rank, &contradictor))
       continue;
-    }
-    if (ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }
   while (n < max_contacts) {  // whatever is farthest from what its patch has
     uint best = count;
-    for (uint i = 0u; i < count; ++i)
-      if (ox_is_left(candidates + i) && ox_kind(candidates + i) == kind &&
-          (!edges || candidates[i].outline != 0u) &&
-          (best == count || ox_farther(candidates + i, candidates + best)))
-        best = i;
+    uint best_rank = ordered;
+    for (uint rank = 0u; rank < ordered; ++rank) {
+      const uint i = candidates[rank].ordered;
+      if (!ox_is_left(candidates + i) || (edges && (candidates[i].marks & OX_MARK_OUTLINE) == 0u) ||
+          (best != count && !ox_farther(candidates + i, candidates + best)))
+        continue;
+      best = i;
+      best_rank = rank;
+    }
     if (best == count || candidates[best].distance2 <= merge2) break;
-    if (edges && ox_is_contradicted(candidates, count, kind, epsilon, best)) continue;
+    if (edges && ox_is_contradicted(candidates, ordered, epsilon, best_rank, &contradictor))
+      continue;
     ox_take(candidates, count, best);
     taken[n++] = best;
   }

@@ -11,10 +11,11 @@
 #include "shared/exit_edge.h"
 #include "shared/reconcile.h"
 #include "shared/region_width.h"
+#include "shared/regions.h"
 #include "shared/spokesmen.h"
 
-// in: crossings. out: those of each pair together, as they are needed, and per pair room for an
-// order and a queue of them. item: 1 crossing.
+// in: crossings. out: those of each pair together, as they are needed, and per pair the first of the
+// orders of them. item: 1 crossing.
 __kernel void crossing_gather(__global const uint* counters, __global const ox_list* lists,
                               __global const ox_edge_crossing* crossings,
                               __global const ox_pair* pairs, __global const ox_vertex* vertices,
@@ -45,32 +46,29 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     crossing.region = OX_NONE;
     crossing.covered = 0u;
     crossing.paired = 0.0f;
+    crossing.hit = OX_NONE;
     gathered[crossing_segments[p] + crossing.slot] = crossing;
-    order[2u * crossing_segments[p] + crossing.slot] = crossing.slot;
+    order[OX_ORDERS_PER_CROSSING * crossing_segments[p] + crossing.slot] = crossing.slot;
   }
 }
 
 // A vertex in contact covers the region it is in.
 static void ox_cover_by_vertices(const ox_edge_pair* p) {
+  if (((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u) {
+    // On which side of a sheet an edge is inside nobody knows.
+    ox_link_hits(p, OX_BY_FIRST_VERTEX);
+    ox_link_hits(p, OX_BY_SECOND_VERTEX);
+    return;
+  }
   for (uint side = 0u; side < 2u; ++side) {
     const ox_hit_count hits = ox_count_hits(p, side);
     if (hits.inside == 0u) continue;
-    const bool sheets = ((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u;
     // Inside a closed target every vertex has a hit.
-    const bool all =
-        (p->mesh[1u - side]->flags & OX_MESH_CLOSED) != 0u && hits.fallback == 0u && !sheets;
+    const bool all = (p->mesh[1u - side]->flags & OX_MESH_CLOSED) != 0u && hits.fallback == 0u;
     for (uint i = 0u; i < p->count; ++i) {
       __global ox_edge_crossing* c = p->crossings + i;
       if (ox_side(c) != side) continue;
-      bool covered;
-      if (sheets) {  // on which side of it an edge is inside nobody knows
-        covered = ox_has_hit(p, side, p->edges[c->edge].vertex[0]) ||
-                  ox_has_hit(p, side, p->edges[c->edge].vertex[1]);
-      } else {
-        const uint vertex = ox_inner_vertex(p, c);
-        covered = vertex != OX_NONE && (all || ox_has_hit(p, side, vertex));
-      }
-      if (covered) c->covered = 1u;
+      if (all ? ox_inner_vertex(p, c) != OX_NONE : ox_is_inside_hit(p, c->hit)) c->covered = 1u;
     }
   }
 }
@@ -92,11 +90,11 @@ static void ox_pair_edges(ox_edge_pair* p) {
     for (uint f = 0u; f < 2u; ++f) {
       const uint facet = ox_facet_at(p, a->edge, f);
       if (facet == OX_NONE || (f == 1u && facet == ox_facet_at(p, a->edge, 0u))) continue;
-      for (uint n = ox_find_facet(p, 1u, facet); ox_crosses(p, n, 1u, facet); ++n) {
-        __global ox_edge_crossing* b = p->crossings + p->order[n];
-        if (!ox_is_at_facet(p, b->edge, a->facet) || ox_was_paired(p, a, b->edge) ||
-            ox_was_paired(p, b, a->edge))
-          continue;
+      ox_meetings meetings = ox_meetings_of(p, 1u, facet, a->facet);
+      for (uint n = ox_next_meeting(p, &meetings); n != OX_NONE;
+           n = ox_next_meeting(p, &meetings)) {
+        __global ox_edge_crossing* b = p->crossings + n;
+        if (ox_was_paired(p, a, b->edge) || ox_was_paired(p, b, a->edge)) continue;
         const ox_wedge wedge_a = ox_wedge_of(p, a);
         const ox_wedge wedge_b = ox_wedge_of(p, b);
         ox_point point;
@@ -173,10 +171,9 @@ static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool verti
                                   __global const ox_node* nodes) {
   ox_way_out best = ox_no_way_out();
   uint looked[2] = {0u, 0u};
-  for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (c->region != region || (c->leaves != 0u && c->other != OX_NONE) ||
-        looked[ox_side(c)] == OX_MOST_CHORDS ||
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    if ((c->leaves != 0u && c->other != OX_NONE) || looked[ox_side(c)] == OX_MOST_CHORDS ||
         (p->mesh[1u - ox_side(c)]->flags & OX_MESH_CLOSED) == 0u)
       continue;
     ++looked[ox_side(c)];
@@ -191,15 +188,14 @@ static void ox_leave_region_by(ox_edge_pair* p, uint region, bool vertices,
                                const ox_way_out* best) {
   if (best->triangle == OX_NONE) return;
   const float3 normal = best->side == 0u ? best->normal : -best->normal;
-  for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (c->region != region) continue;
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
     // A crossing lies on both surfaces, whosever edge it is of. The far end of a chord speaks for
     // itself, and so does a vertex that knows its way out.
     const bool own = ox_side(c) == best->side;
     const uint source = own ? p->edges[c->edge].triangle[0] : c->triangle;
     const uint vertex = own ? ox_inner_vertex(p, c) : OX_NONE;
-    const bool both = vertex != OX_NONE && !ox_has_hit(p, best->side, vertex);
+    const bool both = vertex != OX_NONE && !ox_is_inside_hit(p, c->hit);
     for (uint end = 0u; end < (both ? 2u : 1u); ++end) {
       const float3 point = ox_chord_end(p, c, end);
       const float depth = ox_depth_below(best, point);
@@ -217,19 +213,39 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
 }
 
 // No region is left without a contact because its own push the other way.
-static void ox_reconcile_regions(ox_edge_pair* p, uint points, __global const ox_node* nodes) {
-  for (uint region = 0u; region < p->regions && p->regions > 1u; ++region) {
-    const uint standing = ox_find_standing(p, points, region);
-    if (standing == OX_NONE) continue;
-    __global const ox_candidate* own = p->candidates + ox_find_shallowest(p, points, region);
-    if (!ox_are_of_different_parts(own, p->candidates + standing)) continue;
+static void ox_reconcile_regions(ox_edge_pair* p, __global const ox_node* nodes) {
+  if (p->regions < 2u) return;
+  const uint before = p->candidate_count;
+  const uint ordered = ox_order_by_depth(p->candidates, before, OX_HIT_INSIDE);
+  ox_link_points(p);
+  for (uint region = 0u; region < p->regions; ++region) {
+    const uint own = ox_find_shallowest(p, region);
+    if (own == OX_NONE) continue;
+    const uint standing = ox_find_standing(p, ordered, before, region, own);
+    if (standing == OX_NONE ||
+        !ox_are_of_different_parts(p->candidates + own, p->candidates + standing))
+      continue;
     const float3 normal = vload3(0, p->candidates[standing].normal);
     const ox_way_out way = ox_find_way_along(p, region, normal, nodes);
     const uint end = p->candidate_count;
-    if (way.triangle != OX_NONE && way.depth <= OX_FARTHEST_WAY * own->depth)
+    if (way.triangle != OX_NONE && way.depth <= OX_FARTHEST_WAY * p->candidates[own].depth)
       ox_leave_region_by(p, region, false, &way);
-    ox_settle_region(p, points, region, end, p->candidate_count == end);
+    ox_settle_region(p, region, p->candidate_count == end);
   }
+}
+
+// How deep the deepest point of a region is below a way, or a depth beyond `limit`. `deepest`: where
+// that was for another way, and so may be for this one.
+static float ox_measure_to(const ox_edge_pair* p, uint region, const ox_way_out* way, float limit,
+                           uint* deepest) {
+  float depth = ox_max(0.0f, ox_depth_at(p, way, p->crossings + p->by_region[*deepest]));
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region) && depth <= limit; ++k) {
+    const float here = ox_depth_at(p, way, p->crossings + p->by_region[k]);
+    if (!(here > depth)) continue;
+    depth = here;
+    *deepest = k;
+  }
+  return depth;
 }
 
 // A contact for a region in an open target, where its shallowest crossing is. Nothing is known of
@@ -238,10 +254,10 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
   uint best = OX_NONE;
   float best_depth = INFINITY;
   float3 best_normal = (float3)(0.0f);
-  for (uint k = 0u; k < p->count; ++k) {
-    const uint i = p->order[k];
+  uint deepest = p->region_first[region];
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
+    const uint i = p->by_region[k];
     __global const ox_edge_crossing* c = p->crossings + i;
-    if (c->region != region) continue;
     const uint side = ox_side(c);
     __global const ox_mesh* target = p->mesh[1u - side];
     if ((target->flags & OX_MESH_CLOSED) != 0u) continue;
@@ -256,8 +272,7 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
         way.normal = -way.normal;
       }
     } else {
-      ox_measure(p, region, false, INFINITY, &way);
-      depth = way.depth;
+      depth = ox_measure_to(p, region, &way, ox_min(best_depth, target->reach), &deepest);
     }
     depth = ox_min(depth, target->reach);
     if (depth < best_depth) {
@@ -280,8 +295,8 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
     return;
   for (uint region = 0u; region < p->regions; ++region) {
     bool covered = false;
-    for (uint k = 0u; k < p->count && !covered; ++k)
-      covered = p->crossings[k].region == region && p->crossings[k].covered != 0u;
+    for (uint k = p->region_first[region]; k < ox_region_end(p, region) && !covered; ++k)
+      covered = p->crossings[p->by_region[k]].covered != 0u;
     if (covered) continue;
     const uint before = p->candidate_count;
     // Where it is the only one, all vertices beyond their own exit belong to it.
@@ -294,21 +309,27 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
 // without it a box would stand on whichever corner rounding pushed in. 25.8 degrees, as for
 // patches.
 static void ox_admit_touching(const ox_edge_pair* p) {
+  uint inside = 0u;
+  for (uint i = 0u; i < p->candidate_count; ++i)
+    if (ox_kind(p->candidates + i) == OX_HIT_INSIDE) p->candidates[inside++].ordered = i;
+  uint admitting = 0u;  // what admitted the last one mostly admits the next
+  uint refused = OX_NONE;
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global ox_candidate* c = p->candidates + i;
-    if ((c->side_kind & OX_HIT_KIND) != OX_HIT_TOUCHING) continue;
+    if (ox_kind(c) != OX_HIT_TOUCHING) continue;
     const float3 normal = vload3(0, c->normal);
-    for (uint k = 0u; k < p->candidate_count; ++k) {
-      __global const ox_candidate* d = p->candidates + k;
-      if ((d->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE && d->distance2 != 0.0f &&
-          ox_dot(normal, vload3(0, d->normal)) > 0.9f) {
-        c->distance2 = 0.0f;  // marked, so that it admits no others
-        c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_INSIDE;
-        break;
-      }
+    if (refused != OX_NONE && all(vload3(0, p->candidates[refused].normal) == normal)) continue;
+    bool admitted = false;
+    for (uint k = 0u; k < inside && !admitted; ++k) {
+      const uint at = admitting + k < inside ? admitting + k : admitting + k - inside;
+      admitted = ox_dot(normal, vload3(0, p->candidates[p->candidates[at].ordered].normal)) > 0.9f;
+      if (admitted) admitting = at;
     }
+    if (admitted)
+      c->side_kind = (c->side_kind & ~OX_HIT_KIND) | OX_HIT_INSIDE;
+    else
+      refused = i;
   }
-  for (uint i = 0u; i < p->candidate_count; ++i) p->candidates[i].distance2 = INFINITY;
 }
 
 // Thin parts deep in the target (a plate in a block): the vertices that know a way out, those near
@@ -411,11 +432,17 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.triangles = triangles;
     pair.facets = facets;
     pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
-    pair.order = order + (crossed == 0u ? 0u : 2u * crossing_segments[i]);
-    pair.queue = pair.order + crossed;
+    pair.order = order + (crossed == 0u ? 0u : OX_ORDERS_PER_CROSSING * crossing_segments[i]);
+    pair.by_region = pair.order + crossed;
+    pair.region_first = pair.by_region + crossed;
+    pair.point_of_region = pair.region_first + crossed;
+    pair.next_point = pair.point_of_region + crossed;
+    pair.by_facets = pair.next_point;  // not needed at once
+    pair.by_facets_count = 0u;
     pair.count = crossed;
     pair.regions = 0u;
     pair.candidates = candidates + pair_segments[i];
+    pair.hits = pair_hits[i];
     pair.candidate_count = pair_hits[i];
     pair.most_candidates = pair_hits[i] + OX_POINTS_PER_CROSSING * crossed;
     ox_choose_exits(&pair);
@@ -428,11 +455,13 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
                            nodes);
       }
     } else {
-      ox_sort_crossings(&pair, false);
+      ox_sort_crossings(&pair, pair.order, crossed, OX_BY_EDGE);
       ox_find_chords(&pair);
-      ox_sort_crossings(&pair, true);
-      ox_find_regions(&pair);
+      ox_link_hits(&pair, OX_BY_INNER_VERTEX);
       ox_cover_by_vertices(&pair);
+      ox_sort_crossings(&pair, pair.order, crossed, OX_BY_FACET);
+      ox_index_facets(&pair);
+      ox_find_regions(&pair);
       // A sheet has no inside that its edges could be wedges of.
       if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)
         ox_pair_edges(&pair);
@@ -440,8 +469,8 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       ox_lead_regions_out(&pair, nodes);
       ox_lead_deep_out(&pair, nodes);
       ox_deepen(&pair, nodes);
-      ox_reconcile_regions(&pair, pair_hits[i], nodes);
-      ox_choose_spokesmen(&pair, pair_hits[i]);
+      ox_reconcile_regions(&pair, nodes);
+      ox_choose_spokesmen(&pair);
     }
     ox_admit_touching(&pair);
     pair_hits[i] = pair.candidate_count;

@@ -8,8 +8,16 @@
 #include "shared/pair_hits.h"
 #include "shared/way_out.h"
 
-// Beside 1u in ox_edge_crossing::covered.
-#define OX_DEEP 2u  // its region has such a part
+// Beside 1u in ox_edge_crossing::covered, of the first of a region.
+#define OX_DEEP 2u  // the region has such a part
+
+static inline __global uint* ox_mark_of(const ox_edge_pair* p, uint region) {
+  return &p->crossings[p->by_region[p->region_first[region]]].covered;
+}
+
+static inline bool ox_is_marked(const ox_edge_pair* p, uint region) {
+  return (*ox_mark_of(p, region) & OX_DEEP) != 0u;
+}
 
 // A vertex beyond its own exit, and not because surfaces run along one another (nearest.h).
 static inline bool ox_is_deep(const ox_edge_pair* p, uint i, uint side) {
@@ -17,44 +25,54 @@ static inline bool ox_is_deep(const ox_edge_pair* p, uint i, uint side) {
          p->candidates[i].t > p->vertices[p->candidates[i].vertex].exit + 2.0f * p->pair->epsilon;
 }
 
-// Whether the way out that some contact says leads a point of the source out as well; exit: how
-// thick the source is there.
-static inline bool ox_is_led_out(const ox_edge_pair* p, uint side, float3 point, float exit) {
+// Whether the way out that a contact says leads a point of the source out as well; exit: how thick
+// the source is there.
+static inline bool ox_leads_out(const ox_edge_pair* p, __global const ox_candidate* d, uint side,
+                                float3 point, float exit) {
+  if ((d->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) return false;
+  const bool same_side = ((d->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u);
+  // Its plane is only as wide as the part is thick, twice: farther off nothing is known of the
+  // surface it stands for.
+  const float3 away = vload3(0, d->position) - point;
+  const float reach = 2.0f * ox_max(d->depth, exit);
+  if (ox_dot(away, away) > reach * reach) return false;
+  float3 out = vload3(0, d->normal);
+  if (side != 0u) out = -out;
+  // The target's surface there: the face it leaves through, or that about the target's vertex.
+  float3 surface = vload3(0, d->position);
+  float3 normal = out;
+  if (same_side) {
+    surface += d->depth * out;
+  } else if ((d->side_kind & OX_HIT_POINT) == 0u) {
+    normal = -vload3(0, p->vertices[d->vertex].direction);
+    if (side == 1u) normal = ox_turn(p->pair, 0u, normal);  // the target is A
+  }
+  return ox_dot(surface - point, normal) <= 1.1f * d->depth * ox_dot(out, normal);
+}
+
+// Whether some contact does. `leader`: the one that did last, mostly does again, and is tried first.
+static inline bool ox_is_led_out(const ox_edge_pair* p, uint side, float3 point, float exit,
+                                 uint* leader) {
+  if (*leader < p->candidate_count && ox_leads_out(p, p->candidates + *leader, side, point, exit))
+    return true;
   for (uint k = 0u; k < p->candidate_count; ++k) {
-    __global const ox_candidate* d = p->candidates + k;
-    if ((d->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
-    const bool same_side = ((d->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u);
-    // Its plane is only as wide as the part is thick, twice: farther off nothing is known of the
-    // surface it stands for.
-    const float3 away = vload3(0, d->position) - point;
-    const float reach = 2.0f * ox_max(d->depth, exit);
-    if (ox_dot(away, away) > reach * reach) continue;
-    float3 out = vload3(0, d->normal);
-    if (side != 0u) out = -out;
-    // The target's surface there: the face it leaves through, or that about the target's vertex.
-    float3 surface = vload3(0, d->position);
-    float3 normal = out;
-    if (same_side) {
-      surface += d->depth * out;
-    } else if ((d->side_kind & OX_HIT_POINT) == 0u) {
-      normal = -vload3(0, p->vertices[d->vertex].direction);
-      if (side == 1u) normal = ox_turn(p->pair, 0u, normal);  // the target is A
-    }
-    if (ox_dot(surface - point, normal) <= 1.1f * d->depth * ox_dot(out, normal)) return true;
+    if (!ox_leads_out(p, p->candidates + k, side, point, exit)) continue;
+    *leader = k;
+    return true;
   }
   return false;
 }
 
 // A crossing of the region that a vertex inside is in: one of a chord that ends there, or else (all
 // edges at it are inside, or in a facet) the nearest.
-static inline uint ox_crossing_near(const ox_edge_pair* p, uint side, uint i) {
+static inline uint ox_crossing_near(const ox_edge_pair* p, uint i) {
   const float3 point = vload3(0, p->candidates[i].position);
-  uint nearest = OX_NONE;
+  uint nearest = p->order[0];
   float least = INFINITY;
   // In order, so that the first of equals is always the same.
   for (uint k = 0u; k < p->count; ++k) {
     __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (ox_side(c) == side && ox_inner_vertex(p, c) == p->candidates[i].vertex) return p->order[k];
+    if (c->hit == i) return p->order[k];
     const float3 away = vload3(0, c->position) - point;
     if (!(ox_dot(away, away) < least)) continue;
     least = ox_dot(away, away);
@@ -64,12 +82,17 @@ static inline uint ox_crossing_near(const ox_edge_pair* p, uint side, uint i) {
 }
 
 static inline void ox_mark_deep_vertices(const ox_edge_pair* p, uint side) {
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    if (!ox_is_deep(p, i, side) || ox_is_led_out(p, side, vload3(0, p->candidates[i].position),
-                                                 p->vertices[p->candidates[i].vertex].exit))
-      continue;
-    const uint near = ox_crossing_near(p, side, i);
-    if (near != OX_NONE) p->crossings[near].covered |= OX_DEEP;
+  uint leader = 0u;
+  uint marked = 0u;
+  for (uint i = 0u; i < p->hits && marked < p->regions; ++i) {
+    if (!ox_is_deep(p, i, side)) continue;
+    const float3 position = vload3(0, p->candidates[i].position);
+    const float exit = p->vertices[p->candidates[i].vertex].exit;
+    if (ox_is_led_out(p, side, position, exit, &leader)) continue;
+    const uint region = p->crossings[ox_crossing_near(p, i)].region;
+    if (ox_is_marked(p, region)) continue;
+    *ox_mark_of(p, region) |= OX_DEEP;
+    ++marked;
   }
 }
 
@@ -108,30 +131,28 @@ static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_
 static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side,
                                        __global const ox_node* nodes) {
   if ((p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u) return;
+  uint leader = 0u;
   for (uint k = 0u; k < p->count; ++k) {
-    __global ox_edge_crossing* c = p->crossings + p->order[k];
-    if (ox_side(c) != side || (c->leaves != 0u && c->other != OX_NONE)) continue;
+    __global const ox_edge_crossing* c = p->crossings + p->order[k];
+    if (ox_side(c) != side || (c->leaves != 0u && c->other != OX_NONE) ||
+        ox_is_marked(p, c->region))
+      continue;
     // Mostly some contacts lead out both ends, and what is between them with them. How thick the
     // source is there is not asked: that would take a ray for every chord.
-    if (ox_is_led_out(p, side, ox_chord_end(p, c, 0u), INFINITY) &&
-        ox_is_led_out(p, side, ox_chord_end(p, c, 1u), INFINITY))
+    if (ox_is_led_out(p, side, ox_chord_end(p, c, 0u), INFINITY, &leader) &&
+        ox_is_led_out(p, side, ox_chord_end(p, c, 1u), INFINITY, &leader))
       continue;
     ox_middle middle;
     if (ox_look_from_middle(p, c, nodes, &middle) &&
         middle.exit_t > middle.own_t + 2.0f * p->pair->epsilon)
-      c->covered |= OX_DEEP;
+      *ox_mark_of(p, c->region) |= OX_DEEP;
   }
 }
 
-// Whether a part of the region was marked; no more then.
+// Whether the region was marked; no more then.
 static inline bool ox_take_mark(const ox_edge_pair* p, uint region) {
-  bool marked = false;
-  for (uint i = 0u; i < p->count; ++i) {
-    __global ox_edge_crossing* c = p->crossings + i;
-    if (c->region != region || (c->covered & OX_DEEP) == 0u) continue;
-    c->covered &= ~OX_DEEP;
-    marked = true;
-  }
+  const bool marked = ox_is_marked(p, region);
+  *ox_mark_of(p, region) &= ~OX_DEEP;
   return marked;
 }
 

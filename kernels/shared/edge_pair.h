@@ -18,13 +18,23 @@ typedef struct {
   __global const ox_triangle* triangles;
   __global const uint* facets;
   __global ox_edge_crossing* crossings;
-  __global uint* order;  // of the crossings
-  __global uint* queue;  // as many
+  __global uint* order;         // of the crossings
+  __global uint* by_region;     // the same, those of a region together
+  __global uint* region_first;  // where they start there
+  __global uint* by_facets;     // OX_BY_FACETS; none where no facet is crossed often
+  uint by_facets_count;
   uint count;
   uint regions;
   __global ox_candidate* candidates;
+  uint hits;  // of vertices: the first of the candidates, all others are points
   uint candidate_count, most_candidates;
+  __global uint* point_of_region;  // the first of them; OX_NONE: none (reconcile.h)
+  __global uint* next_point;       // of its region, of each point
 } ox_edge_pair;
+
+static inline uint ox_region_end(const ox_edge_pair* p, uint region) {
+  return region + 1u < p->regions ? p->region_first[region + 1u] : p->count;
+}
 
 static inline uint ox_side(__global const ox_edge_crossing* crossing) {
   return crossing->pair_side & 1u;
@@ -64,25 +74,56 @@ static inline bool ox_is_at_facet(const ox_edge_pair* p, uint edge, uint facet) 
   return ox_facet_at(p, edge, 0u) == facet || ox_facet_at(p, edge, 1u) == facet;
 }
 
-// By edge and along it, or by the facet that is crossed.
-static inline bool ox_comes_before(const ox_edge_pair* p, bool by_facet, uint i, uint j) {
-  __global const ox_edge_crossing* a = p->crossings + i;
-  __global const ox_edge_crossing* b = p->crossings + j;
+// Orders of the crossings, by side first.
+#define OX_BY_EDGE 0u          // and along it
+#define OX_BY_FACET 1u         // that is crossed, and then by edge
+#define OX_BY_FACETS 2u        // that is crossed, that which the edge is at, and then by edge
+#define OX_BY_FIRST_VERTEX 3u  // of the edge
+#define OX_BY_SECOND_VERTEX 4u
+#define OX_BY_INNER_VERTEX 5u  // at the end of the chord
+
+// The vertex inside at the end of the chord; OX_NONE: both ends are crossings.
+static inline uint ox_inner_vertex(const ox_edge_pair* p, __global const ox_edge_crossing* c) {
+  if (c->other != OX_NONE) return OX_NONE;
+  return p->edges[c->edge].vertex[c->leaves != 0u ? 0u : 1u];
+}
+
+static inline uint ox_key_vertex(const ox_edge_pair* p, uint by,
+                                 __global const ox_edge_crossing* c) {
+  return by == OX_BY_INNER_VERTEX ? ox_inner_vertex(p, c)
+                                  : p->edges[c->edge].vertex[by - OX_BY_FIRST_VERTEX];
+}
+
+// The entries of an order are crossings; by facets they are crossing << 1 | which facet of the edge.
+static inline bool ox_comes_before(const ox_edge_pair* p, uint by, uint i, uint j) {
+  const uint shift = by == OX_BY_FACETS ? 1u : 0u;
+  __global const ox_edge_crossing* a = p->crossings + (i >> shift);
+  __global const ox_edge_crossing* b = p->crossings + (j >> shift);
   if (ox_side(a) != ox_side(b)) return ox_side(a) < ox_side(b);
-  if (by_facet && a->facet != b->facet) return a->facet < b->facet;
+  if (by >= OX_BY_FIRST_VERTEX) {
+    const uint vertex_a = ox_key_vertex(p, by, a);
+    const uint vertex_b = ox_key_vertex(p, by, b);
+    if (vertex_a != vertex_b) return vertex_a < vertex_b;
+  }
+  if ((by == OX_BY_FACET || by == OX_BY_FACETS) && a->facet != b->facet) return a->facet < b->facet;
+  if (by == OX_BY_FACETS) {
+    const uint at_a = ox_facet_at(p, a->edge, i & 1u);
+    const uint at_b = ox_facet_at(p, b->edge, j & 1u);
+    if (at_a != at_b) return at_a < at_b;
+  }
   if (a->edge != b->edge) return a->edge < b->edge;
   if (a->t != b->t) return a->t < b->t;
   return a->triangle < b->triangle;
 }
 
 // Heap sort: no recursion, no memory.
-static inline void ox_sift(const ox_edge_pair* p, bool by_facet, uint root, uint end) {
-  __global uint* order = p->order;
+static inline void ox_sift(const ox_edge_pair* p, __global uint* order, uint by, uint root,
+                           uint end) {
   for (;;) {
     uint child = 2u * root + 1u;
     if (child >= end) return;
-    if (child + 1u < end && ox_comes_before(p, by_facet, order[child], order[child + 1u])) ++child;
-    if (!ox_comes_before(p, by_facet, order[root], order[child])) return;
+    if (child + 1u < end && ox_comes_before(p, by, order[child], order[child + 1u])) ++child;
+    if (!ox_comes_before(p, by, order[root], order[child])) return;
     const uint swap = order[root];
     order[root] = order[child];
     order[child] = swap;
@@ -90,13 +131,14 @@ static inline void ox_sift(const ox_edge_pair* p, bool by_facet, uint root, uint
   }
 }
 
-static inline void ox_sort_crossings(const ox_edge_pair* p, bool by_facet) {
-  for (uint i = p->count / 2u; i-- > 0u;) ox_sift(p, by_facet, i, p->count);
-  for (uint end = p->count; end > 1u; --end) {
-    const uint swap = p->order[0];
-    p->order[0] = p->order[end - 1u];
-    p->order[end - 1u] = swap;
-    ox_sift(p, by_facet, 0u, end - 1u);
+static inline void ox_sort_crossings(const ox_edge_pair* p, __global uint* order, uint count,
+                                     uint by) {
+  for (uint i = count / 2u; i-- > 0u;) ox_sift(p, order, by, i, count);
+  for (uint end = count; end > 1u; --end) {
+    const uint swap = order[0];
+    order[0] = order[end - 1u];
+    order[end - 1u] = swap;
+    ox_sift(p, order, by, 0u, end - 1u);
   }
 }
 
@@ -133,75 +175,6 @@ static inline void ox_find_chords(const ox_edge_pair* p) {
   }
 }
 
-// The vertex inside at the end of the chord; OX_NONE: both ends are crossings.
-static inline uint ox_inner_vertex(const ox_edge_pair* p, __global const ox_edge_crossing* c) {
-  if (c->other != OX_NONE) return OX_NONE;
-  return p->edges[c->edge].vertex[c->leaves != 0u ? 0u : 1u];
-}
-
-// The first place in the order by facet whose (side, facet) is not less.
-static inline uint ox_find_facet(const ox_edge_pair* p, uint side, uint facet) {
-  uint low = 0u;
-  uint high = p->count;
-  while (low < high) {
-    const uint middle = (low + high) / 2u;
-    __global const ox_edge_crossing* c = p->crossings + p->order[middle];
-    if (ox_side(c) < side || (ox_side(c) == side && c->facet < facet))
-      low = middle + 1u;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-static inline bool ox_crosses(const ox_edge_pair* p, uint place, uint side, uint facet) {
-  if (place >= p->count) return false;
-  __global const ox_edge_crossing* c = p->crossings + p->order[place];
-  return ox_side(c) == side && c->facet == facet;
-}
-
-// Puts a crossing into a region, unless it is in one.
-static inline void ox_reach(const ox_edge_pair* p, uint i, uint region, uint* end) {
-  if (p->crossings[i].region != OX_NONE) return;
-  p->crossings[i].region = region;
-  p->queue[(*end)++] = i;
-}
-
-// The neighbours of crossing i, along the curve and along its chord.
-static inline void ox_reach_neighbours(const ox_edge_pair* p, uint i, uint region, uint* end) {
-  __global const ox_edge_crossing* c = p->crossings + i;
-  if (c->other != OX_NONE) ox_reach(p, c->other, region, end);
-  const uint side = ox_side(c);
-  const uint facet0 = ox_facet_at(p, c->edge, 0u);
-  const uint facet1 = ox_facet_at(p, c->edge, 1u);
-  for (uint k = 0u; k < 2u; ++k) {  // an edge of the facet it crosses crosses a facet at its edge
-    const uint facet = k == 0u ? facet0 : facet1;
-    if (facet == OX_NONE || (k == 1u && facet1 == facet0)) continue;
-    for (uint n = ox_find_facet(p, 1u - side, facet); ox_crosses(p, n, 1u - side, facet); ++n)
-      if (ox_is_at_facet(p, p->crossings[p->order[n]].edge, c->facet))
-        ox_reach(p, p->order[n], region, end);
-  }
-  // Another edge of a facet at its edge crosses the same facet.
-  for (uint n = ox_find_facet(p, side, c->facet); ox_crosses(p, n, side, c->facet); ++n) {
-    const uint edge = p->crossings[p->order[n]].edge;
-    if (ox_is_at_facet(p, edge, facet0) || (facet1 != OX_NONE && ox_is_at_facet(p, edge, facet1)))
-      ox_reach(p, p->order[n], region, end);
-  }
-}
-
-// The regions of overlap: what hangs together along curves and chords. Needs the order by facet.
-static inline void ox_find_regions(ox_edge_pair* p) {
-  uint end = 0u;
-  p->regions = 0u;
-  for (uint k = 0u; k < p->count; ++k) {
-    const uint begin = end;
-    ox_reach(p, p->order[k], p->regions, &end);
-    for (uint next = begin; next < end; ++next)
-      ox_reach_neighbours(p, p->queue[next], p->regions, &end);
-    if (end != begin) ++p->regions;
-  }
-}
-
 static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint target, uint region,
                                 float3 position, float3 normal, float depth) {
   if (p->candidate_count == p->most_candidates) return;
@@ -217,8 +190,7 @@ static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint ta
   candidate->patch = OX_NONE;
   candidate->distance2 = INFINITY;
   candidate->region = region;
-  candidate->outline = 0u;
-  candidate->stands = 0u;
+  candidate->marks = 0u;
 }
 
 #endif

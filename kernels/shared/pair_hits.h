@@ -3,6 +3,7 @@
 #ifndef ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 #define ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 
+#include "shared/candidate_order.h"
 #include "shared/edge_pair.h"
 
 // What the hits of the vertices of one mesh say.
@@ -21,20 +22,38 @@ static inline ox_hit_count ox_count_hits(const ox_edge_pair* p, uint side) {
   return count;
 }
 
-// The hit of a vertex that is inside; OX_NONE: it has none.
-static inline uint ox_find_hit(const ox_edge_pair* p, uint side, uint vertex) {
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    __global const ox_candidate* c = p->candidates + i;
-    if (c->vertex == vertex && (c->side_kind & OX_HIT_POINT) == 0u &&
-        (c->side_kind & OX_HIT_KIND) == OX_HIT_INSIDE &&
-        ((c->side_kind & OX_HIT_SIDE) != 0u) == (side != 0u))
-      return i;
-  }
-  return OX_NONE;
+static inline bool ox_is_inside_hit(const ox_edge_pair* p, uint hit) {
+  return hit != OX_NONE && ox_kind(p->candidates + hit) == OX_HIT_INSIDE;
 }
 
-static inline bool ox_has_hit(const ox_edge_pair* p, uint side, uint vertex) {
-  return ox_find_hit(p, side, vertex) != OX_NONE;
+// By the vertices at an end of their edges, tells crossings which hits those have; by others than the
+// inner ones, that they are covered. Before there are regions, in the room of their order.
+static inline void ox_link_hits(const ox_edge_pair* p, uint by) {
+  __global uint* order = p->by_region;
+  for (uint i = 0u; i < p->count; ++i) order[i] = i;
+  ox_sort_crossings(p, order, p->count, by);
+  for (uint i = 0u; i < p->hits; ++i) {
+    const uint side = (p->candidates[i].side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
+    const uint vertex = p->candidates[i].vertex;
+    uint low = 0u;
+    uint high = p->count;
+    while (low < high) {
+      const uint middle = (low + high) / 2u;
+      __global const ox_edge_crossing* c = p->crossings + order[middle];
+      if (ox_side(c) < side || (ox_side(c) == side && ox_key_vertex(p, by, c) < vertex))
+        low = middle + 1u;
+      else
+        high = middle;
+    }
+    for (uint k = low; k < p->count; ++k) {
+      __global ox_edge_crossing* c = p->crossings + order[k];
+      if (ox_side(c) != side || ox_key_vertex(p, by, c) != vertex) break;
+      if (by == OX_BY_INNER_VERTEX)
+        c->hit = i;
+      else if (ox_is_inside_hit(p, i))
+        c->covered = 1u;
+    }
+  }
 }
 
 #endif

@@ -11,46 +11,90 @@
 #include "shared/pair_hits.h"
 #include "shared/way_out.h"
 
-// The shallowest contact that this one contradicts and that is less deep; OX_NONE: there is none.
-static inline uint ox_find_contradictor(const ox_edge_pair* p, uint i) {
-  __global const ox_candidate* c = p->candidates + i;
-  uint least = OX_NONE;
-  for (uint k = 0u; k < p->candidate_count; ++k) {
-    __global const ox_candidate* d = p->candidates + k;
-    if (k == i || ox_kind(d) != OX_HIT_INSIDE || !ox_deeper(c, d) ||
-        !ox_contradicts(c, d, p->pair->epsilon))
-      continue;
-    if (least == OX_NONE || ox_deeper(p->candidates + least, d)) least = k;
+// The points of each region, in no order, as they are now.
+static inline void ox_link_points(const ox_edge_pair* p) {
+  for (uint region = 0u; region < p->regions; ++region) p->point_of_region[region] = OX_NONE;
+  for (uint i = p->hits; i < p->candidate_count; ++i) {
+    __global uint* first = p->point_of_region + p->candidates[i].region;
+    p->next_point[i - p->hits] = *first;
+    *first = i;
   }
+}
+
+// Goes through the candidates of a region that are inside: the hits of vertices at its chords, maybe
+// more than once, and its points.
+typedef struct {
+  uint crossing, end;  // in the order by region
+  uint point;
+} ox_members;
+
+static inline ox_members ox_members_of(const ox_edge_pair* p, uint region) {
+  ox_members members;
+  members.crossing = p->region_first[region];
+  members.end = ox_region_end(p, region);
+  members.point = p->point_of_region[region];
+  return members;
+}
+
+// OX_NONE: there are no more.
+static inline uint ox_next_member(const ox_edge_pair* p, ox_members* members) {
+  while (members->crossing < members->end) {
+    const uint hit = p->crossings[p->by_region[members->crossing++]].hit;
+    if (ox_is_inside_hit(p, hit)) return hit;
+  }
+  while (members->point != OX_NONE) {
+    const uint point = members->point;
+    members->point = p->next_point[point - p->hits];
+    if (ox_kind(p->candidates + point) == OX_HIT_INSIDE) return point;
+  }
+  return OX_NONE;
+}
+
+// The shallower of two contacts; OX_NONE: there is none.
+static inline uint ox_shallower(const ox_edge_pair* p, uint a, uint b) {
+  if (a == OX_NONE || b == OX_NONE) return a == OX_NONE ? b : a;
+  return ox_deeper(p->candidates + a, p->candidates + b) ? b : a;
+}
+
+static inline bool ox_is_contradicted_by(const ox_edge_pair* p, uint i, uint k) {
+  __global const ox_candidate* d = p->candidates + k;
+  return ox_kind(d) == OX_HIT_INSIDE && ox_deeper(p->candidates + i, d) &&
+         ox_contradicts(p->candidates + i, d, p->pair->epsilon);
+}
+
+// The shallowest contact that this one contradicts and that is less deep; OX_NONE: there is none.
+// `ordered`: so many candidates are in the order of their depths, those from `added` on are not.
+static inline uint ox_find_contradictor(const ox_edge_pair* p, uint ordered, uint added, uint i) {
+  uint least = OX_NONE;
+  for (uint k = ordered; k-- > 0u && least == OX_NONE;) {
+    const uint d = p->candidates[k].ordered;
+    if (d == i) break;  // the rest is deeper
+    if (ox_is_contradicted_by(p, i, d)) least = d;
+  }
+  for (uint d = added; d < p->candidate_count; ++d)
+    if (ox_is_contradicted_by(p, i, d)) least = ox_shallower(p, least, d);
   return least;
 }
 
-// Whether a candidate is of the region: a point made for it, or the hit of a vertex at one of its
-// chords. `points`: the first candidate that is a point.
-static inline bool ox_is_of_region(const ox_edge_pair* p, uint points, uint region, uint i) {
-  __global const ox_candidate* c = p->candidates + i;
-  if (ox_kind(c) != OX_HIT_INSIDE) return false;
-  if (i >= points) return c->region == region;
-  const uint side = (c->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
-  for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* crossing = p->crossings + k;
-    if (crossing->region == region && ox_side(crossing) == side &&
-        ox_inner_vertex(p, crossing) == c->vertex)
-      return true;
-  }
-  return false;
+// Of the region, the shallowest; OX_NONE: it has none.
+static inline uint ox_find_shallowest(const ox_edge_pair* p, uint region) {
+  ox_members members = ox_members_of(p, region);
+  uint least = OX_NONE;
+  for (uint i = ox_next_member(p, &members); i != OX_NONE; i = ox_next_member(p, &members))
+    least = ox_shallower(p, least, i);
+  return least;
 }
 
 // What stands in the way of all contacts of the region, the shallowest; OX_NONE: one of them
-// stands, or there are none.
-static inline uint ox_find_standing(const ox_edge_pair* p, uint points, uint region) {
-  uint least = OX_NONE;
-  for (uint i = 0u; i < p->candidate_count; ++i) {
-    if (!ox_is_of_region(p, points, region, i)) continue;
-    const uint standing = ox_find_contradictor(p, i);
-    if (standing == OX_NONE) return OX_NONE;
-    if (least == OX_NONE || ox_deeper(p->candidates + least, p->candidates + standing))
-      least = standing;
+// stands. `shallowest`: of them, the likeliest to stand.
+static inline uint ox_find_standing(const ox_edge_pair* p, uint ordered, uint added, uint region,
+                                    uint shallowest) {
+  uint least = ox_find_contradictor(p, ordered, added, shallowest);
+  ox_members members = ox_members_of(p, region);
+  for (uint i = ox_next_member(p, &members); i != OX_NONE && least != OX_NONE;
+       i = ox_next_member(p, &members)) {
+    const uint standing = ox_find_contradictor(p, ordered, added, i);
+    least = standing == OX_NONE ? OX_NONE : ox_shallower(p, least, standing);
   }
   return least;
 }
@@ -84,9 +128,8 @@ static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, f
                                            __global const ox_node* nodes) {
   ox_way_out best = ox_no_way_out();
   uint looks[2] = {0u, 0u};
-  for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (c->region != region) continue;
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
     const uint side = ox_side(c);
     ox_try_way_along(p, region, normal, side, c->triangle, &best);
     for (uint f = 0u; f < 2u; ++f)
@@ -100,23 +143,12 @@ static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, f
   return best;
 }
 
-// Of the region, the shallowest.
-static inline uint ox_find_shallowest(const ox_edge_pair* p, uint points, uint region) {
-  uint least = OX_NONE;
-  for (uint i = 0u; i < p->candidate_count; ++i)
-    if (ox_is_of_region(p, points, region, i) &&
-        (least == OX_NONE || ox_deeper(p->candidates + least, p->candidates + i)))
-      least = i;
-  return least;
-}
-
-// The contacts of the region up to `end` stand whatever contradicts them, or give way.
-static inline void ox_settle_region(const ox_edge_pair* p, uint points, uint region, uint end,
-                                    bool stands) {
-  for (uint i = 0u; i < end; ++i) {
-    if (!ox_is_of_region(p, points, region, i)) continue;
+// The contacts that the region had before stand whatever contradicts them, or give way.
+static inline void ox_settle_region(const ox_edge_pair* p, uint region, bool stands) {
+  ox_members members = ox_members_of(p, region);
+  for (uint i = ox_next_member(p, &members); i != OX_NONE; i = ox_next_member(p, &members)) {
     if (stands)
-      p->candidates[i].stands = 1u;
+      p->candidates[i].marks |= OX_MARK_STANDS;
     else
       p->candidates[i].side_kind |= OX_HIT_NONE;
   }

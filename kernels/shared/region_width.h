@@ -99,10 +99,15 @@ static inline uint ox_deepest(const ox_edge_pair* p) {
 // The contact along whose normal the region is least wide.
 static inline uint ox_narrowest(const ox_edge_pair* p, ox_extent* least) {
   uint narrowest = OX_NONE;
+  uint measured = OX_NONE;  // the last one; its neighbours mostly face the same way
+  ox_extent extent = *least;
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global const ox_candidate* c = p->candidates + i;
     if ((c->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
-    const ox_extent extent = ox_extent_of(p, vload3(0, c->normal));
+    const float3 direction = vload3(0, c->normal);
+    if (measured == OX_NONE || any(direction != vload3(0, p->candidates[measured].normal)))
+      extent = ox_extent_of(p, direction);
+    measured = i;
     const float wider = (extent.high - extent.low) - (least->high - least->low);
     if (narrowest != OX_NONE &&
         (wider > 0.0f || (wider == 0.0f && !ox_is_listed_before(c, p->candidates + narrowest))))

@@ -9,28 +9,32 @@
 // of its points and of the vertices at its chords, of which so many are looked at.
 #define OX_MOST_SPOKESMEN 8u
 
-static inline void ox_choose_spokesmen(const ox_edge_pair* p, uint points) {
-  for (uint region = 0u; region < p->regions && p->regions > 1u; ++region) {
-    uint best = OX_NONE;
-    uint looked = 0u;
-    for (uint k = 0u; k < p->count && looked < OX_MOST_SPOKESMEN; ++k) {
-      __global const ox_edge_crossing* c = p->crossings + p->order[k];
-      if (c->region != region || c->covered == 0u) continue;
-      const uint vertex = ox_inner_vertex(p, c);
-      if (vertex == OX_NONE) continue;
-      const uint hit = ox_find_hit(p, ox_side(c), vertex);
-      if (hit == OX_NONE) continue;
-      ++looked;
-      if (best == OX_NONE || p->candidates[hit].depth > p->candidates[best].depth) best = hit;
-    }
-    for (uint i = points; i < p->candidate_count; ++i)
-      if (p->candidates[i].region == region &&
-          (best == OX_NONE || p->candidates[i].depth > p->candidates[best].depth))
-        best = i;
-    for (uint i = points; i < p->candidate_count; ++i)
-      if (p->candidates[i].region == region && i != best) p->candidates[i].region = OX_NONE;
-    if (best != OX_NONE) p->candidates[best].region = region;
+// Of the vertices of a region; OX_NONE: none.
+static inline uint ox_deepest_hit(const ox_edge_pair* p, uint region) {
+  uint best = OX_NONE;
+  uint looked = 0u;
+  for (uint k = p->region_first[region]; k < ox_region_end(p, region) && looked < OX_MOST_SPOKESMEN;
+       ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    if (c->covered == 0u || !ox_is_inside_hit(p, c->hit)) continue;
+    ++looked;
+    if (best == OX_NONE || p->candidates[c->hit].depth > p->candidates[best].depth) best = c->hit;
   }
+  return best;
+}
+
+static inline void ox_choose_spokesmen(const ox_edge_pair* p) {
+  if (p->regions < 2u) return;
+  __global uint* spokesman = p->point_of_region;  // no longer needed
+  for (uint region = 0u; region < p->regions; ++region)
+    spokesman[region] = ox_deepest_hit(p, region);
+  for (uint i = p->hits; i < p->candidate_count; ++i) {
+    __global uint* best = spokesman + p->candidates[i].region;
+    if (*best == OX_NONE || p->candidates[i].depth > p->candidates[*best].depth) *best = i;
+  }
+  for (uint i = p->hits; i < p->candidate_count; ++i) p->candidates[i].region = OX_NONE;
+  for (uint region = 0u; region < p->regions; ++region)
+    if (spokesman[region] != OX_NONE) p->candidates[spokesman[region]].region = region;
 }
 
 #endif

@@ -288,12 +288,18 @@ typedef struct {
   ox_f32 position[3];  // in the frame of B
   ox_u32 covered;      // whether a contact speaks for it
   ox_f32 paired;       // [m] the depth of the deepest contact of two edges here; 0: none
-  ox_u32 padding;
+  ox_u32 hit;          // the candidate of the vertex inside at the end of its chord; OX_NONE: none
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 
 // Room for what edges add to the candidates of a pair.
 #define OX_POINTS_PER_CROSSING 4u
+// Room for the orders of the crossings of a pair and of those points: by edge and then by facet; by
+// region; where each region starts; the points of each region.
+#define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
+
+#define OX_MARK_OUTLINE 1u  // it is farthest of its patch in some direction
+#define OX_MARK_STANDS 2u   // its region would have nothing without it (reconcile.h)
 
 // A hit among those of its pair, in the frame of B.
 typedef struct {
@@ -307,8 +313,8 @@ typedef struct {
   ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch
   ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
-  ox_u32 outline;    // whether it is farthest of its patch in some direction
-  ox_u32 stands;     // whether its region would have nothing without it (reconcile.h)
+  ox_u32 marks;      // OX_MARK_...
+  ox_u32 ordered;    // of the i-th candidate of a pair: which is the i-th of the order in use
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 

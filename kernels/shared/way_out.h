@@ -93,20 +93,34 @@ static inline bool ox_goes_through(const ox_edge_pair* p, const ox_way_out* way,
   return false;
 }
 
-// Makes way->depth that of the deepest point: of the crossings of a region, which lie on both
-// surfaces, and the vertices at the ends of its chords; of the vertices beyond their own exit
-// (`vertices`). Stops beyond `limit`.
-static inline void ox_measure(const ox_edge_pair* p, uint region, bool vertices, float limit,
-                              ox_way_out* way) {
-  for (uint k = 0u; k < p->count && region != OX_NONE && way->depth <= limit; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + k;
-    if (c->region != region) continue;
-    way->depth = ox_max(way->depth, ox_depth_below(way, vload3(0, c->position)));
-    if (c->other == OX_NONE && ox_side(c) == way->side)
-      way->depth = ox_max(way->depth, ox_depth_below(way, ox_chord_end(p, c, 1u)));
+// How deep the source is below the way at a crossing, which lies on both surfaces: there, and at a
+// vertex at the end of its chord.
+static inline float ox_depth_at(const ox_edge_pair* p, const ox_way_out* way,
+                                __global const ox_edge_crossing* c) {
+  const float depth = ox_depth_below(way, vload3(0, c->position));
+  return c->other == OX_NONE && ox_side(c) == way->side
+             ? ox_max(depth, ox_depth_below(way, ox_chord_end(p, c, 1u)))
+             : depth;
+}
+
+// Whether a way is worse than another, however deep the points are that it was not measured at.
+static inline bool ox_is_beaten(const ox_way_out* way, const ox_way_out* by) {
+  if (by->triangle == OX_NONE) return false;
+  return way->through == by->through ? way->depth > by->depth : way->through;
+}
+
+// Makes way->depth that of the deepest point: of the crossings of a region and the vertices at the
+// ends of its chords; of the vertices beyond their own exit (`vertices`). Stops once it is beaten.
+static inline void ox_measure(const ox_edge_pair* p, uint region, bool vertices,
+                              const ox_way_out* best, ox_way_out* way) {
+  const uint end = region == OX_NONE ? 0u : ox_region_end(p, region);
+  for (uint k = region == OX_NONE ? 0u : p->region_first[region]; k < end; ++k) {
+    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    way->depth = ox_max(way->depth, ox_depth_at(p, way, c));
     way->through = way->through || ox_goes_through(p, way, c);
+    if (ox_is_beaten(way, best)) return;
   }
-  for (uint i = 0u; i < p->candidate_count && vertices && way->depth <= limit; ++i)
+  for (uint i = 0u; i < p->candidate_count && vertices && !ox_is_beaten(way, best); ++i)
     if (ox_is_fallback(p, i, way->side))
       way->depth = ox_max(way->depth, ox_depth_below(way, vload3(0, p->candidates[i].position)));
 }
@@ -125,7 +139,7 @@ static inline void ox_try_way(const ox_edge_pair* p, uint region, bool vertices,
   if (triangle == OX_NONE || triangle == best->triangle) return;
   ox_way_out way = ox_through(p, side, triangle);
   if (ox_dot(way.normal, way.normal) == 0.0f) return;
-  ox_measure(p, region, vertices, best->through ? INFINITY : best->depth, &way);
+  ox_measure(p, region, vertices, best, &way);
   if (ox_is_better(p, &way, best)) *best = way;
 }
 

@@ -21,7 +21,7 @@ constexpr ArrowCounts kRecordBytes = [] {
   for (std::size_t i = 0; i < kArrowCount; ++i)
     bytes[i] = i <= OX_LIST_CHUNKS_EDGES ? sizeof(ox_chunk_task) : sizeof(ox_ray);
   bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
-  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) + 2 * sizeof(ox_u32) +
+  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) + OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
                              OX_POINTS_PER_CROSSING * sizeof(ox_candidate);
   bytes[OX_LIST_CONTACTS] = sizeof(ox_contact);
   return bytes;
@@ -114,7 +114,7 @@ void AppendLists::resize(const ArrowCounts& capacities) {
                         sizeof(ox_candidate));
     crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
     gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-    crossing_order_.reserve(2 * ends.crossings * sizeof(ox_u32));
+    crossing_order_.reserve(OX_ORDERS_PER_CROSSING * ends.crossings * sizeof(ox_u32));
     contacts_.reserve(ends.contacts * sizeof(ox_contact));
   } catch (...) {
     release();

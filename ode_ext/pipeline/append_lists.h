@@ -57,7 +57,7 @@ class AppendLists {
   const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
   const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
-  const Buffer& crossing_order() const { return crossing_order_; }          // and a queue
+  const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& contacts() const { return contacts_; }
 
  private:
