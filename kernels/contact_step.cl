@@ -121,24 +121,30 @@ static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint 
   if (!(width2 > 0.0f)) return;  // it is the only one, or all lie behind it
   const float3 u = across / sqrt(width2);
   const float3 v = ox_plain_cross(normal, u);
+  float3 direction[8];
+  uint best[8];
+  float farthest[8];
   for (uint k = 0u; k < 8u; ++k) {
     const float a = k == 0u || k == 4u ? 1.0f : k == 2u || k == 6u ? 0.0f : 0.70710678f;
     const float b = k == 0u || k == 4u ? 0.0f : k == 2u || k == 6u ? 1.0f : 0.70710678f;
-    const float3 direction = (k > 2u && k < 6u ? -a : a) * u + (k > 4u || k == 4u ? -b : b) * v;
-    uint best = count;
-    float farthest = -INFINITY;
-    for (uint i = 0u; i < count; ++i) {
-      __global const ox_candidate* c = candidates + i;
-      if (c->patch != patch || ox_kind(c) != kind) continue;
-      const float reach = ox_dot(vload3(0, c->position), direction);
-      if (best == count || reach > farthest ||
-          (reach == farthest && ox_key_less(c, candidates + best))) {
-        best = i;
-        farthest = reach;
-      }
-    }
-    if (best != count) candidates[best].marks |= OX_MARK_OUTLINE;
+    direction[k] = (k > 2u && k < 6u ? -a : a) * u + (k > 4u || k == 4u ? -b : b) * v;
+    best[k] = count;
+    farthest[k] = -INFINITY;
   }
+  for (uint i = 0u; i < count; ++i) {
+    __global const ox_candidate* c = candidates + i;
+    if (c->patch != patch || ox_kind(c) != kind) continue;
+    for (uint k = 0u; k < 8u; ++k) {
+      const float reach = ox_dot(vload3(0, c->position), direction[k]);
+      if (best[k] != count && !(reach > farthest[k]) &&
+          !(reach == farthest[k] && ox_key_less(c, candidates + best[k])))
+        continue;
+      best[k] = i;
+      farthest[k] = reach;
+    }
+  }
+  for (uint k = 0u; k < 8u; ++k)
+    if (best[k] != count) candidates[best[k]].marks |= OX_MARK_OUTLINE;
 }
 
 static bool ox_gives_way(__global const ox_candidate* candidates, float epsilon,

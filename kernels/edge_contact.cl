@@ -215,13 +215,20 @@ static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
 // No region is left without a contact because its own push the other way.
 static void ox_reconcile_regions(ox_edge_pair* p, __global const ox_node* nodes) {
   if (p->regions < 2u) return;
-  const uint before = p->candidate_count;
-  const uint ordered = ox_order_by_depth(p->candidates, before, OX_HIT_INSIDE);
   ox_link_points(p);
+  uint ordered = 0u;  // candidates by depth, and the first of those added since
+  uint added = 0u;
   for (uint region = 0u; region < p->regions; ++region) {
     const uint own = ox_find_shallowest(p, region);
     if (own == OX_NONE) continue;
-    const uint standing = ox_find_standing(p, ordered, before, region, own);
+    // Of a region the shallowest is the likeliest to stand, and mostly does.
+    uint standing = ox_find_contradictor(p, ordered, added, own);
+    if (standing == OX_NONE) continue;
+    if (ordered == 0u) {
+      ordered = ox_order_by_depth(p->candidates, p->candidate_count, OX_HIT_INSIDE);
+      added = p->candidate_count;
+    }
+    standing = ox_find_standing(p, ordered, added, region, standing);
     if (standing == OX_NONE ||
         !ox_are_of_different_parts(p->candidates + own, p->candidates + standing))
       continue;

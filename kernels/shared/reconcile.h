@@ -85,18 +85,17 @@ static inline uint ox_find_shallowest(const ox_edge_pair* p, uint region) {
   return least;
 }
 
-// What stands in the way of all contacts of the region, the shallowest; OX_NONE: one of them
-// stands. `shallowest`: of them, the likeliest to stand.
+// What stands in the way of all contacts of the region, the shallowest; OX_NONE: one of them stands.
+// `standing`: what stands in the way of one of them.
 static inline uint ox_find_standing(const ox_edge_pair* p, uint ordered, uint added, uint region,
-                                    uint shallowest) {
-  uint least = ox_find_contradictor(p, ordered, added, shallowest);
+                                    uint standing) {
   ox_members members = ox_members_of(p, region);
-  for (uint i = ox_next_member(p, &members); i != OX_NONE && least != OX_NONE;
+  for (uint i = ox_next_member(p, &members); i != OX_NONE && standing != OX_NONE;
        i = ox_next_member(p, &members)) {
-    const uint standing = ox_find_contradictor(p, ordered, added, i);
-    least = standing == OX_NONE ? OX_NONE : ox_shallower(p, least, standing);
+    const uint other = ox_find_contradictor(p, ordered, added, i);
+    standing = other == OX_NONE ? OX_NONE : ox_shallower(p, standing, other);
   }
-  return least;
+  return standing;
 }
 
 // Contacts that are deep for how near they are to one another tell of the same part, as those of
