@@ -367,7 +367,9 @@ static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
   if (extent.high - extent.low <= 1.1f * p->candidates[deepest].depth + p->pair->epsilon ||
       !ox_is_convex(p))
     return;
-  __global const ox_candidate* along = p->candidates + ox_narrowest(p, &extent);
+  const uint narrowest = ox_narrowest(p, &extent);
+  if (narrowest == OX_NONE) return;
+  __global const ox_candidate* along = p->candidates + narrowest;
   const float width = extent.high - extent.low;
   const ox_way_out way = ox_find_way_out(p, 0u, true, nodes);
   if (way.triangle != OX_NONE && way.depth < width) {
@@ -376,8 +378,9 @@ static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
   }
   // The normal leads into A: what is deepest of A is lowest along it, what is of B highest.
   const uint side = (along->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
-  __global const ox_edge_crossing* at =
-      p->crossings + (side == 0u ? extent.lowest : extent.highest);
+  const uint corner = side == 0u ? extent.lowest : extent.highest;
+  if (corner == OX_NONE) return;
+  __global const ox_edge_crossing* at = p->crossings + corner;
   ox_add_point(p, side, ox_side(at) == side ? p->edges[at->edge].triangle[0] : at->triangle,
                along->triangle, 0u, side == 0u ? extent.lowest_corner : extent.highest_corner,
                vload3(0, along->normal), width);

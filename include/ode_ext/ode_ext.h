@@ -237,13 +237,16 @@ enum {
   dBatchStatusRedone = 1 << 0,       /**< an append buffer was too small; it was grown and the pass
                                            redone: nothing was lost */
   dBatchStatusDeviceFailed = 1 << 1, /**< the device failed; ODE's own collider answers this pass */
-  dBatchStatusMeshRefused = 1 << 2,  /**< a mesh has vertices that are not finite; its pairs get no
-                                           contacts */
+  dBatchStatusMeshRefused = 1 << 2,  /**< a mesh has a vertex that is not finite, or farther than
+                                           2^36 m (6.9e10) from its origin, or is less than 2^-30 m
+                                           (9.3e-10) across; its pairs get no contacts */
   dBatchStatusGatherSkipped = 1 << 3, /**< the space was known to hold no mesh pair */
   dBatchStatusMeshLeftBox = 1 << 4,   /**< a mesh has vertices outside of the box that ODE knows of
                                            it: pairs may go unnoticed by ODE's broad phase */
   dBatchStatusMissed = 1 << 5,        /**< dBatchMispredictionIgnore: something was lost */
-  dBatchStatusBacktracked = 1 << 6    /**< dBatchMispredictionBacktrack: nothing was delivered */
+  dBatchStatusBacktracked = 1 << 6,   /**< dBatchMispredictionBacktrack: nothing was delivered */
+  dBatchStatusPoseRefused = 1 << 7    /**< a mesh's position is not finite, or beyond 1e36 m, or its
+                                           rotation is none; its pairs get no contacts */
 };
 
 /** The append buffers, in the order of the pipeline. */

@@ -23,9 +23,10 @@ static inline uint ox_next_around(const ox_edge_pair* p, uint mesh, uint triangl
       a = ox_place(p->pair, 0u, a);
       b = ox_place(p->pair, 0u, b);
     }
-    const float3 off = ox_plain_cross(point - a, b - a);
-    if (ox_dot(off, off) <= epsilon * epsilon * ox_dot(b - a, b - a))
-      return p->mesh[mesh]->triangle_first + across;
+    // Squares of lengths, no more: their products would over- and underflow (geometry/range.h).
+    const float3 along = (b - a) / sqrt(ox_dot(b - a, b - a));
+    const float3 off = ox_plain_cross(point - a, along);
+    if (ox_dot(off, off) <= epsilon * epsilon) return p->mesh[mesh]->triangle_first + across;
   }
   return OX_NONE;
 }

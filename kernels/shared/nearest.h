@@ -19,6 +19,8 @@ typedef struct {
   bool two_sided;  // the target has no inside: every face is met from behind
 } ox_query;
 
+// A distance is finite exactly where there is a triangle: ox_consider sets both, and ox_meets gives
+// finite ones only. So the lesser of two that are not equal has a triangle.
 typedef struct {
   float back_t, front_t;  // nearest beyond epsilon; INFINITY: none
   float behind_t;         // nearest back face before -epsilon; -INFINITY: none
@@ -57,6 +59,13 @@ static inline bool ox_faces_more(const ox_query* query, __global const ox_triang
   return slope_a != slope_b ? slope_a > slope_b : triangles[a].id < triangles[b].id;
 }
 
+// Whether triangle k, met at t, comes before what was met at nearest_t. Ties go by the index.
+static inline bool ox_is_nearer(__global const ox_triangle* triangles, uint k, float t,
+                                uint nearest, float nearest_t) {
+  if (nearest == OX_NONE || t != nearest_t) return t < nearest_t;
+  return triangles[k].id < triangles[nearest].id;
+}
+
 static inline void ox_consider(const ox_query* query, __global const ox_triangle* triangles, uint k,
                                ox_nearest* nearest) {
   __global const ox_triangle* triangle = triangles + k;
@@ -87,13 +96,11 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
   } else if (t > query->t_max) {
     return;
   } else if (!back) {
-    if (t < nearest->front_t ||
-        (t == nearest->front_t && triangle->id < triangles[nearest->front].id)) {
+    if (ox_is_nearer(triangles, k, t, nearest->front, nearest->front_t)) {
       nearest->front_t = t;
       nearest->front = k;
     }
-  } else if (t < nearest->back_t ||
-             (t == nearest->back_t && triangle->id < triangles[nearest->back].id)) {
+  } else if (ox_is_nearer(triangles, k, t, nearest->back, nearest->back_t)) {
     nearest->back_t = t;
     nearest->back = k;
   }

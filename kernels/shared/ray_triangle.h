@@ -62,8 +62,8 @@ static inline float ox_det2(float a, float b, float c, float d) {
   return fma(a, b, -p) - fma(c, d, -q);
 }
 
-// Whether the line of the ray meets the triangle; then *t is the distance (may be negative) and
-// *back whether the ray leaves through it (direction . normal > 0).
+// Whether the line of the ray meets the triangle; then *t is the distance (may be negative, always
+// finite) and *back whether the ray leaves through it (direction . normal > 0).
 static inline bool ox_meets(const ox_cast* cast, float3 a, float3 b, float3 c, float* t,
                             bool* back) {
   const float3 oa = a - cast->origin;
@@ -87,7 +87,8 @@ static inline bool ox_meets(const ox_cast* cast, float3 a, float3 b, float3 c, f
   if (determinant == 0.0f) return false;  // edge on: its neighbours are met
   *t = (u * az + v * bz + w * cz) * cast->sz / determinant;
   *back = determinant < 0.0f;
-  return true;
+  // Products of three lengths overflow long before lengths do; what has no distance is no hit.
+  return fabs(*t) < INFINITY;
 }
 
 // Whether the ray passes the node's box between `from` and `limit` [m].

@@ -20,7 +20,7 @@ static inline uint ox_corners_at(__global const ox_edge_crossing* c) {
 // The corners farthest along a direction and against it.
 typedef struct {
   float low, high;       // [m] along it
-  uint lowest, highest;  // crossings
+  uint lowest, highest;  // crossings; OX_NONE: there is no corner
   float3 lowest_corner, highest_corner;
 } ox_extent;
 
@@ -88,15 +88,16 @@ static inline uint ox_deepest(const ox_edge_pair* p) {
   for (uint i = 0u; i < p->candidate_count; ++i) {
     __global const ox_candidate* c = p->candidates + i;
     if ((c->side_kind & OX_HIT_KIND) != OX_HIT_INSIDE) continue;
-    __global const ox_candidate* d = p->candidates + deepest;
-    if (deepest == OX_NONE || c->depth > d->depth ||
-        (c->depth == d->depth && ox_is_listed_before(c, d)))
-      deepest = i;
+    if (deepest != OX_NONE) {
+      __global const ox_candidate* d = p->candidates + deepest;
+      if (!(c->depth > d->depth || (c->depth == d->depth && ox_is_listed_before(c, d)))) continue;
+    }
+    deepest = i;
   }
   return deepest;
 }
 
-// The contact along whose normal the region is least wide.
+// The contact along whose normal the region is least wide; OX_NONE: none is inside.
 static inline uint ox_narrowest(const ox_edge_pair* p, ox_extent* least) {
   uint narrowest = OX_NONE;
   uint measured = OX_NONE;  // the last one; its neighbours mostly face the same way

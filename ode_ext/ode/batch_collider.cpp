@@ -44,12 +44,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Positions a float can hold with room for sums; beyond, and for NaN, there is nothing to compute.
+// Rotations, however badly rounded, and positions a float can hold with room for what is summed of
+// them: differences, turned, over three axes, 36 times as much. Beyond, and for NaN, there is
+// nothing to compute.
 bool is_usable(const Pose& pose) {
   for (const double r : pose.rotation)
-    if (!std::isfinite(r)) return false;
+    if (!(std::fabs(r) <= 2)) return false;
   for (std::size_t k = 0; k < 3; ++k)
-    if (!(std::fabs(pose.position[k]) < 1e37)) return false;
+    if (!(std::fabs(pose.position[k]) < 1e36)) return false;
   return true;
 }
 
@@ -224,10 +226,10 @@ void BatchCollider::add_unless_answered(Answer& answer, std::uint32_t a, std::ui
   answer.valid = false;
   answer.members = {members_[a], members_[b]};
   answer.contacts.clear();
-  if (!is_usable(members_[a].pose) || !is_usable(members_[b].pose)) {
-    answer.valid = true;
-    return;
-  }
+  for (const std::uint32_t k : {a, b})
+    answer.valid =
+        answer.valid || !is_usable(members_[k].pose) || meshes_.is_refused(members_[k].data);
+  if (answer.valid) return;  // nothing can be said of them
   scene_.pairs.push_back({a, b});
   pending_.push_back(&answer);
 }
@@ -237,7 +239,8 @@ std::uint32_t BatchCollider::member_of(const PlacedGeom& placed) {
   if (known != member_index_.end()) return known->second;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
   const auto& mesh = meshes_.refresh(data, look_, pass_);
-  if (!mesh->finite) stats_.status |= dBatchStatusMeshRefused;
+  if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
+  if (!is_usable(placed.pose)) stats_.status |= dBatchStatusPoseRefused;
   if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
   return member_of(PairMember{placed.geom, data, mesh, placed.pose});
 }

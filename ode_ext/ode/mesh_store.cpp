@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/deform.h"
+#include "geometry/range.h"
 #include "ode/mesh_import.h"
 #include "ode/messages.h"
 
@@ -58,10 +59,11 @@ void MeshStore::update(Entry& entry) {
           build_mesh(soup_, {.open_thickness = open_thickness_, .deformable = true}));
     entry.mesh = std::move(shape);
   }
-  if (!entry.mesh->finite)
-    log(LogLevel::kWarning, "a mesh of " + std::to_string(soup_.size() / 3) +
-                                " triangles has a vertex that is not finite; its pairs get no "
-                                "contacts");
+  const std::string reason = why_refused(soup_);
+  if (!reason.empty() && !entry.refused)  // once for a mesh that goes on changing
+    log(LogLevel::kWarning, "a mesh of " + std::to_string(soup_.size() / 3) + " triangles " +
+                                reason + "; its pairs get no contacts");
+  entry.refused = !reason.empty();
 }
 
 std::shared_ptr<const Mesh> MeshStore::build(bool restless) {

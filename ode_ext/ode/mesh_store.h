@@ -39,6 +39,8 @@ class MeshStore {
 
   // Whether it lay, when last read, outside of the box that ODE knows of it.
   bool has_left_box(dTriMeshDataID data) const { return entries_.at(data).left_box; }
+  // Whether its contacts cannot be computed (geometry/range.h), as it was when last read.
+  bool is_refused(dTriMeshDataID data) const { return entries_.at(data).refused; }
   // How often deformable meshes changed since the last call.
   std::uint64_t take_deformed() { return std::exchange(deformed_, 0); }
 
@@ -67,6 +69,7 @@ class MeshStore {
     bool changed = false;  // announced
     bool deformable = false;
     bool left_box = false;
+    bool refused = false;
     bool restless = false;  // changed pass after pass: built without what pays in later ones only
   };
 

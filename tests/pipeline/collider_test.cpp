@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "pipeline/test_scene.h"
@@ -411,6 +412,50 @@ TEST(Collider, AnswersNothingForMeshesWithoutTriangles) {
   EXPECT_TRUE(bits[0].empty());
   EXPECT_TRUE(bits[1].empty());
   EXPECT_FALSE(bits[2].empty());
+}
+
+// Powers of two round alike, so that what differs has over- or underflowed. Within the range of
+// sizes for which contacts are right (geometry/range.h).
+TEST(Collider, GivesMeshesPowersOfTwoLargerTheSameContactsToTheLastBit) {
+  Collider collider({});
+  const auto contacts_at = [&](double scale) {
+    TestScene scene = random_scene(60, 82);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+      scene.scene.meshes[i] =
+          std::make_shared<const Mesh>(build_mesh(soup_of(scaled(scene.meshes[i], scale))));
+    for (Scene::Object& object : scene.scene.objects)
+      object.pose.position = scale * object.pose.position;
+    std::vector<ContactBits> bits;
+    for (Contact contact : collider.collide(scene.scene, nullptr).contacts) {
+      contact.position = (1 / scale) * contact.position;
+      contact.depth /= scale;
+      bits.push_back(bits_of(contact));
+    }
+    return bits;
+  };
+  const std::vector<ContactBits> expected = contacts_at(1);
+  EXPECT_GT(expected.size(), 200u);
+  for (const int exponent : {-29, -13, 11, 35})
+    EXPECT_EQ(contacts_at(std::ldexp(1, exponent)), expected) << exponent;
+}
+
+// Such meshes are refused before (geometry/range.h), but no kernel may rely on that: where products
+// of lengths overflow or underflow, rays have no distances and regions no corners.
+TEST(Collider, SurvivesMeshesOfAnySize) {
+  Random random(81);
+  Collider collider({});
+  for (int exponent = -40; exponent <= 37; exponent += 3) {
+    const double size = std::pow(10.0, exponent);
+    TestScene scene;
+    const std::uint32_t cube = scene.add_mesh(make_cube(size));
+    const std::uint32_t ball = scene.add_mesh(make_icosphere(0.6 * size, 1));
+    const std::uint32_t sheet = scene.add_mesh(make_sheet(size, 4));
+    for (int i = 0; i < 8; ++i) {
+      scene.add_pair(cube, random.pose(0.4 * size), ball, random.pose(0.4 * size));
+      scene.add_pair(sheet, random.pose(0.4 * size), ball, random.pose(0.4 * size));
+    }
+    EXPECT_EQ(collider.collide(scene.scene, nullptr).ranges.size(), scene.pairs.size());
+  }
 }
 
 // ODE scenes blow up; the collider must neither hang nor spoil the other pairs.
