@@ -77,7 +77,12 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.edges = edges(mesh.vertices, mesh.triangles, mesh.facets);
   mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
-  if (options.grids) {
+  const bool embedded =
+      mesh.closed && (options.isolation || !options.grids) &&
+      is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours, mesh.bvh, mesh.face_normals);
+  // Of a mesh that cuts itself, vertices that grids know to be outside may have rays that first
+  // meet a face from behind: without the grids it would have other contacts.
+  if (options.grids || (mesh.closed && !embedded)) {
     const auto margin = static_cast<float>(kGridMargin * length(extent(mesh.box)));
     mesh.grid = build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi,
                                      margin, mesh.closed);
@@ -87,8 +92,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   }
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
-    if (options.isolation &&
-        is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours, mesh.bvh, mesh.face_normals)) {
+    if (options.isolation && embedded) {
       mesh.isolation =
           isolation(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.bvh, mesh.neighbours);
     }

@@ -67,7 +67,7 @@ struct Mesh {
   std::vector<Isolation> isolation;
 
   Bvh bvh;                          // over `triangles`
-  OccupancyGrid grid;               // if asked for
+  OccupancyGrid grid;               // if asked for, or needed (MeshOptions)
   ClearanceGrid clearance;          // of `grid`
   SurfaceSlabs slabs;               // of `clearance`
   std::vector<VertexChunk> chunks;  // of `vertices`
@@ -98,9 +98,11 @@ Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 
 struct MeshOptions {
   float open_thickness = 0;  // [m] bounds the exits of an open mesh; 0: its mean edge
-  bool grids = true;         // worth building for a mesh that lives for more than a step or two
-  bool isolation = true;     // likewise
-  bool deformable = false;   // implies that there is neither
+  // Worth building for a mesh that lives for more than a step or two; a closed mesh that is not
+  // proven to be embedded has them anyway, since its contacts depend on them.
+  bool grids = true;
+  bool isolation = true;    // likewise, but no contact depends on it
+  bool deformable = false;  // implies that there is neither
 };
 
 // Builds everything above. Throws std::bad_alloc only.
