@@ -9,6 +9,7 @@
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/deep_parts.h"
 #include "shared/exit_edge.h"
+#include "shared/open_target.h"
 #include "shared/reconcile.h"
 #include "shared/region_width.h"
 #include "shared/regions.h"
@@ -458,6 +459,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     ox_choose_exits(&pair);
     if (crossed == 0u) {
       ox_drop_apart(&pair);
+      ox_drop_beyond_border(&pair);
       for (uint side = 0u; side < 2u; ++side) {
         const ox_hit_count hits = ox_count_hits(&pair, side);
         if (hits.fallback != 0u && hits.inside == 0u)
@@ -467,6 +469,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     } else {
       ox_sort_crossings(&pair, pair.order, crossed, OX_BY_EDGE);
       ox_find_chords(&pair);
+      ox_drop_beyond_border(&pair);
       ox_link_hits(&pair, OX_BY_INNER_VERTEX);
       ox_cover_by_vertices(&pair);
       ox_sort_crossings(&pair, pair.order, crossed, OX_BY_FACET);

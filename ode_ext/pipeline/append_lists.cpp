@@ -21,7 +21,8 @@ constexpr ArrowCounts kRecordBytes = [] {
   for (std::size_t i = 0; i < kArrowCount; ++i)
     bytes[i] = i <= OX_LIST_CHUNKS_EDGES ? sizeof(ox_chunk_task) : sizeof(ox_ray);
   bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
-  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) + OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
+  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) +
+                             OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
                              OX_POINTS_PER_CROSSING * sizeof(ox_candidate);
   bytes[OX_LIST_CONTACTS] = sizeof(ox_contact);
   return bytes;
