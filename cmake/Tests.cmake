@@ -25,6 +25,8 @@ ode_ext_compile_options(ode_ext_cgal_oracle)
 target_include_directories(ode_ext_cgal_oracle PRIVATE tests)
 target_link_libraries(ode_ext_cgal_oracle PRIVATE CGAL::CGAL)
 
+include(Fuzz)
+
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
      tests/support/fcl_*.cpp tests/support/ccd_*.cpp
      tests/audit/scene_audit.cpp tests/audit/kind*.cpp tests/audit/pair_*.cpp
@@ -37,7 +39,7 @@ if(test_sources)
   target_link_libraries(ode_ext_tests PRIVATE
     ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
     $<TARGET_NAME_IF_EXISTS:paper_parts> contact_accuracy_parts ode_ext_cgal_oracle
-    nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
+    ode_ext_fuzz_parts nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
     ${CMAKE_DL_LIBS})
   # Half of what compiling a test takes is this header.
   target_precompile_headers(ode_ext_tests PRIVATE <gtest/gtest.h>)

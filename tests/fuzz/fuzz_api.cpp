@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The C API under libFuzzer. scripts/fuzz runs it; given files in place of folders it runs those,
+// in order and in one process. What it found goes to stderr, with the bytes in a file, as libFuzzer
+// has it; at the end it says how much was judged.
+//
+// Colliders live for many programs, since making them takes longer than all else. A flaw is looked
+// for again with new ones, and said to depend on the past if it is gone then; ODE_EXT_FUZZ_HISTORY
+// names a folder that keeps the programs since the colliders were made, for this and for crashes.
+#include <ode/ode.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "fuzz/program.h"
+
+namespace {
+
+using namespace ode_ext::fuzz;
+
+constexpr int kProgramsPerColliders = 200;
+
+void say_nothing(int, const char*, va_list) {}
+
+class Session {
+ public:
+  Session() {
+    dInitODE2(0);
+    dSetMessageHandler(&say_nothing);
+    if (const char* folder = std::getenv("ODE_EXT_FUZZ_HISTORY")) history_ = folder;
+    renew();
+  }
+
+  void run(std::span<const std::uint8_t> bytes) {
+    if (programs_++ == kProgramsPerColliders) renew();
+    remember(bytes);
+    const Verdict verdict = run_program(bytes, colliders_);
+    tally_ += verdict.tally;
+    if (verdict.flaw.empty()) return;
+    renew();
+    const Verdict again = run_program(bytes, colliders_);
+    // Kernels that were compiled while the clock ran are there the second time.
+    if (verdict.slow && again.flaw.empty()) return;
+    std::fprintf(stderr, "FLAW: %s\n", verdict.flaw.c_str());
+    if (again.flaw.empty())
+      std::fprintf(stderr, "... but not with new colliders: it depends on the programs before\n");
+    else if (again.flaw != verdict.flaw)
+      std::fprintf(stderr, "... and with new colliders: %s\n", again.flaw.c_str());
+    std::abort();
+  }
+
+  void report() const { std::fprintf(stderr, "%s", to_text(tally_).c_str()); }
+
+ private:
+  void renew() {
+    programs_ = 1;
+    colliders_.renew();
+    for (std::size_t i = 0; i < Colliders::kKept; ++i) colliders_.kept(i);
+    if (history_.empty()) return;
+    std::filesystem::remove_all(history_);
+    std::filesystem::create_directories(history_);
+  }
+
+  void remember(std::span<const std::uint8_t> bytes) const {
+    if (history_.empty()) return;
+    char name[16];
+    std::snprintf(name, sizeof name, "%06d", programs_);
+    std::ofstream(history_ / name, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+
+  Colliders colliders_;
+  Tally tally_;
+  int programs_ = 0;
+  std::filesystem::path history_;
+};
+
+Session* session = nullptr;
+
+}  // namespace
+
+// What compiling kernels leaves behind in PoCL and LLVM, if its cache did not have them already.
+// That this library gives its OpenCL objects back is tried by the tests under AddressSanitizer.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libpocl\nleak:libLLVM\n"; }
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  try {
+    session = new Session;  // for as long as there are programs: libFuzzer ends with exit()
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "no collider to fuzz: %s\n", error.what());
+    std::exit(1);
+  }
+  std::atexit([] {
+    session->report();
+    delete session;
+  });
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  session->run({data, size});
+  return 0;
+}
