@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much memory this process has, and whether it grew.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace ode_ext::soak {
+
+// What the process holds in memory now [MiB].
+inline double resident_mib() {
+  long long pages = 0, resident = 0;
+  if (FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%lld %lld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+// The largest of the last third of the samples less the largest of the middle third: what comes and
+// goes cancels out, and what is kept for good does not. The first third is for warming up.
+inline double growth(const std::vector<double>& samples) {
+  const auto third = static_cast<std::ptrdiff_t>(samples.size() / 3);
+  if (third == 0) return 0;
+  const auto middle = samples.end() - 2 * third, last = samples.end() - third;
+  return *std::max_element(last, samples.end()) - *std::max_element(middle, last);
+}
+
+}  // namespace ode_ext::soak
