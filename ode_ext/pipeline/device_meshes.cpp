@@ -338,9 +338,10 @@ void DeviceMeshes::append_edges(const Mesh& mesh, std::uint32_t vertex_first) {
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
   const Deformable& deformable = deformables_.at(mesh);
-  measure(shape, host_records_[mesh]);
   MeshMove move;
+  // Not host_records_[mesh] itself: what was uploaded just now may still be read from there.
   move.record.shape = host_records_[mesh];
+  measure(shape, move.record.shape);
   move.record.mesh = mesh;
   move.record.vertex_first = places_[mesh].vertex_first;
   move.record.vertex_count = static_cast<ox_u32>(shape.vertices.size());

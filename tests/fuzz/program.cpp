@@ -13,6 +13,18 @@ namespace {
 constexpr int kMostOperations = 64;
 constexpr int kLimits[] = {1, 4, 16, 64, 64, 64, 100, 1000};
 
+// Of 32 values of a byte 22 are an operation each; the rest are more of those without which the
+// others have nothing to do.
+Operation operation_of(std::uint8_t byte) {
+  constexpr Operation kMore[] = {Operation::MakeMesh, Operation::MakeGeom, Operation::MakeGeom,
+                                 Operation::MakeGeom, Operation::Pose,     Operation::Pass,
+                                 Operation::Pass,     Operation::Shake,    Operation::CollidePairs,
+                                 Operation::Collide};
+  static_assert(kOperations + std::size(kMore) == 32);
+  const int value = byte % 32;
+  return value < kOperations ? static_cast<Operation>(value) : kMore[value - kOperations];
+}
+
 class Program {
  public:
   Program(ByteSource bytes, Colliders& colliders, const ProgramOptions& options)
@@ -32,8 +44,9 @@ class Program {
     judge_.tally.executions = 1;
     while (!bytes_.empty() && judge_.flaw().empty() && judge_.tally.operations < kMostOperations) {
       ++judge_.tally.operations;
-      step(static_cast<Operation>(bytes_.below(kOperations)));
+      step(operation_of(bytes_.byte()));
     }
+    if (judge_.flaw().empty()) ask_all();
     return {judge_.flaw(), judge_.slow(), judge_.tally};
   }
 
@@ -57,6 +70,7 @@ class Program {
   int limit() { return kLimits[bytes_.below(8)]; }
 
   void step(Operation operation);
+  void ask_all();
   void pass(bool two);
   void pairs();
   void edit(Mesh& mesh);
@@ -151,6 +165,18 @@ void Program::pairs() {
   if (geoms.size() % 2 != 0) geoms.pop_back();
   const Collider& collider = choose_collider();
   judge_.ask_pairs(geoms, limit(), collider);
+}
+
+// What has come of it in the end, each geom with every other.
+void Program::ask_all() {
+  std::vector<Geom*> geoms;
+  for (const auto& a : world_.geoms()) {
+    for (const auto& b : world_.geoms()) {
+      if (a == b) break;
+      if (a->inner == nullptr && b->inner == nullptr) geoms.insert(geoms.end(), {a.get(), b.get()});
+    }
+  }
+  judge_.ask_pairs(geoms, 64, colliders_.kept(0));
 }
 
 void Program::announce(Mesh& mesh) {

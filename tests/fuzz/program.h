@@ -36,7 +36,8 @@ struct Verdict {
 Verdict run_program(std::span<const std::uint8_t> bytes, Colliders& colliders,
                     const ProgramOptions& options = {});
 
-// What the bytes of a program mean: the first byte of every operation, modulo kOperations.
+// The first byte of every operation of a program, modulo 32; the values above these mean some of
+// them again. In the end each geom is collided with every other.
 enum class Operation : std::uint8_t {
   MakeMesh,
   MakeGeom,
