@@ -156,8 +156,8 @@ TEST_F(ApiPasses, SeeAGeomGivenAnotherMeshWithoutAPass) {
   EXPECT_EQ(difference_with_geoms(collide(g1, g2), fresh_answer(g1, g2)), "");
 }
 
-// Bindings of scripting languages leave callbacks by longjmp, and ODE's own pass with them: its space
-// stays locked, so that its geoms can never go. Hence a process of its own for each.
+// Bindings of scripting languages leave callbacks by longjmp, and ODE's own pass with them: its
+// space stays locked, so that its geoms can never go. Hence a process of its own for each.
 class ApiLongjmpDeathTest : public ::testing::Test {
  protected:
   ApiLongjmpDeathTest() { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
