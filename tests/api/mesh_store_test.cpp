@@ -38,6 +38,12 @@ TEST_F(MeshStoreTest, BuildsNoGridsWhereAMeshChangesPassAfterPass) {
   EXPECT_FALSE(has_grids(pass(0.01f)));
 }
 
+// Its contacts would be others without.
+TEST_F(MeshStoreTest, BuildsGridsOfAMeshThatCutsItselfHoweverOftenItChanges) {
+  for (std::size_t k = 0; k < 3; ++k) mesh_.edit().vertices[k] *= -1.5f;  // out at the far side
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(has_grids(pass(0.01f)));
+}
+
 TEST_F(MeshStoreTest, BuildsGridsWhereAMeshChangesNowAndThen) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_TRUE(has_grids(pass(0.01f)));

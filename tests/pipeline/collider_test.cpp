@@ -420,6 +420,12 @@ TEST(Collider, GivesMeshesPowersOfTwoLargerTheSameContactsToTheLastBit) {
   Collider collider({});
   const auto contacts_at = [&](double scale) {
     TestScene scene = random_scene(60, 82);
+    const std::uint32_t cube = scene.add_mesh(make_cube(1)), small = scene.add_mesh(make_cube(0.5));
+    for (const Point& place :  // rays leave by edges
+         {Point{0.5, 0, 0}, Point{0.5, 0.25, 0}, Point{0.5, 0.5, 0.5}, Point{0.25, 0.25, 0}}) {
+      scene.add_pair(cube, TestPose{}, cube, {place});
+      scene.add_pair(cube, TestPose{}, small, {place});
+    }
     for (std::size_t i = 0; i < scene.meshes.size(); ++i)
       scene.scene.meshes[i] =
           std::make_shared<const Mesh>(build_mesh(soup_of(scaled(scene.meshes[i], scale))));
