@@ -156,9 +156,9 @@ static bool ox_gives_way(__global const ox_candidate* candidates, float epsilon,
 }
 
 // Whether the candidate at `rank` in the order of depths contradicts a shallower one that is not
-// dropped; it is dropped then. One that does not is taken, and few are, so it is those that do which
-// have to be found fast: by what the last one contradicted (`contradictor`, a rank), else among
-// those that are about as deep (in thick parts) and the shallowest (in thin ones) by turns.
+// dropped; it is dropped then. One that does not is taken, and few are; those that do have to be
+// found fast: by what the last one contradicted (`contradictor`, a rank), else among those that are
+// about as deep (in thick parts) and the shallowest (in thin ones) by turns.
 static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, float epsilon,
                                uint rank, uint* contradictor) {
   __global ox_candidate* c = candidates + candidates[rank].ordered;

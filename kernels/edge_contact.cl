@@ -15,8 +15,8 @@
 #include "shared/regions.h"
 #include "shared/spokesmen.h"
 
-// in: crossings. out: those of each pair together, as they are needed, and per pair the first of the
-// orders of them. item: 1 crossing.
+// in: crossings. out: those of each pair together, as they are needed, and the first of the orders
+// of them. item: 1 crossing.
 __kernel void crossing_gather(__global const uint* counters, __global const ox_list* lists,
                               __global const ox_edge_crossing* crossings,
                               __global const ox_pair* pairs, __global const ox_vertex* vertices,
@@ -242,8 +242,8 @@ static void ox_reconcile_regions(ox_edge_pair* p, __global const ox_node* nodes)
   }
 }
 
-// How deep the deepest point of a region is below a way, or a depth beyond `limit`. `deepest`: where
-// that was for another way, and so may be for this one.
+// How deep the deepest point of a region is below a way, or a depth beyond `limit`. `deepest`:
+// where that was for another way, and so may be for this one.
 static float ox_measure_to(const ox_edge_pair* p, uint region, const ox_way_out* way, float limit,
                            uint* deepest) {
   float depth = ox_max(0.0f, ox_depth_at(p, way, p->crossings + p->by_region[*deepest]));

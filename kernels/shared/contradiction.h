@@ -8,9 +8,9 @@
 static inline uint ox_kind(__global const ox_candidate* c) { return c->side_kind & OX_HIT_KIND; }
 
 // By side and place; by the order of the vertices, which for a deformed mesh tells of the shape it
-// was built in, only where rounding has put two in one place. Points come after vertices: what their
-// `vertex` counts are triangles, and an index of one kind against one of another tells only how many
-// other meshes there are.
+// was built in, only where rounding has put two in one place. Points come after vertices: what
+// their `vertex` counts are triangles, and an index of one kind against one of another tells only
+// how many other meshes there are.
 static inline bool ox_key_less(__global const ox_candidate* a, __global const ox_candidate* b) {
   const uint side_a = a->side_kind & OX_HIT_SIDE;
   const uint side_b = b->side_kind & OX_HIT_SIDE;

@@ -50,7 +50,7 @@ static inline bool ox_leads_out(const ox_edge_pair* p, __global const ox_candida
   return ox_dot(surface - point, normal) <= 1.1f * d->depth * ox_dot(out, normal);
 }
 
-// Whether some contact does. `leader`: the one that did last, mostly does again, and is tried first.
+// Whether some contact does. `leader`: the one that did last mostly does again.
 static inline bool ox_is_led_out(const ox_edge_pair* p, uint side, float3 point, float exit,
                                  uint* leader) {
   if (*leader < p->candidate_count && ox_leads_out(p, p->candidates + *leader, side, point, exit))

@@ -94,7 +94,7 @@ static inline uint ox_key_vertex(const ox_edge_pair* p, uint by,
                                   : p->edges[c->edge].vertex[by - OX_BY_FIRST_VERTEX];
 }
 
-// The entries of an order are crossings; by facets they are crossing << 1 | which facet of the edge.
+// The entries of an order are crossings; by facets, crossing << 1 | which facet of the edge.
 static inline bool ox_comes_before(const ox_edge_pair* p, uint by, uint i, uint j) {
   const uint shift = by == OX_BY_FACETS ? 1u : 0u;
   __global const ox_edge_crossing* a = p->crossings + (i >> shift);

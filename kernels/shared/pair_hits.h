@@ -26,8 +26,8 @@ static inline bool ox_is_inside_hit(const ox_edge_pair* p, uint hit) {
   return hit != OX_NONE && ox_kind(p->candidates + hit) == OX_HIT_INSIDE;
 }
 
-// By the vertices at an end of their edges, tells crossings which hits those have; by others than the
-// inner ones, that they are covered. Before there are regions, in the room of their order.
+// By the vertices at an end of their edges, tells crossings which hits those have; by others than
+// the inner ones, that they are covered. Before there are regions, in the room of their order.
 static inline void ox_link_hits(const ox_edge_pair* p, uint by) {
   __global uint* order = p->by_region;
   for (uint i = 0u; i < p->count; ++i) order[i] = i;

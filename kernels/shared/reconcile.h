@@ -21,8 +21,8 @@ static inline void ox_link_points(const ox_edge_pair* p) {
   }
 }
 
-// Goes through the candidates of a region that are inside: the hits of vertices at its chords, maybe
-// more than once, and its points.
+// Goes through the candidates of a region that are inside: the hits of vertices at its chords,
+// maybe more than once, and its points.
 typedef struct {
   uint crossing, end;  // in the order by region
   uint point;
@@ -85,8 +85,8 @@ static inline uint ox_find_shallowest(const ox_edge_pair* p, uint region) {
   return least;
 }
 
-// What stands in the way of all contacts of the region, the shallowest; OX_NONE: one of them stands.
-// `standing`: what stands in the way of one of them.
+// What stands in the way of all contacts of the region, the shallowest; OX_NONE: one of them
+// stands. `standing`: what stands in the way of one of them.
 static inline uint ox_find_standing(const ox_edge_pair* p, uint ordered, uint added, uint region,
                                     uint standing) {
   ox_members members = ox_members_of(p, region);

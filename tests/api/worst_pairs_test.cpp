@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One pair, however it is made, is answered soon. Deadlines are hang guards: each of these took
+// minutes, and takes less than a second, once everything about a pair was looked for among all that
+// it has.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "support/batch_collider.h"
+
+namespace ode_ext::test {
+namespace {
+
+constexpr double kDeadline = 30;  // [s]
+
+// `mesh`, turned and moved in its own frame.
+TestMesh placed(TestMesh mesh, const TestPose& pose) {
+  for (std::size_t i = 0; i < mesh.vertices.size() / 3; ++i) {
+    const Point v = to_world(pose, mesh.vertex(i));
+    for (std::size_t k = 0; k < 3; ++k) mesh.vertices[3 * i + k] = static_cast<float>(v[k]);
+  }
+  return mesh;
+}
+
+// A ball of which no two triangles face quite the same way as their neighbours.
+TestMesh rough_ball() {
+  TestMesh mesh = make_icosphere(1, 5);
+  Random random(7);
+  for (std::size_t i = 0; i < mesh.vertices.size() / 3; ++i) {
+    const double scale = random.uniform(0.98, 1.02);
+    for (std::size_t k = 0; k < 3; ++k)
+      mesh.vertices[3 * i + k] = static_cast<float>(scale * mesh.vertices[3 * i + k]);
+  }
+  return mesh;
+}
+
+// Triangles as large as all of it, each of corners of its own.
+TestMesh soup(int triangles, std::uint64_t seed) {
+  TestMesh mesh;
+  Random random(seed);
+  for (int i = 0; i < triangles; ++i) {
+    const TestPose pose = random.pose(0.5);
+    for (int k = 0; k < 3; ++k) {
+      for (const double at : pose.position)
+        mesh.vertices.push_back(static_cast<float>(at + random.uniform(-0.5, 0.5)));
+      mesh.indices.push_back(static_cast<unsigned>(3 * i + k));
+    }
+  }
+  return mesh;
+}
+
+TestMesh sticks(int count, std::uint64_t seed) {
+  TestMesh mesh;
+  Random random(seed);
+  for (int i = 0; i < count; ++i) mesh = merged(mesh, placed(make_rod(1, 0.02), random.pose(0.3)));
+  return mesh;
+}
+
+TestMesh rough_sheet(int n) {
+  TestMesh mesh = make_sheet(1, n);
+  Random random(3);
+  for (std::size_t i = 2; i < mesh.vertices.size(); i += 3)
+    mesh.vertices[i] = static_cast<float>(random.uniform(-0.02, 0.02));
+  return mesh;
+}
+
+class ApiWorstPairs : public ::testing::Test {
+ protected:
+  // The contacts of two meshes, `b` placed by a pose. Checks that they came in time, once the
+  // meshes were known, and are sound.
+  Contacts answer(const OdeMesh& a, const OdeMesh& b, const TestPose& pose, int limit = 16) {
+    const dGeomID g1 = world.geom(a, {}), g2 = world.geom(b, at(100, 0, 0));
+    const BatchCollider collider([=](dBatchColliderParams& p) { p.max_contacts = limit; });
+    EXPECT_TRUE(answer_of(collider, g1, g2).empty());
+    set_pose(g2, pose);
+    const auto start = std::chrono::steady_clock::now();
+    Contacts contacts = answer_of(collider, g1, g2, limit);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(took.count(), kDeadline);
+    EXPECT_FALSE(contacts.empty());
+    for (const dContactGeom& c : contacts) {
+      EXPECT_NEAR(length(normal(c)), 1, 1e-6);
+      EXPECT_GE(c.depth, 0);
+    }
+    return contacts;
+  }
+
+  OdeWorld world;
+};
+
+TEST_F(ApiWorstPairs, RoughBallsInOnePlaceAreAnsweredSoon) {
+  const OdeMesh& ball = world.mesh(rough_ball());
+  answer(ball, ball, turned({1, 2, 0.5}, 0.023));
+}
+
+TEST_F(ApiWorstPairs, SoupsOfLargeTrianglesAreAnsweredSoon) {
+  answer(world.mesh(soup(400, 7)), world.mesh(soup(400, 8)), {});
+}
+
+TEST_F(ApiWorstPairs, BundlesOfSticksAreAnsweredSoon) {
+  answer(world.mesh(sticks(240, 7)), world.mesh(sticks(240, 8)), at(0.05, 0.02, 0.03));
+}
+
+TEST_F(ApiWorstPairs, FinelyCutCubesDeepInOneAnotherAreAnsweredSoon) {
+  const OdeMesh& cube = world.mesh(make_cube(1, 160));
+  answer(cube, cube, turned({1, 2, 3}, 0.3, {0.02, 0.03, 0.04}));
+}
+
+TEST_F(ApiWorstPairs, AFineRoughSheetInAFlatFaceIsAnsweredSoon) {
+  answer(world.mesh(rough_sheet(240)), world.mesh(make_cube(0.9)), at(0.01, 0.02, -0.45));
+}
+
+// Each post crosses the one upper face of the block at its four upright edges: that face is crossed
+// more often than a facet is looked through (OX_MOST_OF_FACET).
+TEST_F(ApiWorstPairs, EveryPostInAFaceHasAContact) {
+  constexpr int kPosts = 20;
+  TestMesh posts;
+  for (int i = 0; i < kPosts; ++i) {  // 0.01 deep, no two facing the same way
+    const TestPose pose = turned({0, 0, 1}, 0.07 * i, {0.2 * i, 0, 0.24});
+    posts = merged(posts, placed(make_box({0.1, 0.1, 0.5}), pose));
+  }
+  const OdeMesh& block = world.mesh(moved(make_box({20, 2, 1}), {0, 0, -0.5}));
+  const Contacts contacts = answer(block, world.mesh(posts), {}, 64);
+  for (int i = 0; i < kPosts; ++i)
+    EXPECT_TRUE(
+        std::any_of(contacts.begin(), contacts.end(),
+                    [&](const dContactGeom& c) { return std::fabs(c.pos[0] - 0.2 * i) < 0.08; }))
+        << "post " << i;
+}
+
+}  // namespace
+}  // namespace ode_ext::test
