@@ -4,7 +4,6 @@
 // it has.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -68,15 +67,15 @@ TestMesh rough_sheet(int n) {
 
 class ApiWorstPairs : public ::testing::Test {
  protected:
-  // The contacts of two meshes, `b` placed by a pose. Checks that they came in time, once the
-  // meshes were known, and are sound.
-  Contacts answer(const OdeMesh& a, const OdeMesh& b, const TestPose& pose, int limit = 16) {
+  // Collides two meshes, `b` placed by a pose. Checks that contacts came in time, once the meshes
+  // were known, and are sound.
+  void answer(const OdeMesh& a, const OdeMesh& b, const TestPose& pose) {
     const dGeomID g1 = world.geom(a, {}), g2 = world.geom(b, at(100, 0, 0));
-    const BatchCollider collider([=](dBatchColliderParams& p) { p.max_contacts = limit; });
+    const BatchCollider collider;
     EXPECT_TRUE(answer_of(collider, g1, g2).empty());
     set_pose(g2, pose);
     const auto start = std::chrono::steady_clock::now();
-    Contacts contacts = answer_of(collider, g1, g2, limit);
+    const Contacts contacts = answer_of(collider, g1, g2);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     EXPECT_LT(took.count(), kDeadline);
     EXPECT_FALSE(contacts.empty());
@@ -84,7 +83,6 @@ class ApiWorstPairs : public ::testing::Test {
       EXPECT_NEAR(length(normal(c)), 1, 1e-6);
       EXPECT_GE(c.depth, 0);
     }
-    return contacts;
   }
 
   OdeWorld world;
@@ -110,24 +108,6 @@ TEST_F(ApiWorstPairs, FinelyCutCubesDeepInOneAnotherAreAnsweredSoon) {
 
 TEST_F(ApiWorstPairs, AFineRoughSheetInAFlatFaceIsAnsweredSoon) {
   answer(world.mesh(rough_sheet(240)), world.mesh(make_cube(0.9)), at(0.01, 0.02, -0.45));
-}
-
-// Each post crosses the one upper face of the block at its four upright edges: that face is crossed
-// more often than a facet is looked through (OX_MOST_OF_FACET).
-TEST_F(ApiWorstPairs, EveryPostInAFaceHasAContact) {
-  constexpr int kPosts = 20;
-  TestMesh posts;
-  for (int i = 0; i < kPosts; ++i) {  // 0.01 deep, no two facing the same way
-    const TestPose pose = turned({0, 0, 1}, 0.07 * i, {0.2 * i, 0, 0.24});
-    posts = merged(posts, placed(make_box({0.1, 0.1, 0.5}), pose));
-  }
-  const OdeMesh& block = world.mesh(moved(make_box({20, 2, 1}), {0, 0, -0.5}));
-  const Contacts contacts = answer(block, world.mesh(posts), {}, 64);
-  for (int i = 0; i < kPosts; ++i)
-    EXPECT_TRUE(
-        std::any_of(contacts.begin(), contacts.end(),
-                    [&](const dContactGeom& c) { return std::fabs(c.pos[0] - 0.2 * i) < 0.08; }))
-        << "post " << i;
 }
 
 }  // namespace
