@@ -8,10 +8,12 @@
 // names a folder that keeps the programs since the colliders were made, for this and for crashes.
 #include <ode/ode.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "fuzz/program.h"
@@ -23,6 +25,22 @@ using namespace ode_ext::fuzz;
 constexpr int kProgramsPerColliders = 200;
 
 void say_nothing(int, const char*, va_list) {}
+
+// LLVM, in PoCL, takes the signals that libFuzzer writes its artifacts at, at the latest when it
+// first compiles a kernel, and lets an abort pass. So they are given back before every program.
+class Signals {
+ public:
+  Signals() {
+    for (std::size_t i = 0; i < std::size(kFatal); ++i) sigaction(kFatal[i], nullptr, &actions_[i]);
+  }
+  void give_back() const {
+    for (std::size_t i = 0; i < std::size(kFatal); ++i) sigaction(kFatal[i], &actions_[i], nullptr);
+  }
+
+ private:
+  static constexpr int kFatal[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
+  struct sigaction actions_[std::size(kFatal)];
+};
 
 class Session {
  public:
@@ -36,6 +54,7 @@ class Session {
   void run(std::span<const std::uint8_t> bytes) {
     if (programs_++ == kProgramsPerColliders) renew();
     remember(bytes);
+    signals_.give_back();
     const Verdict verdict = run_program(bytes, colliders_);
     tally_ += verdict.tally;
     if (verdict.flaw.empty()) return;
@@ -48,6 +67,7 @@ class Session {
       std::fprintf(stderr, "... but not with new colliders: it depends on the programs before\n");
     else if (again.flaw != verdict.flaw)
       std::fprintf(stderr, "... and with new colliders: %s\n", again.flaw.c_str());
+    signals_.give_back();
     std::abort();
   }
 
@@ -72,6 +92,7 @@ class Session {
                static_cast<std::streamsize>(bytes.size()));
   }
 
+  const Signals signals_;
   Colliders colliders_;
   Tally tally_;
   int programs_ = 0;
@@ -80,27 +101,28 @@ class Session {
 
 Session* session = nullptr;
 
+void start() {
+  try {
+    session = new Session;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "no collider to fuzz: %s\n", error.what());
+    std::exit(1);
+  }
+  std::atexit([] {  // libFuzzer ends with exit()
+    session->report();
+    delete session;
+  });
+}
+
 }  // namespace
 
 // What compiling kernels leaves behind in PoCL and LLVM, if its cache did not have them already.
 // That this library gives its OpenCL objects back is tried by the tests under AddressSanitizer.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libpocl\nleak:libLLVM\n"; }
 
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  try {
-    session = new Session;  // for as long as there are programs: libFuzzer ends with exit()
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "no collider to fuzz: %s\n", error.what());
-    std::exit(1);
-  }
-  std::atexit([] {
-    session->report();
-    delete session;
-  });
-  return 0;
-}
-
+// The session starts with the first program: libFuzzer has its signals by then.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (session == nullptr) start();
   session->run({data, size});
   return 0;
 }

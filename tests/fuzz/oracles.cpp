@@ -76,7 +76,8 @@ std::string malformed(std::span<const dContactGeom> contacts, const Sides& first
     if (!(std::fabs(std::sqrt(square) - 1) <= kUnit))
       text << "the normal's length is " << std::sqrt(square) << "; ";
     if (!(c.depth >= 0) || !std::isfinite(c.depth)) text << "depth is " << c.depth << "; ";
-    if (first.geom != nullptr && (c.g1 != first.geom || c.g2 != second.geom))
+    if ((first.geom != nullptr && c.g1 != first.geom) ||
+        (second.geom != nullptr && c.g2 != second.geom))
       text << "its geoms are not those asked for; ";
     if (first.triangles > 0 && (c.side1 < 0 || c.side1 >= first.triangles))
       text << "side1 is " << c.side1 << " of " << first.triangles << "; ";

@@ -33,8 +33,8 @@ std::string to_text(const Tally& tally);
 // Contacts as they are for any input: finite, normals of length 1, not negative in depth, with the
 // geoms that were asked for and with sides that exist.
 struct Sides {
-  dGeomID geom = nullptr;
-  int triangles = 0;  // 0: any side is fine (a merge callback made it)
+  dGeomID geom = nullptr;  // null: any is fine (a dGeomTransform names itself or what is in it)
+  int triangles = 0;       // 0: any side is fine (a merge callback made it)
 };
 std::string malformed(std::span<const dContactGeom> contacts, const Sides& first,
                       const Sides& second);
