@@ -156,9 +156,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(3, 10000))
       ->capture_default_str();
   app.add_option("--most-growth", options.most_growth,
-                 "MiB that memory may grow by after warm-up. 32 is twice what was seen to come and "
-                 "go; over a third of 20,000 passes it lets 5 KB a pass through, of 300 passes "
-                 "0.3 MB")
+                 "MiB that memory may grow by after warm-up. 32 is three times what was seen to "
+                 "come and go; over a third of 20,000 passes it lets 5 KB a pass through, of 300 "
+                 "passes 0.3 MB")
       ->capture_default_str();
   app.add_flag("--csv", options.csv, "The table as CSV, and the rest to stderr");
   CLI11_PARSE(app, argc, argv);
