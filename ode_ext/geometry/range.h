@@ -10,10 +10,10 @@ namespace ode_ext {
 
 // The largest product in the kernels is one of three lengths (shared/ray_triangle.h), summed over
 // three corners: u * z with u = a * b - c * d. (Where two of four are compared, in
-// shared/iterative_ray.h, the larger overflows first, and what underflows is cast in full.) Meshes whose boxes touch, turned by matrices of
-// entries up to 2, have no two points farther apart than 20 times the larger extent E, and a
-// sheared coordinate is twice that at most. So it stays below 6 * sqrt(3) * (40 E)^3 < 2^20 E^3,
-// which a float holds up to E = 2^36.
+// shared/iterative_ray.h, the larger overflows first, and what underflows is cast in full.) Meshes
+// whose boxes touch, turned by matrices of entries up to 2, have no two points farther apart than
+// 20 times the larger extent E, and a sheared coordinate is twice that at most. So it stays below 6
+// * sqrt(3) * (40 E)^3 < 2^20 E^3, which a float holds up to E = 2^36.
 inline constexpr float kFarthestCorner = 0x1p36f;  // [m] from the mesh's own origin, 6.9e10
 
 // For the same product not to underflow where it matters: of a triangle that is 2^-8 of the mesh
