@@ -81,6 +81,26 @@ TEST(Weld, TellsVerticesApartThatAreVeryNear) {
     EXPECT_EQ(std::count(mesh.vertices.begin(), mesh.vertices.end(), place), 1);
 }
 
+// The soup of the same triangles in another order, and where each was listed before.
+TEST(Weld, NumbersTrianglesAlikeInWhateverOrderTheyAreListed) {
+  const std::vector<Vec3f> soup = shapes::sphere(1, 12);
+  const std::size_t count = soup.size() / 3;
+  WeldedMesh mesh = weld(soup);
+  order_by_vertices(mesh);
+  for (const std::size_t step : {7u, 11u, 13u}) {
+    ASSERT_NE(count % step, 0u);
+    std::vector<Vec3f> other;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = 0; k < 3; ++k) other.push_back(soup[3 * (i * step % count) + k]);
+    WeldedMesh shuffled = weld(other);
+    EXPECT_NE(shuffled.triangles, mesh.triangles);
+    order_by_vertices(shuffled);
+    EXPECT_EQ(shuffled.triangles, mesh.triangles);
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_EQ(shuffled.source_triangle[i] * step % count, mesh.source_triangle[i]);
+  }
+}
+
 TEST(Chunks, HoldEveryVertexOnceInTightBoxes) {
   for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 128u, 1234u}) {
     std::vector<Vec3f> vertices = shapes::random_soup(count, 7);
