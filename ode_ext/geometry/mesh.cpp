@@ -46,7 +46,8 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   if (!mesh.finite) return mesh;
 
   WeldedMesh welded = weld(soup);
-  order_by_vertices(welded);
+  // Not of a deformable one: its vertices are numbered by the shape it was first met in.
+  if (!mesh.deformable) order_by_vertices(welded);
   mesh.vertices = std::move(welded.vertices);
   mesh.triangles = std::move(welded.triangles);
   mesh.source_triangle = std::move(welded.source_triangle);

@@ -48,9 +48,10 @@ struct Mesh {
   // Where a ray from the vertex along -normal leaves this mesh [m]; infinity if it never does.
   std::vector<float> exits;
 
-  // Corner indices into `vertices`, oriented as `inverted` says; without collapsed triangles.
+  // Corner indices into `vertices`, oriented as `inverted` says; without collapsed triangles. By
+  // their vertices; of deformable meshes in the program's order.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  // For each triangle its index in the program's mesh, ascending.
+  // For each triangle its index in the program's mesh.
   std::vector<std::uint32_t> source_triangle;
   // Of deformable meshes: as in WeldedMesh.
   std::vector<std::uint32_t> corner_vertex;

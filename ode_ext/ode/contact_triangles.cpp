@@ -67,9 +67,8 @@ std::vector<std::uint32_t> triangles_of(const Answer& answer, const Contact& con
   const PairMember& member = answer.members[side];
   const Mesh& built = topology(*member.mesh);
   const std::uint32_t own = contact.triangles[side];
-  const auto place =
-      std::lower_bound(built.source_triangle.begin(), built.source_triangle.end(), own);
-  if (place == built.source_triangle.end() || *place != own) return {own};
+  const auto place = std::find(built.source_triangle.begin(), built.source_triangle.end(), own);
+  if (place == built.source_triangle.end()) return {own};
   const Triangle& triangle =
       built.triangles[static_cast<std::size_t>(place - built.source_triangle.begin())];
 
@@ -87,6 +86,7 @@ std::vector<std::uint32_t> triangles_of(const Answer& answer, const Contact& con
   std::vector<std::uint32_t> triangles;
   for (std::size_t t = 0; t < built.triangles.size(); ++t)
     if (has_all(built.triangles[t], feature)) triangles.push_back(built.source_triangle[t]);
+  std::sort(triangles.begin(), triangles.end());  // the program's callbacks meet them in its order
   return triangles;
 }
 

@@ -120,6 +120,20 @@ void start() {
 // That this library gives its OpenCL objects back is tried by the tests under AddressSanitizer.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libpocl\nleak:libLLVM\n"; }
 
+// Compiles the kernels, which can take longer than a program may.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  dInitODE2(0);
+  try {
+    Colliders colliders;
+    for (std::size_t i = 0; i < Colliders::kKept; ++i) colliders.kept(i);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "no collider to fuzz: %s\n", error.what());
+    std::exit(1);
+  }
+  dCloseODE();
+  return 0;
+}
+
 // The session starts with the first program: libFuzzer has its signals by then.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (session == nullptr) start();

@@ -227,8 +227,10 @@ TEST(Embedded, IsNotToldOfMeshesThatTakeTooLong) {
 
 // The slow way, without tolerance: for two closed parts.
 bool parts_meet(const Mesh& mesh, std::size_t first_of_second) {
+  std::vector<std::size_t> places(mesh.triangles.size());  // by the program's numbers
+  for (std::size_t i = 0; i < places.size(); ++i) places[mesh.source_triangle[i]] = i;
   const auto corners = [&](std::size_t i) {
-    const Triangle& t = mesh.triangles[i];
+    const Triangle& t = mesh.triangles[places[i]];
     return Corners{Vec3d(mesh.vertices[t[0]]), Vec3d(mesh.vertices[t[1]]),
                    Vec3d(mesh.vertices[t[2]])};
   };

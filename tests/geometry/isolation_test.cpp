@@ -221,14 +221,20 @@ TEST(Isolation, RunsAcrossTrianglesWithoutArea) {
   TriangleSoup soup = around;
   shapes::append(soup, left, middle, right);
   const Mesh mesh = build_mesh(soup);
-  ASSERT_EQ(mesh.face_normals[3], Vec3f{});
+  const auto place = [](const Mesh& of, std::uint32_t number) {
+    return static_cast<std::size_t>(
+        std::find(of.source_triangle.begin(), of.source_triangle.end(), number) -
+        of.source_triangle.begin());
+  };
+  ASSERT_EQ(mesh.face_normals[place(mesh, 3)], Vec3f{});
   const std::vector<Isolation> balls = isolation_of(mesh);
   // The middle is at a third of the height, so a lower corner is the farthest; nothing else limits.
-  EXPECT_NEAR(balls[0].within_30, 4 * std::sqrt(1.25), 1e-5);
-  EXPECT_EQ(balls[3].within_60, 0);
+  EXPECT_NEAR(balls[place(mesh, 0)].within_30, 4 * std::sqrt(1.25), 1e-5);
+  EXPECT_EQ(balls[place(mesh, 3)].within_60, 0);
 
   // Without it, those below are another sheet.
-  EXPECT_NEAR(isolation_of(build_mesh(around))[0].within_30, 0.5, 1e-5);
+  const Mesh without = build_mesh(around);
+  EXPECT_NEAR(isolation_of(without)[place(without, 0)].within_30, 0.5, 1e-5);
 }
 
 TEST(Isolation, IsNotLimitedByTrianglesWithoutArea) {

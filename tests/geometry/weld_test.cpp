@@ -96,7 +96,7 @@ TEST(Weld, NumbersTrianglesAlikeInWhateverOrderTheyAreListed) {
     EXPECT_NE(shuffled.triangles, mesh.triangles);
     order_by_vertices(shuffled);
     EXPECT_EQ(shuffled.triangles, mesh.triangles);
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
       EXPECT_EQ(shuffled.source_triangle[i] * step % count, mesh.source_triangle[i]);
   }
 }
