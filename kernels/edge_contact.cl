@@ -49,7 +49,7 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     crossing.paired = 0.0f;
     crossing.hit = OX_NONE;
     gathered[crossing_segments[p] + crossing.slot] = crossing;
-    order[OX_ORDERS_PER_CROSSING * crossing_segments[p] + crossing.slot] = crossing.slot;
+    order[(size_t)OX_ORDERS_PER_CROSSING * crossing_segments[p] + crossing.slot] = crossing.slot;
   }
 }
 
@@ -443,7 +443,8 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.triangles = triangles;
     pair.facets = facets;
     pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
-    pair.order = order + (crossed == 0u ? 0u : OX_ORDERS_PER_CROSSING * crossing_segments[i]);
+    pair.order =
+        order + (crossed == 0u ? 0u : (size_t)OX_ORDERS_PER_CROSSING * crossing_segments[i]);
     pair.by_region = pair.order + crossed;
     pair.region_first = pair.by_region + crossed;
     pair.point_of_region = pair.region_first + crossed;

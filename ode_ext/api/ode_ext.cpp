@@ -333,7 +333,7 @@ void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats* stat
     dBatchColliderStats found{};
     std::memcpy(static_cast<void*>(stats), &found, size);
     stats->struct_size = size;
-    if (is_dead(collider))
+    if (ode_ext::is_lost_by_fork())
       found.status = dBatchStatusDeviceFailed;
     else
       found = live(collider)->stats();

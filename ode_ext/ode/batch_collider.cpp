@@ -22,9 +22,12 @@ namespace {
 // How many answers computed outside of any pass are kept, for programs that never make one.
 constexpr std::uint64_t kAnswersOutside = 65536;
 
-// So many questions in one pass for pairs that nobody asked for of late are taken for a pile that
-// wakes up: what else was not computed ahead then is, in one batch.
-constexpr std::uint64_t kQuestionsOfAPileThatWakes = 4;
+// So many questions in one pass, of so many pairs that nobody asked for of late, are taken for a
+// pile that wakes up: what else was not computed ahead then is, in one batch. A few of very many
+// are what a program picks that filters its pairs.
+bool is_a_pile_that_wakes(std::uint64_t questions, std::size_t pairs) {
+  return questions >= std::max<std::uint64_t>(4, pairs / 256);
+}
 
 // Temporal data of spaces beside the one that is collided: what a device can easily spare.
 std::size_t most_temporal_bytes(const DeviceInfo& info) {
@@ -119,7 +122,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   ++look_;
   failed_ = false;
   asked_outside_ = 0;
-  begin_stats();
+  begin_stats(depth_ > 1);  // this pass is one of them
   if (!may_hold_pair) {
     stats_.status |= dBatchStatusGatherSkipped;
   } else {
@@ -198,6 +201,7 @@ void BatchCollider::compute_unasked() {
 
 // Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
 void BatchCollider::count_outside(std::size_t pairs) {
+  if (depth_ != 0) return;  // a pass forgets by itself, and needs what it has
   asked_outside_ += pairs;
   if (asked_outside_ <= kAnswersOutside) return;
   answers_.clear();
@@ -277,17 +281,20 @@ void BatchCollider::collide_scene(PassMemory* memory) {
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
-  const HeldMessages held;
-  std::unique_lock lock(mutex_);
-  const Answer* known = find_or_compute(g1, g2);
-  if (known == nullptr) {
-    ++stats_.pairs_stock;
-    return -1;
+  Answer asked;  // a copy, for the program's callbacks to be asked without the lock
+  {
+    const HeldMessages held;
+    const std::lock_guard lock(mutex_);
+    const Answer* known = find_or_compute(g1, g2);
+    if (known == nullptr) {
+      ++stats_.pairs_stock;
+      return -1;
+    }
+    if (!has_callbacks(g1, g2, triangle_callbacks_))
+      return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts,
+                             skip);
+    asked = *known;
   }
-  if (!has_callbacks(g1, g2, triangle_callbacks_))
-    return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts, skip);
-  const Answer asked = *known;
-  lock.unlock();
   return export_asked(asked, g1, g2, limit, contacts, skip);
 }
 
@@ -306,7 +313,8 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   if (holds()) return known;
   if (depth_ != 0 && failed_) return nullptr;
   try {
-    if (was_unasked && ++asked_unasked_ >= kQuestionsOfAPileThatWakes && !unasked_pairs_.empty()) {
+    if (was_unasked && is_a_pile_that_wakes(++asked_unasked_, unasked_pairs_.size()) &&
+        !unasked_pairs_.empty()) {
       compute_unasked();
       if (holds()) return known;
     }
@@ -361,7 +369,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   {
     const HeldMessages held;
     const std::lock_guard lock(mutex_);
-    begin_stats();
+    begin_stats(depth_ != 0);
     try {
       compute_pairs(geoms);
       if (stats_.pairs_computed != 0) failure_said_ = false;
@@ -430,9 +438,9 @@ void BatchCollider::fail(const std::exception& error) {
   failure_said_ = true;
 }
 
-void BatchCollider::begin_stats() {
+void BatchCollider::begin_stats(bool within_a_pass) {
   dBatchColliderStats fresh{};
-  if (depth_ > 1)
+  if (within_a_pass)
     fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;

@@ -76,7 +76,7 @@ class BatchCollider {
   std::uint32_t member_of(const PlacedGeom& placed);
   std::uint32_t member_of(const PairMember& member);
 
-  void begin_stats();
+  void begin_stats(bool within_a_pass);
   void note_report();
   void fail(const std::exception& error);
 

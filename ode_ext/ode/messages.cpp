@@ -74,7 +74,12 @@ HeldMessages::~HeldMessages() {
   if (--waiting().holders != 0 || waiting().messages.empty()) return;
   // Taken out first: the handler may call what logs again.
   const std::vector<std::string> messages = std::exchange(waiting().messages, {});
-  for (const std::string& message : messages) dMessage(0, "ode_ext: %s", message.c_str());
+  for (const std::string& message : messages) {
+    try {
+      dMessage(0, "ode_ext: %s", message.c_str());
+    } catch (...) {  // the program's handler threw; nothing may be thrown from here
+    }
+  }
 }
 
 }  // namespace ode_ext

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <functional>
 
+#include "device/fork_guard.h"
+
 namespace ode_ext {
 namespace {
 
@@ -26,7 +28,10 @@ struct PassesOfAThread {
     while (!begun.empty()) end_last();
   }
   void end_last() {
-    begun.back().collider->unclaim(begun.back().outer_failed);
+    if (is_lost_by_fork())
+      new std::shared_ptr(begun.back().collider);  // neither its lock nor its end may be had here
+    else
+      begun.back().collider->unclaim(begun.back().outer_failed);
     begun.pop_back();
   }
 };
@@ -51,12 +56,15 @@ __attribute__((no_sanitize("address"))) bool CallMark::is(std::uint64_t number) 
 Pass::Pass(const std::shared_ptr<BatchCollider>& collider, const PassRoot& root,
            const CallMark& mark)
     : root_(root), number_(mark.number()) {
+  const std::vector<PassRoot> traversed = roots_on_this_thread();
+  passes.begun.reserve(passes.begun.size() + 1);
   const bool outer_failed = collider->claim();
+  // Before the batch: already gathering calls code of the program's, which may leave by longjmp.
+  passes.begun.push_back({collider, root, outer_failed, &mark, mark.frame(), number_});
   try {
-    backtracked_ = collider->run_batch(root, roots_on_this_thread());
-    passes.begun.push_back({collider, root, outer_failed, &mark, mark.frame(), number_});
+    backtracked_ = collider->run_batch(root, traversed);
   } catch (...) {
-    collider->unclaim(outer_failed);
+    passes.end_last();
     throw;
   }
 }

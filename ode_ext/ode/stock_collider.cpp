@@ -2,6 +2,7 @@
 #include "ode/stock_collider.h"
 
 #include <atomic>
+#include <mutex>
 
 #include "ode/messages.h"
 
@@ -12,6 +13,11 @@ extern "C" int ode_ext_stock_trimesh_trimesh(
     int skip) __asm__("_Z11dCollideTTLP6dxGeomS0_iP12dContactGeomi") __attribute__((weak));
 
 namespace ode_ext {
+namespace {
+
+std::mutex in_stock_collider;
+
+}  // namespace
 
 int stock_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   if (dGeomTriMeshGetTriangleCount(g1) == 1 && dGeomTriMeshGetTriangleCount(g2) == 1) return 0;
@@ -23,8 +29,12 @@ int stock_collide(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int
           "mesh pairs get no contacts");
     return 0;
   }
-  // Without a lock: it may call the program's callbacks, which may come back here. As everywhere in
-  // ODE, a thread that collides meshes has called dAllocateODEDataForThread.
+  // ODE's mesh colliders share a cache between all threads. A merge callback is code of the
+  // program's, which may come back here or wait for who does: geoms with one are let in unlocked.
+  std::unique_lock lock(in_stock_collider, std::defer_lock);
+  if (dGeomTriMeshGetTriMergeCallback(g1) == nullptr &&
+      dGeomTriMeshGetTriMergeCallback(g2) == nullptr)
+    lock.lock();
   return ode_ext_stock_trimesh_trimesh(g1, g2, flags, contacts, skip);
 }
 

@@ -82,9 +82,9 @@ void AppendLists::release() {
     buffer->release();
 }
 
-void AppendLists::note_use(const ArrowCounts& stored) {
+void AppendLists::note_use(const ArrowCounts& stored, bool is_step) {
   for (std::size_t i = 0; i < kArrowCount; ++i) most_used_[i] = std::max(most_used_[i], stored[i]);
-  if (++steps_noted_ < kStepsNoted) return;
+  if (!is_step || ++steps_noted_ < kStepsNoted) return;
   const std::uint64_t held = bytes_of(capacities_);
   if (held > kNotWorthReleasing && held / 4 > bytes_of(most_used_)) release();
   most_used_ = {};

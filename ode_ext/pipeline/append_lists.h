@@ -28,9 +28,9 @@ class AppendLists {
   ArrowCounts affordable(const ArrowCounts& expected) const;
   // Gives all room back.
   void release();
-  // After each step, with what it stored: lists that were far too large for a long time are given
-  // back, so that one crowded moment is not paid for ever after.
-  void note_use(const ArrowCounts& stored);
+  // After each step, with what it stored, and other calls: lists that were far too large for many
+  // steps are given back, so that one crowded moment is not paid for ever after.
+  void note_use(const ArrowCounts& stored, bool is_step);
   const ArrowCounts& capacities() const { return capacities_; }
   // The place of a list's first record in its buffer.
   std::uint64_t first(Arrow list) const {

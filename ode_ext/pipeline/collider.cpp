@@ -81,6 +81,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
       memory != nullptr && memory->tile_pairs != 0 ? memory->tile_pairs : scene.pairs.size());
   temporal_ = &nothing_;
   memory_ = memory;
+  const std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;
   try {
     meshes_.set(scene.meshes);
     deforms_ = std::any_of(scene.meshes.begin(), scene.meshes.end(),
@@ -107,6 +108,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
     take_kernel_times();  // of what ran; the next step starts afresh
     meshes_.forget();
     forget_temporal_data();
+    if (memory != nullptr) memory->tile_pairs = tile_pairs;  // no size did: that tells nothing
     throw;
   }
 
@@ -117,11 +119,11 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   take_kernel_times();
   report_.ms_total =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  lists_.note_use(report_.actual);
+  lists_.note_use(report_.actual, memory != nullptr);
   if (memory != nullptr) {
     memory->history = {report_.pairs, report_.actual};
     // A little more each time: what did not fit once may have been short of memory for a moment.
-    if (memory->tile_pairs != 0) memory->tile_pairs += memory->tile_pairs / 64 + 1;
+    if (memory->tile_pairs != 0) memory->tile_pairs += memory->tile_pairs / 16 + 1;
   }
   return result_;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "device/error.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {
@@ -64,6 +65,27 @@ TEST_F(ApiStats, CountPassesAndBuffers) {
   EXPECT_GT(stats.actual[dBatchBufferHits], 0);
   EXPECT_GE(stats.actual[dBatchBufferContacts], collected.total());
   EXPECT_EQ(stats.pairs_stock, 0);
+}
+
+// A batch within the callback is a part of the pass: what befell the pass is not forgotten over it.
+TEST_F(ApiStats, OfAPassThatFailedSaySoAfterABatchInItsCallback) {
+  const BatchCollider collider;
+  struct Asking {
+    dBatchColliderID collider;
+    static void ask(void* self, dGeomID o1, dGeomID o2) {
+      const dGeomID pair[] = {o1, o2};
+      dContactGeom contact;
+      EXPECT_GE(dBatchColliderCollidePairs(static_cast<Asking*>(self)->collider, pair, 1, 1,
+                                           &contact, sizeof contact, nullptr),
+                0);
+    }
+  } asking{collider};
+  fault_injector::arm(1, CL_DEVICE_NOT_AVAILABLE);
+  dBatchColliderSpaceCollide(collider, space, &asking, &Asking::ask);
+  fault_injector::disarm();
+  EXPECT_NE(collider.stats().status & dBatchStatusDeviceFailed, 0u);
+  collider.pass(space);
+  EXPECT_EQ(collider.stats().status & dBatchStatusDeviceFailed, 0u);
 }
 
 TEST_F(ApiStats, TimeTheStages) {

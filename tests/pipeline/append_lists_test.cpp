@@ -104,14 +104,16 @@ TEST(AppendLists, GiveBackWhatNobodyUsedForLong) {
   AppendLists lists(device);
   const ArrowCounts peak = all(1000000);
   lists.reserve(peak);
-  lists.note_use(peak);
-  for (int i = 0; i < 255; ++i) lists.note_use(all(1000));
+  lists.note_use(peak, true);
+  for (int i = 0; i < 255; ++i) lists.note_use(all(1000), true);
   EXPECT_GE(lists.capacities()[0], 1000000u) << "the peak was not long ago";
-  for (int i = 0; i < 256; ++i) lists.note_use(all(1000));
+  for (int i = 0; i < 1000; ++i) lists.note_use(all(1), false);
+  EXPECT_GE(lists.capacities()[0], 1000000u) << "single pairs are no steps";
+  for (int i = 0; i < 256; ++i) lists.note_use(all(1000), true);
   EXPECT_EQ(lists.capacities(), all(0));
   EXPECT_EQ(lists.candidates().capacity(), 0u);
   lists.reserve(all(1000));
-  for (int i = 0; i < 1000; ++i) lists.note_use(all(1));
+  for (int i = 0; i < 1000; ++i) lists.note_use(all(1), true);
   EXPECT_EQ(lists.capacities(), all(1250)) << "so little is not worth growing again";
 }
 
