@@ -178,7 +178,7 @@ void Collider::collide_tile(const Scene& scene, Tile tile, const ArrowCounts& ex
     }
     if (remembered) forget_temporal_data();
     if (tile.count < 2) {
-      collide_tile(scene, tile, {});
+      collide_tile(scene, tile, needed);
       return;
     }
     const std::size_t half = tile.count / 2;
