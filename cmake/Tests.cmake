@@ -96,6 +96,13 @@ ode_ext_compile_options(missed_pairs)
 target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
 
+# What a pair costs, beside ODE's own collider and FCL. Minutes.
+file(GLOB pair_times_sources CONFIGURE_DEPENDS tests/bench/*.cpp tests/support/fcl_*.cpp)
+add_executable(pair_times EXCLUDE_FROM_ALL ${pair_times_sources})
+ode_ext_compile_options(pair_times)
+target_link_libraries(pair_times PRIVATE ode_ext::ode_ext ode_ext_test_support CLI11::CLI11
+                      GTest::gtest fcl Eigen3::Eigen)
+
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
 add_test(NAME house_rules COMMAND ${scripts}/check-house)

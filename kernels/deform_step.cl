@@ -1,45 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Deform step: makes everything anew that depends on the vertices of deformable meshes, for all
 // meshes that moved together. In this order: triangles, vertices, nodes (once per height), exits,
-// chunks, edges, meshes. Meshes that moved before and do not now only have that taken back.
+// chunks, meshlets (deform_meshlets.cl), meshes. Meshes that moved before and do not now only have
+// that taken back.
 //
 // in    moves, starts (of all launches; those of this one lie from starts_first on), positions (3
 //       floats a vertex), topology
-// out   triangles, vertices, nodes, edges, chunks, meshes: those of the meshes that moved, in place
+// out   triangles, vertices, nodes, chunks, meshes: those of the meshes that moved, in place
 //       measures: from triangles to vertices, 4 floats a triangle: the angles at its corners
 //       and its area
-// item  1 triangle / vertex / node / vertex of a closed mesh / chunk of vertices / chunk of edges /
-//       mesh (grid-stride)
+// item  1 triangle / vertex / node / vertex of a closed mesh / chunk of vertices / mesh
+//       (grid-stride)
 // may overflow: none
 //
 // Nothing here depends on the shape that a mesh had before (but for `moved`), nor on the order of
 // its vertices: a mesh gives the same bits however it came to its shape.
-#include "shared/deform.h"
+#include "shared/moves.h"
 #include "shared/ray_triangle.h"
-
-// The move that an item belongs to. The starts of a launch: starts[m] is the first item of move m,
-// starts[count] the number of items.
-static uint ox_move_of(__global const uint* starts, uint count, uint item) {
-  uint low = 0u;
-  uint high = count;
-  while (high - low > 1u) {
-    const uint middle = (low + high) / 2u;
-    if (starts[middle] <= item)
-      low = middle;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-// Divided by the largest component first, so that no square over- or underflows.
-static float ox_norm(float3 v) {
-  const float3 size = fabs(v);
-  const float largest = ox_max(ox_max(size.x, size.y), size.z);
-  if (largest == 0.0f) return 0.0f;
-  const float3 u = v / largest;
-  return largest * sqrt(ox_dot(u, u));
-}
 
 // a * b - c * d to 1.5 roundings of the result (Kahan; Jeannerod, Louvet, Muller 2013).
 static float ox_minor(float a, float b, float c, float d) {
@@ -338,46 +315,6 @@ __kernel void deform_chunks(__global const ox_move* moves, uint move_count,
     ox_store_box(lo, hi, chunk);
     chunk->reach = reach;
     chunk->moved = moved;
-  }
-}
-
-// Flat edges are not cast (geometry/facets.h).
-static bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
-  if (edge->triangle[1] == OX_NONE) return false;
-  const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -
-                   vload3(0, triangles[edge->triangle[1]].normal);
-  return ox_dot(d, d) < 1.0e-6f;  // 0.06 degrees
-}
-
-// Edges, and their chunks.
-__kernel void deform_edge_chunks(__global const ox_move* moves, uint move_count,
-                                 __global const uint* all_starts, uint starts_first,
-                                 __global const ox_vertex* vertices,
-                                 __global const ox_triangle* triangles, __global ox_edge* edges,
-                                 __global ox_chunk* chunks) {
-  __global const uint* starts = all_starts + starts_first;
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
-    const uint m = ox_move_of(starts, move_count, i);
-    __global ox_chunk* chunk = chunks + moves[m].shape.edge_chunk_first + (i - starts[m]);
-    float3 lo = (float3)(INFINITY);
-    float3 hi = (float3)(-INFINITY);
-    for (uint k = chunk->first; k < chunk->first + chunk->count; ++k) {
-      __global ox_edge* edge = edges + k;
-      const float3 p = vload3(0, vertices[edge->vertex[0]].position);
-      const float3 q = vload3(0, vertices[edge->vertex[1]].position);
-      const float3 middle = 0.5f * (p + q);
-      vstore3(middle, 0, edge->middle);
-      // Up, by more than the roundings of the middle and of the lengths.
-      edge->radius = ox_is_flat(triangles, edge)
-                         ? -1.0f
-                         : (1.0f + 0x1p-20f) * ox_max(ox_norm(p - middle), ox_norm(q - middle));
-      lo = (float3)(ox_min(ox_min(p.x, q.x), lo.x), ox_min(ox_min(p.y, q.y), lo.y),
-                    ox_min(ox_min(p.z, q.z), lo.z));
-      hi = (float3)(ox_max(ox_max(p.x, q.x), hi.x), ox_max(ox_max(p.y, q.y), hi.y),
-                    ox_max(ox_max(p.z, q.z), hi.z));
-    }
-    ox_store_box(lo, hi, chunk);
   }
 }
 

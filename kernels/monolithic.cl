@@ -3,43 +3,29 @@
 // kernel that culls each vertex of every pair, and casts its ray by whichever algorithm a switch
 // selects. Same tests, same culls, same data; only the input is sparse and the branches diverge.
 //
-// in    tasks: one for every chunk of every pair, most with nothing to do: `vertex_tasks` of
-//       vertices, then those of edges; pairs, meshes, chunks, vertices, edges, grids, nodes,
-//       triangles, isolations, temporal_before
-// out   hits, and per pair their number; crossings of edges likewise; temporal
-// item  1 vertex or edge of 1 chunk of 1 pair, whether it can collide or not (grid-stride)
-// may overflow: OX_LIST_HITS, OX_LIST_CROSSINGS
+// in    tasks: one for every chunk of every pair, most with nothing to do; pairs, meshes,
+//       chunks, vertices, grids, nodes, triangles, isolations, temporal_before
+// out   hits, and per pair their number; temporal
+// item  1 vertex of 1 chunk of 1 pair, whether it can collide or not (grid-stride)
+// may overflow: OX_LIST_HITS
 #include "shared/cast.h"
 #include "shared/choose.h"
-#include "shared/edge_ray.h"
 
 __kernel void monolithic(__global volatile uint* counters, __global const ox_list* lists,
-                         __global const ox_chunk_task* tasks, uint vertex_tasks, uint task_count,
+                         __global const ox_chunk_task* tasks, uint task_count,
                          __global const ox_pair* pairs, __global const ox_mesh* meshes,
                          __global const ox_chunk* chunks, __global const ox_vertex* vertices,
-                         __global const ox_edge* edges, __global const uint* grids,
-                         __global const ox_node* nodes, __global const ox_triangle* triangles,
+                         __global const uint* grids, __global const ox_node* nodes,
+                         __global const ox_triangle* triangles,
                          __global const ox_isolation* isolations, uint rays_mode,
                          float displacement_limit, uint walk_limit,
                          __global const ox_temporal* temporal_before,
                          __global ox_temporal* temporal, __global volatile uint* pair_hits,
-                         __global ox_hit* hits, __global volatile uint* pair_crossings,
-                         __global ox_edge_crossing* crossings, __global ox_work* works) {
+                         __global ox_hit* hits, __global ox_work* works) {
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < task_count * OX_CHUNK_VERTICES; i += stride) {
     const uint task = i / OX_CHUNK_VERTICES;
     ox_work work = {0u, 0u, 0u, 0u};
-    if (task >= vertex_tasks) {
-      const uint edge = ox_choose_edge(tasks + task, i % OX_CHUNK_VERTICES, pairs, meshes, chunks,
-                                       edges, grids, &work.vertex);
-      if (edge != OX_NONE) {
-        ox_count(counters, OX_LIST_RAYS_EDGES);
-        ox_cast_edge(counters, lists, tasks[task].pair_side, edge, pairs, meshes, vertices, edges,
-                     nodes, triangles, pair_crossings, crossings, &work.bvh);
-      }
-      ox_note_work(works, i, &work);
-      continue;
-    }
     const ox_choice choice =
         ox_choose(counters, tasks, task, i % OX_CHUNK_VERTICES, pairs, meshes, chunks, vertices,
                   grids, rays_mode, displacement_limit, temporal_before, temporal, &work);

@@ -5,13 +5,11 @@
 // out   pairs: the relative transform and the displacement of every pair whose oriented boxes
 //       overlap
 //       tasks: runs of vertices whose box reaches the target's, in three lists: rigid pairs with
-//       small displacement, with high displacement, pairs with a deformable mesh; and runs of
-//       edges, in a fourth
+//       small displacement, with high displacement, pairs with a deformable mesh
 //       poses, directory: what the next step needs to find its temporal data
 //       pair_hits, pair_crossings, pair_ranges: cleared
 // item  1 pair (grid-stride)
-// may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE,
-// OX_LIST_CHUNKS_EDGES
+// may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE
 #include "shared/append.h"
 #include "shared/cull.h"
 
@@ -129,41 +127,8 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
              : OX_CATEGORY_HIGH;
 }
 
-static uint ox_group_count(uint chunks) {
-  return (chunks + (OX_GROUP_CHUNKS - 1u)) / OX_GROUP_CHUNKS;
-}
-
-// The runs of edges of one mesh of a pair. `place`: of the first task, if every run has its own.
-static void ox_append_edges(__global volatile uint* counters, __global const ox_list* lists,
-                            uint pair_side, __global const ox_pair* pair, bool bounded,
-                            __global const ox_mesh* source, __global const ox_mesh* target,
-                            __global const ox_chunk* chunks, __global const uint* grids, bool dense,
-                            uint place, __global ox_chunk_task* tasks) {
-  const uint side = pair_side & 1u;
-  const bool grouped = (source->flags & OX_MESH_DEFORMABLE) == 0u;
-  const uint count = source->edge_chunk_count;
-  const uint groups = source->group_first + ox_group_count(source->chunk_count);
-  for (uint g = 0u; g < ox_group_count(count); ++g) {
-    const bool near =
-        bounded && (!grouped || ox_keep_edge_chunk(pair, side, target, chunks + groups + g, grids));
-    if (!near && !dense) continue;
-    for (uint k = OX_GROUP_CHUNKS * g; k < count && k < OX_GROUP_CHUNKS * (g + 1u); ++k) {
-      const uint chunk = source->edge_chunk_first + k;
-      if (dense) tasks[place + k].chunk = OX_NONE;
-      if (!near || !ox_keep_edge_chunk(pair, side, target, chunks + chunk, grids)) continue;
-      const uint slot = dense ? place + k : ox_append(counters, lists, OX_LIST_CHUNKS_EDGES);
-      if (slot == OX_NONE) continue;
-      tasks[slot].pair_side = pair_side;
-      tasks[slot].chunk = chunk;
-      tasks[slot].previous = OX_NONE;
-      tasks[slot].category = OX_LIST_CHUNKS_EDGES;
-    }
-  }
-}
-
-// dense_first: used if is_dense. Per pair the places of its first chunk of vertices and of its
-// first chunk of edges among those of all pairs. Then a task is written for every chunk, at its own
-// place, and those with nothing to do say so.
+// dense_first: used if is_dense. Per pair the place of its first chunk among those of all pairs.
+// Then a task is written for every chunk, at its own place, and those with nothing to do say so.
 __kernel void pair_step(__global volatile uint* counters, __global const ox_list* lists,
                         __global const ox_object* objects, __global const ox_mesh* meshes,
                         __global const ox_chunk* chunks, __global const uint* grids,
@@ -181,6 +146,7 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     pair_crossings[p] = 0u;
     pair_ranges[p].first = 0u;
     pair_ranges[p].count = 0u;
+    pairs[p].near = 0u;
 
     __global const ox_object* a = objects + pair_objects[2u * p];
     __global const ox_object* b = objects + pair_objects[2u * p + 1u];
@@ -204,6 +170,7 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     const bool both_open = ((mesh_a->flags | mesh_b->flags) & OX_MESH_CLOSED) == 0u;
     const float reach = both_open ? ox_max(mesh_a->reach, mesh_b->reach) : 0.0f;
     const bool bounded = !empty && ox_boxes_overlap(pair, mesh_a, mesh_b, epsilon + reach);
+    pair->near = bounded ? 1u : 0u;
     __global const ox_link* link = links + p;
     const bool remembered = link->slot != OX_NONE;
     bool known = false;
@@ -235,14 +202,7 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     }
     if (!bounded && is_dense == 0u) continue;
 
-    if ((rays_mode & OX_RAYS_EDGES) != 0u) {
-      const uint first = is_dense != 0u ? dense_first[2u * p + 1u] : 0u;
-      ox_append_edges(counters, lists, p << 1, pair, bounded, mesh_a, mesh_b, chunks, grids,
-                      is_dense != 0u, first, tasks);
-      ox_append_edges(counters, lists, p << 1 | 1u, pair, bounded, mesh_b, mesh_a, chunks, grids,
-                      is_dense != 0u, first + mesh_a->edge_chunk_count, tasks);
-    }
-    uint place = is_dense != 0u ? dense_first[2u * p] : 0u;
+    uint place = is_dense != 0u ? dense_first[p] : 0u;
     for (uint side = 0u; side < 2u; ++side) {
       __global const ox_mesh* source = side == 0u ? mesh_a : mesh_b;
       __global const ox_mesh* target = side == 0u ? mesh_b : mesh_a;

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target? Where does
-// this edge cross it? One kernel per algorithm.
+// Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target? One
+// kernel per algorithm.
 //
-// in    rays of one algorithm (its list), pairs, meshes, vertices, nodes, triangles, isolations;
-//       edges
-// out   hits, and per pair their number; crossings of edges likewise
+// in    rays of one algorithm (its list), pairs, meshes, vertices, nodes, triangles, isolations
+// out   hits, and per pair their number
 //       temporal: the triangle from which the next step may start
 //       rays: those that the iterative algorithm hands on to a full one
 // item  1 ray (grid-stride); no barrier, no stack: skip links
-// may overflow: OX_LIST_HITS; the iterative kernel also OX_LIST_RAYS_BVH, OX_LIST_RAYS_BASIC; that
-// of edges OX_LIST_CROSSINGS alone
+// may overflow: OX_LIST_HITS; the iterative kernel also OX_LIST_RAYS_BVH, OX_LIST_RAYS_BASIC
 #include "shared/cast.h"
-#include "shared/edge_ray.h"
 
 __kernel void ray_iterative(__global volatile uint* counters, __global const ox_list* lists,
                             __global ox_ray* rays, __global const ox_pair* pairs,
@@ -84,22 +81,4 @@ __kernel void ray_basic(__global volatile uint* counters, __global const ox_list
                         __global ox_hit* hits, __global ox_work* works) {
   ox_cast_list(OX_LIST_RAYS_BASIC, counters, lists, rays, pairs, meshes, vertices, nodes, triangles,
                isolations, rays_mode, walk_limit, temporal, pair_hits, hits, works);
-}
-
-__kernel void ray_edges(__global volatile uint* counters, __global const ox_list* lists,
-                        __global const ox_ray* rays, __global const ox_pair* pairs,
-                        __global const ox_mesh* meshes, __global const ox_vertex* vertices,
-                        __global const ox_edge* edges, __global const ox_node* nodes,
-                        __global const ox_triangle* triangles,
-                        __global volatile uint* pair_crossings,
-                        __global ox_edge_crossing* crossings, __global ox_work* works) {
-  const uint first = lists[OX_LIST_RAYS_EDGES].first;
-  const uint count = ox_length(counters, lists, OX_LIST_RAYS_EDGES);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    ox_work work = {0u, 0u, 0u, 0u};
-    ox_cast_edge(counters, lists, rays[first + i].pair_side, rays[first + i].vertex, pairs, meshes,
-                 vertices, edges, nodes, triangles, pair_crossings, crossings, &work.bvh);
-    ox_note_work(works, i, &work);
-  }
 }

@@ -255,13 +255,14 @@ enum {
   dBatchBufferChunksSmall = 0,      /**< rigid, small displacement */
   dBatchBufferChunksHigh = 1,       /**< rigid, high displacement */
   dBatchBufferChunksDeformable = 2, /**< one of the two is deformable */
-  dBatchBufferChunksEdges = 3,      /**< runs of up to 16 edges, of all pairs */
-  /* vertex step and edge step -> ray step, by algorithm */
-  dBatchBufferRaysIterative = 4, /**< from the triangle met last */
-  dBatchBufferRaysBvh = 5,       /**< BVH traversal; also what iterative rays hand on */
-  dBatchBufferRaysBasic = 6,     /**< every triangle */
-  dBatchBufferRaysEdges = 7,     /**< edges as segments, through the BVH */
-  /* ray step -> contact step */
+  /* vertex step -> ray step, by algorithm */
+  dBatchBufferRaysIterative = 3, /**< from the triangle met last */
+  dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
+  dBatchBufferRaysBasic = 5,     /**< every triangle */
+  /* cull -> match -> cross */
+  dBatchBufferMeshlets = 6,     /**< clusters of triangles that can meet the other mesh */
+  dBatchBufferMeshletPairs = 7, /**< that can meet one another */
+  /* ray step, cross -> contact step */
   dBatchBufferHits = 8,      /**< of vertex rays */
   dBatchBufferCrossings = 9, /**< of edges with triangles */
   dBatchBufferContacts = 10, /**< contact step -> host */
@@ -273,21 +274,22 @@ enum {
   dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
   dBatchStageMeshes = 1,     /**< comparing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
-                                  next ten */
+                                  next eleven */
   dBatchStagePairStep = 3,
   dBatchStageVertexStep = 4,    /**< of all categories */
   dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
   dBatchStageBvhRays = 6,
   dBatchStageBasicRays = 7,
   dBatchStageMonolithic = 8, /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
-  dBatchStageEdgeStep = 9,
-  dBatchStageEdgeRays = 10,
-  dBatchStageEdgeContacts = 11, /**< what crossings say that vertices do not */
-  dBatchStageContactStep = 12,
-  dBatchStageDevice = 13, /**< first upload to last read-back, host clock */
-  dBatchStageExport = 14, /**< storing the answers, host */
-  dBatchStagePass = 15,   /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 16
+  dBatchStageCull = 9,       /**< crossings of edges: which meshlets can meet the other mesh, */
+  dBatchStageMatch = 10,     /**< which of those can meet one another, */
+  dBatchStageCross = 11,     /**< where edges cross triangles */
+  dBatchStageEdgeContacts = 12, /**< what crossings say that vertices do not */
+  dBatchStageContactStep = 13,
+  dBatchStageDevice = 14, /**< first upload to last read-back, host clock */
+  dBatchStageExport = 15, /**< storing the answers, host */
+  dBatchStagePass = 16,   /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageCount = 17
 };
 
 /** The kernels whose work is counted on demand. */
@@ -297,9 +299,7 @@ enum {
   dBatchKernelBvhRays = 2,
   dBatchKernelBasicRays = 3,
   dBatchKernelMonolithic = 4,
-  dBatchKernelEdgeStep = 5,
-  dBatchKernelEdgeRays = 6,
-  dBatchKernelCount = 7
+  dBatchKernelCount = 5
 };
 
 /**

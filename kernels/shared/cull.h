@@ -47,15 +47,6 @@ static inline bool ox_keep_chunk(__global const ox_pair* pair, uint side,
          ox_chunk_may_near(pair, side, target, grids, chunk, middle, reach, closed);
 }
 
-// Whether an edge of the chunk can cross the surface of the target.
-static inline bool ox_keep_edge_chunk(__global const ox_pair* pair, uint side,
-                                      __global const ox_mesh* target,
-                                      __global const ox_chunk* chunk, __global const uint* grids) {
-  const float3 middle = ox_place(pair, side, vload3(0, chunk->centre));
-  return ox_chunk_meets_box(pair, side, target, chunk, middle, 0.0f) &&
-         ox_chunk_may_near(pair, side, target, grids, chunk, middle, 0.0f, false);
-}
-
 // Inside a closed mesh is inside its box, not in a cell that is wholly outside, and not above a
 // slab that outside is above of.
 static inline bool ox_may_be_inside(__global const ox_mesh* mesh, __global const uint* grids,

@@ -8,7 +8,8 @@
 #ifndef ODE_EXT_KERNELS_SHARED_EDGE_PAIR_H
 #define ODE_EXT_KERNELS_SHARED_EDGE_PAIR_H
 
-#include "shared/edge_ray.h"
+#include "shared/append.h"
+#include "shared/full_ray.h"
 
 typedef struct {
   __global const ox_pair* pair;

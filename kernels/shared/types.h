@@ -31,11 +31,11 @@ typedef float ox_f32;
 #define OX_LIST_CHUNKS_SMALL 0u       // of rigid pairs that moved little
 #define OX_LIST_CHUNKS_HIGH 1u        // of rigid pairs that moved far, or are new
 #define OX_LIST_CHUNKS_DEFORMABLE 2u  // of pairs with a deformable mesh
-#define OX_LIST_CHUNKS_EDGES 3u       // runs of edges, of all pairs
-#define OX_LIST_RAYS_ITERATIVE 4u
-#define OX_LIST_RAYS_BVH 5u
-#define OX_LIST_RAYS_BASIC 6u
-#define OX_LIST_RAYS_EDGES 7u
+#define OX_LIST_RAYS_ITERATIVE 3u
+#define OX_LIST_RAYS_BVH 4u
+#define OX_LIST_RAYS_BASIC 5u
+#define OX_LIST_MESHLETS 6u       // that can meet the other mesh of a pair
+#define OX_LIST_MESHLET_PAIRS 7u  // that can meet
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
 #define OX_LIST_CONTACTS 10u
@@ -58,12 +58,15 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 // whether pairs keep temporal data.
 #define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, without proof
 #define OX_RAYS_BASIC 2u  // deformable targets without their BVH
-#define OX_RAYS_EDGES 4u  // edge rays are cast too
+#define OX_RAYS_EDGES 4u  // crossings of edges are searched too
 
 #define OX_NONE 0xffffffffu
 
 #define OX_CHUNK_VERTICES 16u
 #define OX_GROUP_CHUNKS 8u  // chunks that are dismissed together
+
+#define OX_LANES 16u          // triangles, and vertices, of a meshlet (geometry/meshlets.h)
+#define OX_MESHLET_EDGES 32u  // edges of one
 
 // A block of the clearance grid is this many cells of the occupancy grid wide.
 #define OX_BLOCK_CELLS 2u
@@ -93,8 +96,9 @@ typedef struct {
   ox_u32 chunk_first, chunk_count;
   ox_u32 node_first, node_count;
   ox_u32 triangle_first, triangle_count;
-  ox_u32 edge_chunk_first, edge_chunk_count;
-  ox_u32 group_first;      // of vertices, then of edges; a deformable mesh has none
+  ox_u32 meshlet_first, meshlet_count;
+  ox_u32 meshlet_node_first, meshlet_node_count;
+  ox_u32 group_first;      // a deformable mesh has none
   ox_u32 grid_first;       // word index of the occupancy bits
   ox_u32 clearance_first;  // word index of the clearance, signed steps, four to a word
   ox_u32 slab_bits_first;  // word index of which blocks have a slab: bits and their rank by turns
@@ -114,7 +118,7 @@ typedef struct {
   ox_f32 reach;            // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;  // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 156, ox_mesh_is_156_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 164, ox_mesh_is_164_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -124,7 +128,7 @@ typedef struct {
 } ox_vertex;
 OX_STATIC_ASSERT(sizeof(ox_vertex) == 32, ox_vertex_is_32_bytes);
 
-// A run of vertices, or of edges (reach and moved are 0 then); or OX_GROUP_CHUNKS of them.
+// A run of vertices; or OX_GROUP_CHUNKS of them.
 typedef struct {
   ox_u32 first, count;  // index into all of them
   ox_f32 centre[3];
@@ -136,14 +140,53 @@ typedef struct {
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 
-// An edge that is worth casting. All indices count over all meshes.
+// An edge between facets. All indices count over all meshes.
 typedef struct {
   ox_u32 vertex[2];
   ox_u32 triangle[2];  // at it, in the order of the leaves; the second is OX_NONE at a border
-  ox_f32 middle[3];
-  ox_f32 radius;  // half its length, rounded up; negative: flat in the present shape, not cast [m]
 } ox_edge;
-OX_STATIC_ASSERT(sizeof(ox_edge) == 32, ox_edge_is_32_bytes);
+OX_STATIC_ASSERT(sizeof(ox_edge) == 16, ox_edge_is_16_bytes);
+
+// A meshlet (geometry/meshlets.h), component by component, as sixteen lanes want it. All indices
+// count over all meshes. Lanes beyond the triangles, and triangles of no area, have three equal
+// corners: no edge crosses them. Lanes beyond the vertices repeat the first.
+typedef struct {
+  // What is asked of every meshlet that may meet another, together,
+  ox_f32 vertex[3][OX_LANES];  // x, y, z
+  ox_f32 lo[3], hi[3];         // of its vertices
+  ox_f32 slab_normal[3];       // unit, or 0: the mean of its triangles' by area
+  ox_f32 slab_lo, slab_hi;     // [m] along it, of its vertices
+  ox_u32 triangle_first, triangle_count;
+  ox_u32 edge_count;
+  ox_u32 edges_apart;  // a bit for each edge that lies between facets in the present shape
+  ox_u32 vertex_count;
+  ox_u32 ends[OX_MESHLET_EDGES / 2];  // places in `vertex`; of edge e OX_END(ends, e, 0) and 1
+  // of those that do,
+  ox_f32 corner[3][3][OX_LANES];  // a, b, c; x, y, z
+  // and of edges that cross it.
+  ox_u32 edge[OX_MESHLET_EDGES];
+  ox_u32 vertex_index[OX_LANES];
+} ox_meshlet;
+OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1088, ox_meshlet_is_1088_bytes);
+
+// Where edge e of a meshlet begins or ends: eight bits each, two edges a word.
+#define OX_END_SHIFT(e, end) (16u * ((e)&1u) + 8u * (end))
+#define OX_END(ends, e, end) ((ends)[(e) / 2u] >> OX_END_SHIFT(e, end) & 255u)
+
+// A meshlet that can meet the other mesh of its pair. Of each pair they are those of one mesh.
+typedef struct {
+  ox_u32 pair_side;
+  ox_u32 meshlet;
+} ox_meshlet_task;
+OX_STATIC_ASSERT(sizeof(ox_meshlet_task) == 8, ox_meshlet_task_is_8_bytes);
+
+// Two meshlets, one of each mesh of a pair, that can meet.
+typedef struct {
+  ox_u32 pair;
+  ox_u32 meshlet[2];  // of mesh A, of mesh B
+  ox_u32 padding;
+} ox_meshlet_pair;
+OX_STATIC_ASSERT(sizeof(ox_meshlet_pair) == 16, ox_meshlet_pair_is_16_bytes);
 
 typedef struct {
   ox_f32 lo[3];
@@ -186,7 +229,8 @@ typedef struct {
   // [m] per side, how far a vertex of the source moved in the frame of the target at most since
   // the last step; infinite: not known.
   ox_f32 displacement[2];
-  ox_u32 padding[3];
+  ox_u32 near;  // whether the oriented boxes of the meshes overlap; else the rest may be void
+  ox_u32 padding[2];
 } ox_pair;
 OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
 
@@ -272,8 +316,8 @@ typedef struct {
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 
-// Where an edge of one mesh crosses the surface of the other. The first four fields are what its
-// ray finds; the rest is filled in where the crossings of a pair are brought together.
+// Where an edge of one mesh crosses the surface of the other. The first six fields are what the
+// search finds; the rest is filled in where the crossings of a pair are brought together.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 edge;

@@ -25,6 +25,7 @@ struct DeviceInfo {
   cl_ulong global_memory = 0;   // [bytes]
   cl_ulong largest_buffer = 0;  // [bytes]
   std::size_t work_group_limit = 0;
+  cl_uint vector_width = 1;  // floats that an operation takes at once; 1 on most GPUs
   bool available = true, has_compiler = true, little_endian = true;
 };
 

@@ -58,6 +58,7 @@ DeviceInfo describe(cl_device_id id) {
   info.global_memory = value_of<cl_ulong>(id, CL_DEVICE_GLOBAL_MEM_SIZE);
   info.largest_buffer = value_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
   info.work_group_limit = value_of<std::size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  info.vector_width = value_of<cl_uint>(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
   info.available = value_of<cl_bool>(id, CL_DEVICE_AVAILABLE) == CL_TRUE;
   info.has_compiler = value_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE) == CL_TRUE;
   info.little_endian = value_of<cl_bool>(id, CL_DEVICE_ENDIAN_LITTLE) == CL_TRUE;

@@ -41,8 +41,25 @@ std::string embedded_source() {
   return source;
 }
 
+namespace {
+
+// The widest that shared/lanes.h knows and the device takes at once.
+unsigned vector_width(const DeviceInfo& device) {
+  for (const unsigned width : {16u, 8u, 4u})
+    if (device.vector_width >= width) return width;
+  return 1;
+}
+
+std::string with_vector_width(const DeviceInfo& device, const std::string& options) {
+  const char* const macro = "-DOX_VECTOR_WIDTH=";
+  if (options.find(macro) != std::string::npos) return options;
+  return options + " " + macro + std::to_string(vector_width(device));
+}
+
+}  // namespace
+
 Program::Program(Device& device, const std::string& options)
-    : Program(device, embedded_source(), options) {}
+    : Program(device, embedded_source(), with_vector_width(device.info(), options)) {}
 
 Program::Program(Device& device, const std::string& source, const std::string& options)
     : device_(&device) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/edges.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "geometry/directed_edges.h"
-#include "geometry/mesh.h"
 #include "geometry/ray_cast.h"
 #include "geometry/runs.h"
 
@@ -31,20 +30,6 @@ std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Tr
   result.reserve(found.size());
   for (const std::uint32_t i : order_into_runs(middles)) result.push_back(found[i]);
   return result;
-}
-
-std::vector<EdgeChunk> cut_into_chunks(const std::vector<Edge>& edges,
-                                       const std::vector<Vec3f>& vertices) {
-  std::vector<EdgeChunk> chunks;
-  const auto total = static_cast<std::uint32_t>(edges.size());
-  for (std::uint32_t first = 0; first < total; first += kChunkVertices) {
-    EdgeChunk chunk{first, std::min(kChunkVertices, total - first), empty_box()};
-    for (std::uint32_t i = first; i < first + chunk.count; ++i)
-      for (const std::uint32_t vertex : edges[i].vertices)
-        chunk.box = grown(chunk.box, vertices[vertex]);
-    chunks.push_back(chunk);
-  }
-  return chunks;
 }
 
 }  // namespace ode_ext

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/box.h"
 #include "geometry/neighbours.h"
 #include "geometry/vec.h"
 
@@ -21,15 +20,5 @@ struct Edge {
 // than two triangles meet, they are taken two by two: each of them is at one of the edges.
 std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
                         const std::vector<std::uint32_t>& facets);
-
-// A run of at most kChunkVertices consecutive edges.
-struct EdgeChunk {
-  std::uint32_t first;
-  std::uint32_t count;
-  Box box;
-};
-
-std::vector<EdgeChunk> cut_into_chunks(const std::vector<Edge>& edges,
-                                       const std::vector<Vec3f>& vertices);
 
 }  // namespace ode_ext

@@ -67,7 +67,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
     mesh.edges = edges(mesh.vertices, mesh.triangles, {});
-    mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
+    mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, mesh.edges);
     return mesh;
   }
 
@@ -76,7 +76,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.face_normals = std::move(normals.faces);
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
   mesh.edges = edges(mesh.vertices, mesh.triangles, mesh.facets);
-  mesh.edge_chunks = cut_into_chunks(mesh.edges, mesh.vertices);
+  mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, mesh.edges);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   const bool embedded =
       mesh.closed && (options.isolation || !options.grids) &&

@@ -13,6 +13,7 @@
 #include "geometry/clearance_grid.h"
 #include "geometry/edges.h"
 #include "geometry/isolation.h"
+#include "geometry/meshlets.h"
 #include "geometry/neighbours.h"
 #include "geometry/occupancy_grid.h"
 #include "geometry/runs.h"
@@ -63,7 +64,7 @@ struct Mesh {
   // triangles are facets each.
   std::vector<std::uint32_t> facets;
   std::vector<Edge> edges;  // between facets
-  std::vector<EdgeChunk> edge_chunks;
+  Meshlets meshlets;        // of `bvh`, with `edges`
   // Of each triangle, if asked for; empty unless the mesh is closed and is_embedded (embedded.h).
   std::vector<Isolation> isolation;
 

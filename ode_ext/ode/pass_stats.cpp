@@ -33,8 +33,9 @@ void note_report(const StepReport& report, dBatchColliderStats& stats) {
   stats.ms[dBatchStageBvhRays] = report.ms_bvh_rays;
   stats.ms[dBatchStageBasicRays] = report.ms_basic_rays;
   stats.ms[dBatchStageMonolithic] = report.ms_monolithic;
-  stats.ms[dBatchStageEdgeStep] = report.ms_edge_step;
-  stats.ms[dBatchStageEdgeRays] = report.ms_edge_rays;
+  stats.ms[dBatchStageCull] = report.ms_cull;
+  stats.ms[dBatchStageMatch] = report.ms_match;
+  stats.ms[dBatchStageCross] = report.ms_cross;
   stats.ms[dBatchStageEdgeContacts] = report.ms_edge_contacts;
   stats.ms[dBatchStageContactStep] = report.ms_contact_step;
   stats.ms[dBatchStageDevice] = report.ms_total;

@@ -32,13 +32,18 @@ constexpr Stage kHostStages[] = {{"gather", dBatchStageGather},
                                  {"meshes", dBatchStageMeshes},
                                  {"device", dBatchStageDevice},
                                  {"export", dBatchStageExport}};
-constexpr Stage kKernels[] = {
-    {"deform_step", dBatchStageDeformStep},  {"pair_step", dBatchStagePairStep},
-    {"vertex_step", dBatchStageVertexStep},  {"iterative_rays", dBatchStageIterativeRays},
-    {"bvh_rays", dBatchStageBvhRays},        {"basic_rays", dBatchStageBasicRays},
-    {"monolithic", dBatchStageMonolithic},   {"edge_step", dBatchStageEdgeStep},
-    {"edge_rays", dBatchStageEdgeRays},      {"edge_contacts", dBatchStageEdgeContacts},
-    {"contact_step", dBatchStageContactStep}};
+constexpr Stage kKernels[] = {{"deform_step", dBatchStageDeformStep},
+                              {"pair_step", dBatchStagePairStep},
+                              {"vertex_step", dBatchStageVertexStep},
+                              {"iterative_rays", dBatchStageIterativeRays},
+                              {"bvh_rays", dBatchStageBvhRays},
+                              {"basic_rays", dBatchStageBasicRays},
+                              {"monolithic", dBatchStageMonolithic},
+                              {"cull", dBatchStageCull},
+                              {"match", dBatchStageMatch},
+                              {"cross", dBatchStageCross},
+                              {"edge_contacts", dBatchStageEdgeContacts},
+                              {"contact_step", dBatchStageContactStep}};
 
 void write_event(const char* name, int track, double start_us, double duration_us,
                  const std::string& arguments) {
@@ -71,7 +76,7 @@ void trace_pass(std::chrono::steady_clock::time_point start, const dBatchCollide
                   ",\"rays_iterative\":" + std::to_string(stats.actual[dBatchBufferRaysIterative]) +
                   ",\"rays_bvh\":" + std::to_string(stats.actual[dBatchBufferRaysBvh]) +
                   ",\"rays_basic\":" + std::to_string(stats.actual[dBatchBufferRaysBasic]) +
-                  ",\"rays_edges\":" + std::to_string(stats.actual[dBatchBufferRaysEdges]) +
+                  ",\"meshlet_pairs\":" + std::to_string(stats.actual[dBatchBufferMeshletPairs]) +
                   ",\"contacts\":" + std::to_string(stats.actual[dBatchBufferContacts]) + "}");
   double time = begin;
   double device_begin = begin;

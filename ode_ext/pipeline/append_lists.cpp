@@ -8,7 +8,7 @@ namespace {
 
 static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SMALL &&
               static_cast<std::size_t>(Arrow::kRaysIterative) == OX_LIST_RAYS_ITERATIVE &&
-              static_cast<std::size_t>(Arrow::kRaysEdges) == OX_LIST_RAYS_EDGES &&
+              static_cast<std::size_t>(Arrow::kMeshletPairs) == OX_LIST_MESHLET_PAIRS &&
               static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
               kArrowCount == OX_LIST_COUNT);
 
@@ -19,7 +19,9 @@ constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 30;
 constexpr ArrowCounts kRecordBytes = [] {
   ArrowCounts bytes{};
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    bytes[i] = i <= OX_LIST_CHUNKS_EDGES ? sizeof(ox_chunk_task) : sizeof(ox_ray);
+    bytes[i] = i <= OX_LIST_CHUNKS_DEFORMABLE ? sizeof(ox_chunk_task) : sizeof(ox_ray);
+  bytes[OX_LIST_MESHLETS] = sizeof(ox_meshlet_task);
+  bytes[OX_LIST_MESHLET_PAIRS] = sizeof(ox_meshlet_pair);
   bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
   bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) +
                              OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
@@ -46,7 +48,9 @@ AppendLists::AppendLists(Device& device)
       counters_(device),
       lists_(device),
       tasks_(device),
+      meshlets_(device),
       rays_(device),
+      meshlet_pairs_(device),
       hits_(device),
       candidates_(device),
       crossings_(device),
@@ -77,8 +81,8 @@ ArrowCounts AppendLists::affordable(const ArrowCounts& expected) const {
 
 void AppendLists::release() {
   capacities_ = {};
-  for (Buffer* buffer : {&tasks_, &rays_, &hits_, &candidates_, &crossings_, &gathered_crossings_,
-                         &crossing_order_, &contacts_})
+  for (Buffer* buffer : {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_,
+                         &crossings_, &gathered_crossings_, &crossing_order_, &contacts_})
     buffer->release();
 }
 
@@ -100,9 +104,13 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
     }
     return end;
   };
-  return {after(Arrow::kChunksSmall, Arrow::kChunksEdges),
-          after(Arrow::kRaysIterative, Arrow::kRaysEdges), after(Arrow::kHits, Arrow::kHits),
-          after(Arrow::kCrossings, Arrow::kCrossings), after(Arrow::kContacts, Arrow::kContacts)};
+  return {after(Arrow::kChunksSmall, Arrow::kChunksDeformable),
+          after(Arrow::kRaysIterative, Arrow::kRaysBasic),
+          after(Arrow::kMeshlets, Arrow::kMeshlets),
+          after(Arrow::kMeshletPairs, Arrow::kMeshletPairs),
+          after(Arrow::kHits, Arrow::kHits),
+          after(Arrow::kCrossings, Arrow::kCrossings),
+          after(Arrow::kContacts, Arrow::kContacts)};
 }
 
 void AppendLists::resize(const ArrowCounts& capacities) {
@@ -110,6 +118,8 @@ void AppendLists::resize(const ArrowCounts& capacities) {
   try {
     tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
     rays_.reserve(ends.rays * sizeof(ox_ray));
+    meshlets_.reserve(ends.meshlets * sizeof(ox_meshlet_task));
+    meshlet_pairs_.reserve(ends.meshlet_pairs * sizeof(ox_meshlet_pair));
     hits_.reserve(ends.hits * sizeof(ox_hit));
     candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
                         sizeof(ox_candidate));

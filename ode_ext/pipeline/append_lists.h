@@ -52,6 +52,8 @@ class AppendLists {
   const Buffer& lists() const { return lists_; }
   Buffer& tasks() { return tasks_; }
   const Buffer& rays() const { return rays_; }
+  const Buffer& meshlets() const { return meshlets_; }
+  const Buffer& meshlet_pairs() const { return meshlet_pairs_; }
   const Buffer& hits() const { return hits_; }
   // One per hit, OX_POINTS_PER_CROSSING per crossing.
   const Buffer& candidates() const { return candidates_; }
@@ -63,7 +65,7 @@ class AppendLists {
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
   struct Ends {
-    std::uint64_t tasks, rays, hits, crossings, contacts;
+    std::uint64_t tasks, rays, meshlets, meshlet_pairs, hits, crossings, contacts;
   };
   Ends lay_out(const ArrowCounts& room);
   void resize(const ArrowCounts& capacities);
@@ -73,8 +75,8 @@ class AppendLists {
   ArrowCounts most_used_{};  // in the steps noted so far
   int steps_noted_ = 0;
   std::array<ox_list, kArrowCount> host_lists_{};
-  Buffer counters_, lists_, tasks_, rays_, hits_, candidates_, crossings_, gathered_crossings_,
-      crossing_order_, contacts_;
+  Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
+      crossings_, gathered_crossings_, crossing_order_, contacts_;
 };
 
 }  // namespace ode_ext

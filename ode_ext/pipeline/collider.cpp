@@ -29,6 +29,13 @@ StepSettings settings_of(const ColliderOptions& options) {
   return settings;
 }
 
+std::string program_options(const ColliderOptions& options) {
+  std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
+  if (options.vector_width != 0)
+    text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  return text;
+}
+
 // Codes that say "too large", of which a smaller tile may be the cure.
 bool is_out_of_memory(int code) {
   return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
@@ -41,7 +48,7 @@ Collider::Collider(const ColliderOptions& options)
     : options_(options),
       settings_(settings_of(options)),
       device_(options.device, options.largest_buffer),
-      program_(device_, options.count_work ? "-DOX_COUNT_WORK" : ""),
+      program_(device_, program_options(options)),
       steps_(program_),
       meshes_(program_),
       lists_(device_),
@@ -218,6 +225,7 @@ ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts&
     run_monolithic();
   else
     run_pipelined(predicted);
+  if (options_.edges) run_search(predicted);
   settle_workload();
   steps_.contact.run(launch_for(tile.count), launch(Arrow::kHits, predicted),
                      launch(Arrow::kCrossings, predicted), lists_, meshes_, pairs_, settings_);
@@ -236,12 +244,6 @@ void Collider::run_pipelined(const ArrowCounts& predicted) {
   vertices(Arrow::kChunksHigh);
   if (deforms_) vertices(Arrow::kChunksDeformable);
 
-  if (options_.edges) {
-    expect_work(OX_CHUNK_VERTICES * at(lists_.capacities(), Arrow::kChunksEdges));
-    steps_.edge.run(launch(Arrow::kChunksEdges, predicted), lists_, meshes_, pairs_, works_);
-    take_work(Worker::kEdgeStep, OX_CHUNK_VERTICES * wait_if_counting(Arrow::kChunksEdges));
-  }
-
   const auto rays = [&](RayStep& step, Arrow list, Worker worker) {
     expect_work(at(lists_.capacities(), list));
     step.run(launch(list, predicted), lists_, meshes_, pairs_, *temporal_, settings_, works_);
@@ -255,18 +257,22 @@ void Collider::run_pipelined(const ArrowCounts& predicted) {
   rays(steps_.bvh, Arrow::kRaysBvh, Worker::kBvhRays);
   if (deforms_ && options_.deformable_target == DeformableTarget::kBasic)
     rays(steps_.basic, Arrow::kRaysBasic, Worker::kBasicRays);
-  if (options_.edges) {
-    expect_work(at(lists_.capacities(), Arrow::kRaysEdges));
-    steps_.edge_rays.run(launch(Arrow::kRaysEdges, predicted), lists_, meshes_, pairs_, works_);
-    take_work(Worker::kEdgeRays, wait_if_counting(Arrow::kRaysEdges));
-  }
+}
+
+// Crossings of edges, in either organisation.
+void Collider::run_search(const ArrowCounts& predicted) {
+  steps_.cull.run(launch_for(pairs_.count), lists_, meshes_, pairs_);
+  settle_workload();
+  steps_.match.run(launch(Arrow::kMeshlets, predicted), lists_, meshes_, pairs_);
+  settle_workload();
+  steps_.cross.run(launch(Arrow::kMeshletPairs, predicted), lists_, meshes_, pairs_);
 }
 
 void Collider::run_monolithic() {
   const std::uint64_t items = std::uint64_t{dense_tasks_} * OX_CHUNK_VERTICES;
   expect_work(items);
-  steps_.monolithic.run(launch_for(items), lists_, dense_vertex_tasks_, dense_tasks_, meshes_,
-                        pairs_, *temporal_, settings_, works_);
+  steps_.monolithic.run(launch_for(items), lists_, dense_tasks_, meshes_, pairs_, *temporal_,
+                        settings_, works_);
   take_work(Worker::kMonolithic, items);
 }
 
@@ -295,28 +301,22 @@ ArrowCounts Collider::read_back(Tile tile, const ArrowCounts& predicted) {
 ArrowCounts Collider::stored(const ArrowCounts& actual) const {
   ArrowCounts counts = actual;
   if (options_.organisation == Organisation::kMonolithic)
-    std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kHits), 0u);
+    std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kMeshlets), 0u);
   return counts;
 }
 
 void Collider::upload(const Scene& scene, Tile tile) {
   host_members_.clear();
   host_dense_first_.clear();
-  cl_uint vertex_tasks = 0, edge_tasks = 0;
+  dense_tasks_ = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
-    host_dense_first_.push_back(vertex_tasks);
-    host_dense_first_.push_back(edge_tasks);
+    host_dense_first_.push_back(dense_tasks_);
     for (const std::uint32_t object : scene.pairs[i]) {
       host_members_.push_back(object);
       const Mesh& mesh = topology(*scene.meshes[scene.objects[object].mesh]);
-      vertex_tasks += static_cast<cl_uint>(mesh.chunks.size());
-      if (options_.edges) edge_tasks += static_cast<cl_uint>(mesh.edge_chunks.size());
+      dense_tasks_ += static_cast<cl_uint>(mesh.chunks.size());
     }
   }
-  for (std::size_t i = 1; i < host_dense_first_.size(); i += 2)
-    host_dense_first_[i] += vertex_tasks;  // those of edges come after all of vertices
-  dense_vertex_tasks_ = vertex_tasks;
-  dense_tasks_ = vertex_tasks + edge_tasks;
   pairs_.reserve(tile.count);
   read_ranges_.reserve(tile.count * sizeof(ox_range));
   pairs_.members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
@@ -325,7 +325,7 @@ void Collider::upload(const Scene& scene, Tile tile) {
   if (options_.organisation == Organisation::kMonolithic) {
     pairs_.dense_first.write(host_dense_first_.data(), host_dense_first_.size() * sizeof(ox_u32));
     lists_.tasks().reserve(dense_tasks_ * sizeof(ox_chunk_task));
-    tasks = dense_vertex_tasks_;
+    tasks = dense_tasks_;
   }
   if (remembers()) temporal_->reserve_blocks(tasks);
 }
@@ -376,7 +376,7 @@ Launch Collider::launch(Arrow list, const ArrowCounts& predicted) {
   if (exact)
     items = static_cast<const ox_u32*>(
         read_counters_.data())[static_cast<std::size_t>(list) * OX_COUNTER_STRIDE];
-  if (list <= Arrow::kChunksEdges) items *= OX_CHUNK_VERTICES;
+  if (list <= Arrow::kChunksDeformable) items *= OX_CHUNK_VERTICES;
   // A few groups for every compute unit cost nothing where there is no history yet. The paper
   // launches what is predicted, and no more.
   if (!exact && !may_lose())
@@ -423,9 +423,10 @@ void Collider::warm_up() {
     steps_.vertex.run(category, wide, lists_, meshes_, pairs_, nothing_, settings_, works_);
   for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
     step->run(wide, lists_, meshes_, pairs_, nothing_, settings_, works_);
-  steps_.edge.run(wide, lists_, meshes_, pairs_, works_);
-  steps_.edge_rays.run(wide, lists_, meshes_, pairs_, works_);
-  steps_.monolithic.run(wide, lists_, 0, 0, meshes_, pairs_, nothing_, settings_, works_);
+  steps_.cull.run(wide, lists_, meshes_, pairs_);
+  steps_.match.run(wide, lists_, meshes_, pairs_);
+  steps_.cross.run(wide, lists_, meshes_, pairs_);
+  steps_.monolithic.run(wide, lists_, 0, meshes_, pairs_, nothing_, settings_, works_);
   steps_.contact.run(wide, wide, wide, lists_, meshes_, pairs_, settings_);
   meshes_.warm_up(wide);
   device_.finish();
@@ -449,8 +450,9 @@ void Collider::take_kernel_times() {
   report_.ms_bvh_rays = take(steps_.bvh);
   report_.ms_basic_rays = take(steps_.basic);
   report_.ms_monolithic = take(steps_.monolithic);
-  report_.ms_edge_step = take(steps_.edge);
-  report_.ms_edge_rays = take(steps_.edge_rays);
+  report_.ms_cull = take(steps_.cull);
+  report_.ms_match = take(steps_.match);
+  report_.ms_cross = take(steps_.cross);
   report_.ms_edge_contacts = read([&] { return steps_.contact.take_edge_milliseconds(); });
   report_.ms_contact_step = take(steps_.contact);
 }

@@ -40,6 +40,7 @@ class Collider {
                        const ArrowCounts& most);
   void run_pipelined(const ArrowCounts& predicted);
   void run_monolithic();
+  void run_search(const ArrowCounts& predicted);
   ArrowCounts read_back(Tile tile, const ArrowCounts& predicted);
   void reserve(const ArrowCounts& counts);
   void upload(const Scene& scene, Tile tile);
@@ -81,7 +82,7 @@ class Collider {
 
   std::vector<ox_object> host_objects_;
   std::vector<ox_u32> host_members_, host_dense_first_;
-  cl_uint dense_vertex_tasks_ = 0, dense_tasks_ = 0;
+  cl_uint dense_tasks_ = 0;
   std::vector<ox_work> host_works_;
   PairContacts result_;
   StepReport report_;

@@ -27,7 +27,8 @@ DeformStep::DeformStep(Program& program)
       nodes_(program, "deform_nodes"),
       exits_(program, "deform_exits"),
       chunks_(program, "deform_chunks"),
-      edge_chunks_(program, "deform_edge_chunks"),
+      meshlets_(program, "deform_meshlets"),
+      meshlet_nodes_(program, "deform_meshlet_nodes"),
       meshes_(program, "deform_meshes"),
       rest_(program, "deform_rest"),
       moves_(program.device()),
@@ -61,13 +62,13 @@ void DeformStep::warm_up(Launch wide, const DeviceMeshes& meshes) {
   upload(starts_, host_starts_);
   upload(positions_, std::vector<Vec3f>{});
   const Items none{0, 0};
-  launch({none, none, none, none, none, none, {none}}, meshes, &wide);
+  launch({none, none, none, none, none, none, none, {none}}, meshes, &wide);
 }
 
 double DeformStep::take_milliseconds() {
   double sum = 0;
-  for (Kernel* kernel :
-       {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &edge_chunks_, &meshes_, &rest_})
+  for (Kernel* kernel : {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &meshlets_,
+                         &meshlet_nodes_, &meshes_, &rest_})
     sum += kernel->take_milliseconds();
   return sum;
 }
@@ -99,8 +100,10 @@ DeformStep::Work DeformStep::plan(const std::vector<MeshMove>& moves) {
                              }));
   work.chunks = append_starts(
       moves, unless_resting([](const auto& move) { return move.record.shape.chunk_count; }));
-  work.edge_chunks = append_starts(
-      moves, unless_resting([](const auto& move) { return move.record.shape.edge_chunk_count; }));
+  work.meshlets = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.shape.meshlet_count; }));
+  work.meshlet_nodes = append_starts(
+      moves, unless_resting([](const auto& move) { return move.record.shape.meshlet_node_count; }));
   work.rest = append_starts(
       moves, [](const MeshMove& move) { return move.rests ? move.record.vertex_count : 0; });
 
@@ -136,8 +139,10 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
   run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
   run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
       meshes.chunks());
-  run(edge_chunks_, work.edge_chunks.count, starts_, work.edge_chunks.starts_first,
-      meshes.vertices(), meshes.triangles(), meshes.edges(), meshes.chunks());
+  run(meshlets_, work.meshlets.count, starts_, work.meshlets.starts_first, meshes.vertices(),
+      meshes.triangles(), meshes.edges(), meshes.meshlets());
+  run(meshlet_nodes_, work.meshlet_nodes.count, starts_, work.meshlet_nodes.starts_first,
+      meshes.topologies(), meshes.nodes(), meshes.meshlet_nodes());
   run(meshes_, host_moves_.size(), meshes.chunks(), meshes.records());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kernels/deform_step.cl: new positions -> all that depends on them.
+// kernels/deform_step.cl, deform_meshlets.cl: new positions -> all that depends on them.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,7 @@ class DeformStep {
     std::size_t count;
   };
   struct Work {
-    Items triangles, vertices, exits, chunks, edge_chunks, rest;
+    Items triangles, vertices, exits, chunks, meshlets, meshlet_nodes, rest;
     std::vector<Items> levels;  // nodes, by height
   };
 
@@ -51,7 +51,7 @@ class DeformStep {
   // `wide` in place of what the items need.
   void launch(const Work& work, const DeviceMeshes& meshes, const Launch* wide = nullptr);
 
-  Kernel triangles_, vertices_, nodes_, exits_, chunks_, edge_chunks_, meshes_, rest_;
+  Kernel triangles_, vertices_, nodes_, exits_, chunks_, meshlets_, meshlet_nodes_, meshes_, rest_;
   Buffer moves_, starts_, positions_, measures_;
   std::size_t local_;  // work-items per group
   std::vector<ox_move> host_moves_;

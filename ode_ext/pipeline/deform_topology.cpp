@@ -69,6 +69,9 @@ DeformTopology append_topology(const Mesh& mesh, std::vector<ox_u32>& words) {
   append_incident(mesh, words);
   topology.node_order_first = static_cast<std::uint32_t>(words.size());
   topology.level_starts = append_node_order(mesh.bvh, words);
+  topology.meshlet_node_first = static_cast<std::uint32_t>(words.size());
+  const std::vector<std::uint32_t>& sources = mesh.meshlets.node_sources;
+  words.insert(words.end(), sources.begin(), sources.end());
   return topology;
 }
 

@@ -53,18 +53,9 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   return record;
 }
 
-ox_chunk to_record(const EdgeChunk& chunk, std::uint32_t edge_first) {
-  ox_chunk record{};
-  record.first = edge_first + chunk.first;
-  record.count = chunk.count;
-  store_box(chunk.box, record);
-  return record;
-}
-
 // For every OX_GROUP_CHUNKS of them, the last with fewer, a record that holds them all. `first`: of
 // their own records.
-template <class Chunk>
-void append_groups(const std::vector<Chunk>& chunks, std::size_t first,
+void append_groups(const std::vector<VertexChunk>& chunks, std::size_t first,
                    std::vector<ox_chunk>& records) {
   for (std::size_t i = 0; i < chunks.size();) {
     Box box = empty_box();
@@ -187,6 +178,8 @@ DeviceMeshes::DeviceMeshes(Program& program)
       nodes_(program.device()),
       triangles_(program.device()),
       edges_(program.device()),
+      meshlets_(program.device()),
+      meshlet_nodes_(program.device()),
       facets_(program.device()),
       isolations_(program.device()),
       grids_(program.device()),
@@ -229,6 +222,8 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_nodes_.clear();
   host_triangles_.clear();
   host_edges_.clear();
+  host_meshlets_.clear();
+  host_meshlet_nodes_.clear();
   host_facets_.clear();
   host_isolations_.clear();
   host_grids_.clear();
@@ -250,9 +245,11 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.node_count = static_cast<ox_u32>(built.bvh.nodes.size());
   record.triangle_first = static_cast<ox_u32>(host_triangles_.size());
   record.triangle_count = static_cast<ox_u32>(built.triangles.size());
-  record.edge_chunk_first = record.chunk_first + record.chunk_count;
-  record.edge_chunk_count = static_cast<ox_u32>(built.edge_chunks.size());
-  record.group_first = record.edge_chunk_first + record.edge_chunk_count;
+  record.meshlet_first = static_cast<ox_u32>(host_meshlets_.size());
+  record.meshlet_count = static_cast<ox_u32>(built.meshlets.meshlets.size());
+  record.meshlet_node_first = static_cast<ox_u32>(host_meshlet_nodes_.size());
+  record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.nodes.size());
+  record.group_first = record.chunk_first + record.chunk_count;
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
   record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
   record.slab_bits_first =
@@ -282,15 +279,15 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
-  append_edges(built, vertex_first);
-  if (!mesh.deformable) {
-    append_groups(built.chunks, record.chunk_first, host_chunks_);
-    append_groups(built.edge_chunks, record.edge_chunk_first, host_chunks_);
-  }
+  append_edges(built,
+               {vertex_first, record.triangle_first, static_cast<ox_u32>(host_edges_.size())});
+  if (!mesh.deformable) append_groups(built.chunks, record.chunk_first, host_chunks_);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
   for (const BvhNode& node : built.bvh.nodes) host_nodes_.push_back(to_record(node, record.extent));
+  for (const BvhNode& node : built.meshlets.nodes)
+    host_meshlet_nodes_.push_back(to_record(node, record.extent));
   const std::vector<std::uint32_t> places = places_in_leaves(built);
   for (const std::uint32_t triangle : built.bvh.order) {
     host_triangles_.push_back(to_record(built, triangle, places));
@@ -313,27 +310,18 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   for (const SurfaceSlab& slab : built.slabs.slabs) append_slab(host_grids_, slab);
 }
 
-void DeviceMeshes::append_edges(const Mesh& mesh, std::uint32_t vertex_first) {
-  const auto first = static_cast<std::uint32_t>(host_edges_.size());
-  const auto triangle_first = static_cast<std::uint32_t>(host_triangles_.size());
-  for (const EdgeChunk& chunk : mesh.edge_chunks) host_chunks_.push_back(to_record(chunk, first));
+void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first) {
   const std::vector<std::uint32_t> places = places_in_leaves(mesh);
   for (const Edge& edge : mesh.edges) {
     ox_edge record{};
-    if (!mesh.deformable) {
-      const Vec3f from = mesh.vertices[edge.vertices[0]], to = mesh.vertices[edge.vertices[1]];
-      const Vec3f middle = 0.5f * (from + to);
-      store(record.middle, middle);
-      // Up, by more than the roundings of the middle and of the lengths.
-      record.radius = (1 + 0x1p-20f) * std::max(length(to - middle), length(from - middle));
-    }
     for (std::size_t k = 0; k < 2; ++k) {
       const std::uint32_t triangle = edge.triangles[k];
-      record.vertex[k] = vertex_first + edge.vertices[k];
-      record.triangle[k] = triangle == kNone ? OX_NONE : triangle_first + places[triangle];
+      record.vertex[k] = first.vertex_first + edge.vertices[k];
+      record.triangle[k] = triangle == kNone ? OX_NONE : first.triangle_first + places[triangle];
     }
     host_edges_.push_back(record);
   }
+  append_meshlets(mesh, first, host_meshlets_);
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
@@ -349,6 +337,7 @@ void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
   move.record.corner_first = deformable.topology.corner_first;
   move.record.incident_first = deformable.topology.incident_first;
   move.record.node_order_first = deformable.topology.node_order_first;
+  move.record.meshlet_node_first = deformable.topology.meshlet_node_first;
   move.record.scale = scale_for(move.record.shape.extent);
   move.record.thickness = thickness_of(shape);
   // A vertex may lie on a face that is not its own (geometry/exit_distance.cpp); rounding, here of
@@ -367,6 +356,8 @@ void DeviceMeshes::upload() {
   upload_all(nodes_, host_nodes_);
   upload_all(triangles_, host_triangles_);
   upload_all(edges_, host_edges_);
+  upload_all(meshlets_, host_meshlets_);
+  upload_all(meshlet_nodes_, host_meshlet_nodes_);
   upload_all(facets_, host_facets_);
   upload_all(isolations_, host_isolations_);
   upload_all(grids_, host_grids_);

@@ -11,6 +11,7 @@
 #include "geometry/mesh.h"
 #include "pipeline/deform_step.h"
 #include "pipeline/deform_topology.h"
+#include "pipeline/meshlet_records.h"
 #include "shared/types.h"
 
 namespace ode_ext {
@@ -48,6 +49,8 @@ class DeviceMeshes {
   const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
   const Buffer& edges() const { return edges_; }
+  const Buffer& meshlets() const { return meshlets_; }
+  const Buffer& meshlet_nodes() const { return meshlet_nodes_; }
   // Of each triangle, over all triangles: the number of its facet within its mesh.
   const Buffer& facets() const { return facets_; }
   const Buffer& isolations() const { return isolations_; }
@@ -66,7 +69,7 @@ class DeviceMeshes {
   void rebuild(const MeshList& meshes);
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
-  void append_edges(const Mesh& mesh, std::uint32_t vertex_first);
+  void append_edges(const Mesh& mesh, const MeshletPlaces& places);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
 
@@ -80,6 +83,8 @@ class DeviceMeshes {
   std::vector<ox_node> host_nodes_;
   std::vector<ox_triangle> host_triangles_;
   std::vector<ox_edge> host_edges_;
+  std::vector<ox_meshlet> host_meshlets_;
+  std::vector<ox_node> host_meshlet_nodes_;
   std::vector<ox_u32> host_facets_;
   std::vector<ox_isolation> host_isolations_;
   std::vector<ox_u32> host_grids_;
@@ -87,8 +92,8 @@ class DeviceMeshes {
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
-  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, facets_, isolations_, grids_,
-      topologies_;
+  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, meshlets_, meshlet_nodes_,
+      facets_, isolations_, grids_, topologies_;
 };
 
 }  // namespace ode_ext

@@ -16,15 +16,14 @@ class MonolithicStep {
  public:
   explicit MonolithicStep(Program& program) : kernel_(program, "monolithic") {}
 
-  void run(Launch launch, AppendLists& lists, cl_uint vertex_tasks, cl_uint task_count,
-           const DeviceMeshes& meshes, const PairBuffers& pairs, const TemporalCache& temporal,
-           const StepSettings& settings, const Buffer& works) {
-    kernel_.launch(
-        launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(), vertex_tasks,
-        task_count, pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
-        meshes.edges(), meshes.grids(), meshes.nodes(), meshes.triangles(), meshes.isolations(),
-        settings.rays_mode, settings.displacement_limit, settings.walk_limit, temporal.before(),
-        temporal.now(), pairs.hits, lists.hits(), pairs.crossings, lists.crossings(), works);
+  void run(Launch launch, AppendLists& lists, cl_uint task_count, const DeviceMeshes& meshes,
+           const PairBuffers& pairs, const TemporalCache& temporal, const StepSettings& settings,
+           const Buffer& works) {
+    kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(),
+                   task_count, pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
+                   meshes.grids(), meshes.nodes(), meshes.triangles(), meshes.isolations(),
+                   settings.rays_mode, settings.displacement_limit, settings.walk_limit,
+                   temporal.before(), temporal.now(), pairs.hits, lists.hits(), works);
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

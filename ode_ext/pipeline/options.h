@@ -29,7 +29,8 @@ struct ColliderOptions {
   std::uint64_t initial_capacity = 16384;  // [records] of each append list
   std::uint32_t walk_limit = 32;           // triangles an iterative ray crosses at most
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
-  bool edges = true;                       // edge rays are cast too
+  bool edges = true;                       // crossings of edges are searched too
+  std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
   bool count_work = false;
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that no
   // counter and no index passes 2^32.

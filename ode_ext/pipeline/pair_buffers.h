@@ -24,7 +24,7 @@ struct PairBuffers {
   void reserve(std::size_t pair_count) {
     count = static_cast<cl_uint>(pair_count);
     members.reserve(2 * pair_count * sizeof(ox_u32));
-    dense_first.reserve(2 * pair_count * sizeof(ox_u32));
+    dense_first.reserve(pair_count * sizeof(ox_u32));
     pairs.reserve(pair_count * sizeof(ox_pair));
     hits.reserve(pair_count * sizeof(ox_u32));
     crossings.reserve(pair_count * sizeof(ox_u32));
@@ -37,7 +37,7 @@ struct PairBuffers {
   // in
   Buffer objects;      // ox_object
   Buffer members;      // two object indices per pair
-  Buffer dense_first;  // monolithic: per pair the places of its first chunks of vertices, of edges
+  Buffer dense_first;  // monolithic: per pair the place of its first chunk
   // out
   Buffer pairs;              // ox_pair
   Buffer hits, crossings;    // their number per pair

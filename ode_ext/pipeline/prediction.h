@@ -13,11 +13,11 @@ enum class Arrow : std::size_t {
   kChunksSmall,
   kChunksHigh,
   kChunksDeformable,
-  kChunksEdges,
   kRaysIterative,
   kRaysBvh,
   kRaysBasic,
-  kRaysEdges,
+  kMeshlets,
+  kMeshletPairs,
   kHits,
   kCrossings,
   kContacts

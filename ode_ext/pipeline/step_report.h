@@ -10,16 +10,8 @@
 namespace ode_ext {
 
 // The kernels whose work is counted on demand. The order is public (dBatchKernel...).
-enum class Worker : std::size_t {
-  kVertexStep,
-  kIterativeRays,
-  kBvhRays,
-  kBasicRays,
-  kMonolithic,
-  kEdgeStep,
-  kEdgeRays
-};
-inline constexpr std::size_t kWorkerCount = 7;
+enum class Worker : std::size_t { kVertexStep, kIterativeRays, kBvhRays, kBasicRays, kMonolithic };
+inline constexpr std::size_t kWorkerCount = 5;
 
 // What the last step did.
 struct StepReport {
@@ -35,9 +27,9 @@ struct StepReport {
   std::uint64_t temporal_pairs = 0;
   std::array<WorkCount, kWorkerCount> work{};
   double ms_deform_step = 0, ms_pair_step = 0, ms_vertex_step = 0, ms_iterative_rays = 0,
-         ms_bvh_rays = 0, ms_basic_rays = 0, ms_monolithic = 0, ms_edge_step = 0, ms_edge_rays = 0,
-         ms_edge_contacts = 0, ms_contact_step = 0;  // device
-  double ms_total = 0;                               // host clock, first upload to last read-back
+         ms_bvh_rays = 0, ms_basic_rays = 0, ms_monolithic = 0, ms_cull = 0, ms_match = 0,
+         ms_cross = 0, ms_edge_contacts = 0, ms_contact_step = 0;  // device
+  double ms_total = 0;  // host clock, first upload to last read-back
 };
 
 }  // namespace ode_ext

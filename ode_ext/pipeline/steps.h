@@ -4,10 +4,10 @@
 
 #include "device/program.h"
 #include "pipeline/contact_step.h"
-#include "pipeline/edge_step.h"
 #include "pipeline/monolithic_step.h"
 #include "pipeline/pair_step.h"
 #include "pipeline/ray_step.h"
+#include "pipeline/search_step.h"
 #include "pipeline/vertex_step.h"
 
 namespace ode_ext {
@@ -16,20 +16,22 @@ struct Steps {
   explicit Steps(Program& program)
       : pair(program),
         vertex(program),
-        edge(program),
         iterative(program, "ray_iterative"),
         bvh(program, "ray_bvh"),
         basic(program, "ray_basic"),
-        edge_rays(program),
         monolithic(program),
+        cull(program),
+        match(program),
+        cross(program),
         contact(program) {}
 
   PairStep pair;
   VertexStep vertex;
-  EdgeStep edge;
   RayStep iterative, bvh, basic;
-  EdgeRayStep edge_rays;
   MonolithicStep monolithic;
+  CullStep cull;
+  MatchStep match;
+  CrossStep cross;
   ContactStep contact;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/tiles.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shared/types.h"
@@ -37,7 +38,8 @@ std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t,
 }  // namespace
 
 ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
-  std::uint64_t chunks = 0, vertices = 0, edge_chunks = 0, edges = 0, crossings = 0, contacts = 0;
+  std::uint64_t chunks = 0, vertices = 0, meshlets = 0, meshlet_pairs = 0, crossings = 0,
+                contacts = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
     std::uint64_t of_pair = 0;
     bool deformable = false;
@@ -45,14 +47,18 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
       const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
       deformable = deformable || mesh.deformable;
       chunks += topology(mesh).chunks.size();
-      if (options.edges) {
-        edge_chunks += topology(mesh).edge_chunks.size();
-        edges += topology(mesh).edges.size();
-      }
       of_pair += mesh.vertices.size();
     }
     vertices += of_pair;
-    if (options.edges) crossings += most_crossings(scene, scene.pairs[i]);
+    if (options.edges) {
+      const auto count = [&](std::size_t k) {
+        const Mesh& mesh = *scene.meshes[scene.objects[scene.pairs[i][k]].mesh];
+        return std::uint64_t{topology(mesh).meshlets.meshlets.size()};
+      };
+      meshlets += std::max(count(0), count(1));
+      meshlet_pairs += count(0) * count(1);
+      crossings += most_crossings(scene, scene.pairs[i]);
+    }
     if (!deformable)
       contacts += options.max_contacts;
     else
@@ -63,8 +69,8 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
                                                  : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
-  return {chunks,   chunks, chunks,   edge_chunks, vertices, vertices,
-          vertices, edges,  vertices, crossings,   contacts};
+  return {chunks,   chunks,        chunks,   vertices,  vertices, vertices,
+          meshlets, meshlet_pairs, vertices, crossings, contacts};
 }
 
 ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {

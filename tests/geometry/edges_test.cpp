@@ -166,30 +166,5 @@ TEST(Edges, DoNotDependOnTheOrderOfTheTriangles) {
   }
 }
 
-TEST(EdgeChunks, HoldTheirEdgesAndNoMore) {
-  for (const TriangleSoup& soup : manifolds()) {
-    const Mesh mesh = build_mesh(soup);
-    std::uint32_t next = 0;
-    for (const EdgeChunk& chunk : mesh.edge_chunks) {
-      EXPECT_EQ(chunk.first, next);
-      EXPECT_GT(chunk.count, 0u);
-      EXPECT_LE(chunk.count, kChunkVertices);
-      next += chunk.count;
-      std::vector<Vec3f> ends;
-      for (std::uint32_t i = chunk.first; i < next; ++i)
-        for (const std::uint32_t vertex : mesh.edges.at(i).vertices)
-          ends.push_back(mesh.vertices[vertex]);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [lo, hi] = std::minmax_element(
-            ends.begin(), ends.end(), [&](Vec3f a, Vec3f b) { return a[axis] < b[axis]; });
-        EXPECT_EQ((*lo)[axis], chunk.box.lo[axis]);
-        EXPECT_EQ((*hi)[axis], chunk.box.hi[axis]);
-      }
-    }
-    EXPECT_EQ(next, mesh.edges.size());
-  }
-  EXPECT_TRUE(cut_into_chunks(std::vector<Edge>{}, {}).empty());
-}
-
 }  // namespace
 }  // namespace ode_ext

@@ -42,11 +42,11 @@ TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
   EXPECT_EQ(lists.first(Arrow::kChunksHigh), 5u);
   EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
-  EXPECT_EQ(lists.first(Arrow::kChunksEdges), 30u);
   EXPECT_EQ(lists.first(Arrow::kRaysIterative), 0u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 25u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 55u);
-  EXPECT_EQ(lists.first(Arrow::kRaysEdges), 90u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 20u);
+  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 45u);
+  EXPECT_EQ(lists.first(Arrow::kMeshlets), 0u);
+  EXPECT_EQ(lists.first(Arrow::kMeshletPairs), 0u);
   EXPECT_EQ(lists.first(Arrow::kHits), 0u);
   EXPECT_EQ(lists.first(Arrow::kCrossings), 0u);
   EXPECT_EQ(lists.first(Arrow::kContacts), 0u);

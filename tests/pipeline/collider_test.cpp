@@ -357,8 +357,9 @@ TEST(Collider, WaitsForEveryCountWhereTheExactWorkloadIsAskedFor) {
   Collider collider(options);
   PassMemory history;
   for (int i = 0; i < 3; ++i) collider.collide(scene.scene, &history);
-  // Chunks, rays, rays after those that the iterative ones hand on, hits, and the answer.
-  EXPECT_EQ(collider.report().synchronizations, 5);
+  // Chunks, rays, rays after those that the iterative ones hand on, meshlets, pairs of them, hits
+  // and crossings, and the answer.
+  EXPECT_EQ(collider.report().synchronizations, 7);
 }
 
 TEST(Collider, ReportsWhatItPredictedAndWhatCame) {

@@ -23,7 +23,8 @@ struct MeshRecords {
   std::vector<ox_triangle> triangles;
   std::vector<ox_node> nodes;
   std::vector<ox_chunk> chunks;
-  std::vector<ox_chunk> edge_chunks;  // `first` counts over all meshes
+  std::vector<ox_meshlet> meshlets;  // their indices count over all meshes
+  std::vector<ox_node> meshlet_nodes;
 };
 
 class DeformRig {
@@ -45,8 +46,10 @@ class DeformRig {
          built.triangles.size());
     read(meshes_.nodes(), records.nodes, records.mesh.node_first, built.bvh.nodes.size());
     read(meshes_.chunks(), records.chunks, records.mesh.chunk_first, built.chunks.size());
-    read(meshes_.chunks(), records.edge_chunks, records.mesh.edge_chunk_first,
-         built.edge_chunks.size());
+    read(meshes_.meshlets(), records.meshlets, records.mesh.meshlet_first,
+         built.meshlets.meshlets.size());
+    read(meshes_.meshlet_nodes(), records.meshlet_nodes, records.mesh.meshlet_node_first,
+         built.meshlets.nodes.size());
     device().finish();
     for (ox_chunk& chunk : records.chunks) chunk.first -= meshes_.place(i).vertex_first;
     return records;

@@ -330,27 +330,6 @@ TEST(EdgeContacts, OfDeformableMeshesAreTheSameBytesHoweverTheyCameToTheirShape)
   EXPECT_EQ(bits_of(by_and_by.collide(scene, &memory)), expected) << "at rest";
 }
 
-// Edges of a deformable mesh that are flat in its shape are not cast.
-TEST(EdgeContacts, OfAFlatSheetAreThoseOfItsBorder) {
-  const TriangleSoup sheet = soup_of(make_sheet(1.5, 8));
-  const auto open = deformable(sheet, 0.05f);
-  Scene scene;
-  // Without grids, which would dismiss edges that are far from the cube's surface.
-  scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(4)), {.grids = false})),
-                  open};
-  scene.objects = {{Pose{}, 0}, {Pose{}, 1}};
-  scene.pairs = {{0, 1}};
-  const auto edge_rays = [&] {
-    Collider collider({});
-    collider.collide(scene, nullptr);
-    return collider.report().actual[static_cast<std::size_t>(Arrow::kRaysEdges)];
-  };
-  // The cube's twelve are larger than the sheet, and so are their bounding balls.
-  EXPECT_EQ(edge_rays(), 32u + 12u);
-  scene.meshes[1] = deformed(open, bent(sheet));
-  EXPECT_GT(edge_rays(), 150u);
-}
-
 class EdgeLists : public testing::TestWithParam<Arrow> {
  protected:
   // As a collider that predicts all lists to the last entry, but this one at `room`.
@@ -403,12 +382,12 @@ TEST_P(EdgeLists, ThatOverflowAreCountedWhereThatIsIgnored) {
 }
 
 std::string name_of(const testing::TestParamInfo<Arrow>& info) {
-  if (info.param == Arrow::kChunksEdges) return "Chunks";
-  return info.param == Arrow::kRaysEdges ? "Rays" : "Crossings";
+  if (info.param == Arrow::kMeshlets) return "Meshlets";
+  return info.param == Arrow::kMeshletPairs ? "MeshletPairs" : "Crossings";
 }
 
 INSTANTIATE_TEST_SUITE_P(Arrows, EdgeLists,
-                         testing::Values(Arrow::kChunksEdges, Arrow::kRaysEdges, Arrow::kCrossings),
+                         testing::Values(Arrow::kMeshlets, Arrow::kMeshletPairs, Arrow::kCrossings),
                          name_of);
 
 }  // namespace

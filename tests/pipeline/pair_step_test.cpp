@@ -188,10 +188,8 @@ Tasks tasks_of(const TestScene& scene, const std::vector<ox_pair>& pairs) {
 
 // How many records of chunks a rigid mesh has: its runs, and groups of them.
 std::uint32_t records_of(const Mesh& mesh) {
-  const auto with_groups = [](std::size_t runs) {
-    return static_cast<std::uint32_t>(runs + (runs + kRunsPerGroup - 1) / kRunsPerGroup);
-  };
-  return with_groups(mesh.chunks.size()) + with_groups(mesh.edge_chunks.size());
+  const std::size_t runs = mesh.chunks.size();
+  return static_cast<std::uint32_t>(runs + (runs + kRunsPerGroup - 1) / kRunsPerGroup);
 }
 
 TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {

@@ -29,9 +29,10 @@ struct StepRecords {
   std::vector<ox_range> ranges;
   std::vector<ox_contact> contacts;
   // With edges. Of gathered crossings and their candidates those of a pair follow one another.
-  std::vector<ox_edge> edges;             // of all meshes
-  std::vector<ox_chunk_task> edge_tasks;  // of the pipelined organisation
-  std::vector<ox_ray> edge_rays;          // likewise
+  std::vector<ox_edge> edges;        // of all meshes
+  std::vector<ox_meshlet> meshlets;  // likewise
+  std::vector<ox_meshlet_task> meshlet_tasks;
+  std::vector<ox_meshlet_pair> meshlet_pairs;
   std::vector<ox_edge_crossing> crossings, gathered_crossings;
   std::vector<ox_u32> pair_crossings, crossing_segments;
 };
@@ -59,17 +60,18 @@ class Rig {
       upload(scene, 16, true);
       if (organisation == Organisation::kMonolithic) {
         steps_.pair.run(launch, lists_, meshes_, pairs_, temporal_, settings_, true);
-        steps_.monolithic.run(launch, lists_, dense_vertex_tasks_, dense_tasks_, meshes_, pairs_,
-                              temporal_, settings_, works_);
+        steps_.monolithic.run(launch, lists_, dense_tasks_, meshes_, pairs_, temporal_, settings_,
+                              works_);
       } else {
         run_vertices(launch);
-        steps_.edge.run(launch, lists_, meshes_, pairs_, works_);
-        steps_.edge_rays.run(launch, lists_, meshes_, pairs_, works_);
       }
-    } while (grow_for_crossings());
+      steps_.cull.run(launch, lists_, meshes_, pairs_);
+      steps_.match.run(launch, lists_, meshes_, pairs_);
+      steps_.cross.run(launch, lists_, meshes_, pairs_);
+    } while (grow_for_search());
     steps_.contact.run(launch, launch, launch, lists_, meshes_, pairs_, settings_);
     StepRecords records = read_back();
-    read_back_edges(organisation, records);
+    read_back_search(records);
     return records;
   }
 
@@ -99,13 +101,14 @@ class Rig {
       step->run(launch, lists_, meshes_, pairs_, temporal_, settings_, works_);
   }
 
-  // Whether there were more crossings than room for them, which there now is.
-  bool grow_for_crossings() {
+  // Whether the search found more than there was room for, which there now is.
+  bool grow_for_search() {
     std::vector<ox_u32> counters(AppendLists::kCounterBytes / sizeof(ox_u32));
     lists_.read_counters(counters.data());
     device_.finish();
     ArrowCounts needed{};
-    needed[OX_LIST_CROSSINGS] = counters[OX_LIST_CROSSINGS * OX_COUNTER_STRIDE];
+    for (const ox_u32 list : {OX_LIST_MESHLETS, OX_LIST_MESHLET_PAIRS, OX_LIST_CROSSINGS})
+      needed[list] = counters[list * OX_COUNTER_STRIDE];
     if (!lists_.overflowed(needed)) return false;
     lists_.reserve(needed);
     return true;
@@ -116,28 +119,27 @@ class Rig {
     host_objects_.clear();
     host_members_.clear();
     host_dense_first_.clear();
-    edge_count_ = 0;
-    for (const auto& mesh : scene.meshes) edge_count_ += topology(*mesh).edges.size();
+    edge_count_ = meshlet_count_ = 0;
+    for (const auto& mesh : scene.meshes) {
+      edge_count_ += topology(*mesh).edges.size();
+      meshlet_count_ += topology(*mesh).meshlets.meshlets.size();
+    }
     for (const Scene::Object& object : scene.objects)
       host_objects_.push_back(object_record(object));
-    cl_uint chunks = 0, edge_chunks = 0;
+    cl_uint chunks = 0;
     std::uint64_t vertices = 1, edges = 1;
     for (const auto& pair : scene.pairs) {
       host_members_.insert(host_members_.end(), pair.begin(), pair.end());
       host_dense_first_.push_back(chunks);
-      host_dense_first_.push_back(edge_chunks);
       for (const std::uint32_t object : pair) {
         const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
         chunks += static_cast<cl_uint>(topology(mesh).chunks.size());
         vertices += mesh.vertices.size();
         if (!with_edges) continue;
-        edge_chunks += static_cast<cl_uint>(topology(mesh).edge_chunks.size());
         edges += topology(mesh).edges.size();
       }
     }
-    for (std::size_t i = 1; i < host_dense_first_.size(); i += 2) host_dense_first_[i] += chunks;
-    dense_vertex_tasks_ = chunks;
-    dense_tasks_ = chunks + edge_chunks;
+    dense_tasks_ = chunks;
     const std::size_t count = scene.pairs.size();
     pairs_.reserve(count);
     pairs_.objects.reserve(host_objects_.size() * sizeof(ox_object));
@@ -146,9 +148,9 @@ class Rig {
     pairs_.dense_first.write(host_dense_first_.data(), host_dense_first_.size() * sizeof(ox_u32));
     const std::uint64_t tasks = std::uint64_t{chunks} + 1;
     // An edge may cross every triangle; that all of them do takes more memory than there is, so
-    // the room for crossings follows what there were.
-    lists_.reserve({tasks, tasks, tasks, std::uint64_t{edge_chunks} + 1, vertices, vertices,
-                    vertices, edges, vertices, edges, std::uint64_t{count} * max_contacts + 1});
+    // the room for what the search finds follows what it did.
+    lists_.reserve({tasks, tasks, tasks, vertices, vertices, vertices, edges, edges, vertices,
+                    edges, std::uint64_t{count} * max_contacts + 1});
     lists_.begin(lists_.capacities());
     lists_.tasks().reserve((dense_tasks_ + 1) * sizeof(ox_chunk_task));
     temporal_.begin_without(count);
@@ -186,18 +188,15 @@ class Rig {
     return records;
   }
 
-  void read_back_edges(Organisation organisation, StepRecords& records) {
+  void read_back_search(StepRecords& records) {
     std::vector<ox_u32> counters(AppendLists::kCounterBytes / sizeof(ox_u32));
     lists_.read_counters(counters.data());
     device_.finish();
     const auto counter = [&](std::size_t i) { return counters[i * OX_COUNTER_STRIDE]; };
     read(meshes_.edges(), 0, records.edges, edge_count_);
-    if (organisation == Organisation::kPipelined) {
-      read(lists_.tasks(), lists_.first(Arrow::kChunksEdges), records.edge_tasks,
-           counter(OX_LIST_CHUNKS_EDGES));
-      read(lists_.rays(), lists_.first(Arrow::kRaysEdges), records.edge_rays,
-           counter(OX_LIST_RAYS_EDGES));
-    }
+    read(meshes_.meshlets(), 0, records.meshlets, meshlet_count_);
+    read(lists_.meshlets(), 0, records.meshlet_tasks, counter(OX_LIST_MESHLETS));
+    read(lists_.meshlet_pairs(), 0, records.meshlet_pairs, counter(OX_LIST_MESHLET_PAIRS));
     read(lists_.crossings(), 0, records.crossings, counter(OX_LIST_CROSSINGS));
     read(lists_.gathered_crossings(), 0, records.gathered_crossings, counter(OX_LIST_CROSSINGS));
     read(pairs_.crossings, 0, records.pair_crossings, pairs_.count);
@@ -224,8 +223,8 @@ class Rig {
   StepSettings settings_;
   std::vector<ox_object> host_objects_;
   std::vector<ox_u32> host_members_, host_dense_first_;
-  cl_uint dense_vertex_tasks_ = 0, dense_tasks_ = 0;
-  std::size_t edge_count_ = 0;  // of all meshes
+  cl_uint dense_tasks_ = 0;
+  std::size_t edge_count_ = 0, meshlet_count_ = 0;  // of all meshes
 };
 
 }  // namespace ode_ext::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Edge rays against the brute-force reference, in both organisations: every crossing is found, and
-// only those.
+// The search for crossings of edges against the brute-force reference, in both organisations: every
+// one is found, and only those.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,9 @@
 #include <set>
 #include <tuple>
 
+#include "pipeline/collider.h"
 #include "pipeline/rig.h"
+#include "pipeline/test_scene.h"
 #include "reference/reference_crossings.h"
 
 namespace ode_ext::test {
@@ -89,7 +91,7 @@ Comparison compare(const TestScene& scene, Organisation organisation, Launch lau
 
 constexpr Organisation kBoth[] = {Organisation::kPipelined, Organisation::kMonolithic};
 
-TEST(EdgeRays, FindTheCrossingsOfTheReference) {
+TEST(Search, FindsTheCrossingsOfTheReference) {
   const TestScene scene = random_scene(600, 71);
   for (const Organisation organisation : kBoth) {
     const Comparison comparison = compare(scene, organisation);
@@ -98,7 +100,7 @@ TEST(EdgeRays, FindTheCrossingsOfTheReference) {
   }
 }
 
-TEST(EdgeRays, FindTheSameWhateverTheNumberOfPairs) {
+TEST(Search, FindsTheSameWhateverTheNumberOfPairs) {
   for (const int count : {0, 1, 63, 64, 65, 1234}) {
     const TestScene scene = random_scene(count, 72);
     const auto pipelined =
@@ -115,7 +117,7 @@ TEST(EdgeRays, FindTheSameWhateverTheNumberOfPairs) {
   }
 }
 
-TEST(EdgeRays, FindTheSameWhateverTheLaunch) {
+TEST(Search, FindsTheSameWhateverTheLaunch) {
   const TestScene scene = random_scene(65, 73);
   const auto keys = [&](Organisation organisation, Launch launch) {
     std::set<Key> result;
@@ -131,7 +133,7 @@ TEST(EdgeRays, FindTheSameWhateverTheLaunch) {
       EXPECT_EQ(keys(organisation, launch), expected);
 }
 
-TEST(EdgeRays, FindTheCrossingsOfLargerMeshes) {
+TEST(Search, FindsTheCrossingsOfLargerMeshes) {
   TestScene scene;
   scene.add_mesh(jittered(make_icosphere(0.6, 3), 0.002, 1));
   scene.add_mesh(jittered(make_torus(0.5, 0.2, 32, 20), 0.002, 2));
@@ -149,7 +151,7 @@ TEST(EdgeRays, FindTheCrossingsOfLargerMeshes) {
   }
 }
 
-TEST(EdgeRays, FindTheSameFarFromTheOrigin) {
+TEST(Search, FindsTheSameFarFromTheOrigin) {
   const TestScene near = random_scene(60, 75);
   for (const Point& place : {Point{1e4, -2e4, 5e3}, Point{1e6, 1e6, -1e6}}) {
     TestScene far;
@@ -164,7 +166,7 @@ TEST(EdgeRays, FindTheSameFarFromTheOrigin) {
   }
 }
 
-TEST(EdgeRays, FindTheSameAtEverySize) {
+TEST(Search, FindsTheSameAtEverySize) {
   const TestScene model = random_scene(60, 76);
   for (const double scale : {1e-4, 1e-2, 1e2, 1e4}) {
     TestScene scene;
@@ -181,7 +183,7 @@ TEST(EdgeRays, FindTheSameAtEverySize) {
 }
 
 // Edges that lie in faces and on edges: whatever rounding says, they are no others.
-TEST(EdgeRays, FindNothingFarFromWhereAlignedBoxesTouch) {
+TEST(Search, FindsNothingFarFromWhereAlignedBoxesTouch) {
   for (const Point& offset : {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0, 0, 1}, Point{0.5, 0.5, 1},
                               Point{1, 1, 1}, Point{0.25, 0.5, 0.75}}) {
     TestScene scene;
@@ -193,7 +195,7 @@ TEST(EdgeRays, FindNothingFarFromWhereAlignedBoxesTouch) {
 
 // What runs through the neighbour of a hole in the grid or past the box must not be culled: a rod
 // through a ring, and thin rods past one another.
-TEST(EdgeRays, AreNotCulledWhereTheyCross) {
+TEST(Search, CullsNothingThatCrosses) {
   TestScene scene;
   const std::uint32_t ring = scene.add_mesh(make_torus(1, 0.1, 40, 8));
   const std::uint32_t rod = scene.add_mesh(make_rod(4, 0.01));
@@ -209,22 +211,55 @@ TEST(EdgeRays, AreNotCulledWhereTheyCross) {
     EXPECT_GT(compare(scene, organisation).certain, 300u);
 }
 
-// Tasks and rays: no run of edges twice, none of nothing, and every ray is an edge of its mesh.
-TEST(EdgeRays, AreCastOncePerEdge) {
+// The way of each crossing: the meshlet of its edge and that of its triangle were matched, once,
+// and one of them was left by the cull.
+TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   const TestScene scene = random_scene(65, 78);
   const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
-  std::set<std::pair<ox_u32, ox_u32>> tasks, rays;
-  for (const ox_chunk_task& task : records.edge_tasks)
-    EXPECT_TRUE(tasks.emplace(task.pair_side, task.chunk).second);
-  for (const ox_ray& ray : records.edge_rays)
-    EXPECT_TRUE(rays.emplace(ray.pair_side, ray.vertex).second);
-  EXPECT_GT(rays.size(), 500u);
-  for (const ox_edge_crossing& c : records.crossings)
-    EXPECT_TRUE(rays.contains({c.pair_side, c.edge}));
+  std::set<std::pair<ox_u32, ox_u32>> tasks;
+  for (const ox_meshlet_task& task : records.meshlet_tasks)
+    EXPECT_TRUE(tasks.emplace(task.pair_side, task.meshlet).second);
+  std::set<std::tuple<ox_u32, ox_u32, ox_u32>> matched;
+  for (const ox_meshlet_pair& both : records.meshlet_pairs) {
+    EXPECT_TRUE(matched.emplace(both.pair, both.meshlet[0], both.meshlet[1]).second);
+    EXPECT_TRUE(tasks.contains({both.pair << 1, both.meshlet[0]}) ||
+                tasks.contains({both.pair << 1 | 1, both.meshlet[1]}));
+  }
+  std::map<ox_u32, ox_u32> of_edge, of_triangle;
+  for (ox_u32 m = 0; m < records.meshlets.size(); ++m) {
+    const ox_meshlet& meshlet = records.meshlets[m];
+    for (ox_u32 e = 0; e < meshlet.edge_count; ++e)
+      EXPECT_TRUE(of_edge.emplace(meshlet.edge[e], m).second);
+    for (ox_u32 k = 0; k < meshlet.triangle_count; ++k)
+      EXPECT_TRUE(of_triangle.emplace(meshlet.triangle_first + k, m).second);
+  }
+  EXPECT_EQ(of_edge.size(), records.edges.size());
+  ASSERT_GT(records.crossings.size(), 500u);
+  for (const ox_edge_crossing& c : records.crossings) {
+    const ox_u32 edges = of_edge.at(c.edge), triangles = of_triangle.at(c.triangle);
+    const bool of_a = (c.pair_side & 1) == 0;
+    EXPECT_TRUE(
+        matched.contains({c.pair_side >> 1, of_a ? edges : triangles, of_a ? triangles : edges}));
+  }
+}
+
+// One by one as on a GPU, or as vectors: lane by lane it is the same arithmetic.
+TEST(Search, FindsTheSameBytesWhateverTheWidthOfVectors) {
+  const TestScene scene = random_scene(100, 81);
+  const auto contacts = [&](std::uint32_t width) {
+    ColliderOptions options;
+    options.vector_width = width;
+    Collider collider(options);
+    return bits_of(collider.collide(scene.scene, nullptr));
+  };
+  const auto expected = contacts(8);
+  EXPECT_TRUE(
+      std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
+  for (const std::uint32_t width : {1u, 16u}) EXPECT_EQ(contacts(width), expected) << width;
 }
 
 // Each crossing is among those of its pair, once, with all that its ray found.
-TEST(EdgeRays, AreGatheredByPair) {
+TEST(Search, GathersCrossingsByPair) {
   const TestScene scene = random_scene(200, 79);
   for (const Organisation organisation : kBoth) {
     const StepRecords records = Rig::shared().run_with_edges(scene.scene, organisation);

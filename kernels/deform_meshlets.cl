@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Deform step, the part of meshlets: what they hold of vertices and triangles, and the boxes of the
+// tree over them. Which triangles, vertices and edges a meshlet has stays.
+//
+// in    moves, starts (deform_step.cl), vertices, triangles, edges, nodes, topology
+// out   meshlets, meshlet_nodes: those of the meshes that moved, in place
+// item  1 meshlet / node over meshlets (grid-stride)
+// may overflow: none
+#include "shared/moves.h"
+
+// A flat edge lies within a facet (geometry/facets.h): it crosses nothing that others do not.
+static bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
+  if (edge->triangle[1] == OX_NONE) return false;
+  const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -
+                   vload3(0, triangles[edge->triangle[1]].normal);
+  return ox_dot(d, d) < 1.0e-6f;  // 0.06 degrees
+}
+
+// Any normal gives a slab that holds the meshlet; the mean of its triangles' by area gives a thin
+// one.
+static void ox_measure_slab(__global ox_meshlet* meshlet) {
+  float3 sum = (float3)(0.0f);
+  for (uint k = 0u; k < meshlet->triangle_count; ++k) {
+    float3 corner[3];
+    for (uint c = 0u; c < 3u; ++c)
+      corner[c] =
+          (float3)(meshlet->corner[c][0][k], meshlet->corner[c][1][k], meshlet->corner[c][2][k]);
+    sum += ox_plain_cross(corner[1] - corner[0], corner[2] - corner[0]);
+  }
+  const float norm = ox_norm(sum);
+  const float3 normal = norm > 0.0f && norm < INFINITY ? sum / norm : (float3)(0.0f);
+  vstore3(normal, 0, meshlet->slab_normal);
+  meshlet->slab_lo = INFINITY;
+  meshlet->slab_hi = -INFINITY;
+  for (uint k = 0u; k < meshlet->vertex_count; ++k) {
+    const float height = ox_dot(
+        normal, (float3)(meshlet->vertex[0][k], meshlet->vertex[1][k], meshlet->vertex[2][k]));
+    meshlet->slab_lo = ox_min(meshlet->slab_lo, height);
+    meshlet->slab_hi = ox_max(meshlet->slab_hi, height);
+  }
+}
+
+__kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
+                              __global const uint* all_starts, uint starts_first,
+                              __global const ox_vertex* vertices,
+                              __global const ox_triangle* triangles, __global const ox_edge* edges,
+                              __global ox_meshlet* meshlets) {
+  __global const uint* starts = all_starts + starts_first;
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
+    const uint m = ox_move_of(starts, move_count, i);
+    __global ox_meshlet* meshlet = meshlets + moves[m].shape.meshlet_first + (i - starts[m]);
+    for (uint k = 0u; k < OX_LANES; ++k) {
+      const bool used = k < meshlet->triangle_count;
+      __global const ox_triangle* t = triangles + meshlet->triangle_first + (used ? k : 0u);
+      __global const ox_vertex* v =
+          vertices + meshlet->vertex_index[k < meshlet->vertex_count ? k : 0u];
+      for (uint axis = 0u; axis < 3u; ++axis) {
+        meshlet->corner[0][axis][k] = t->a[axis];
+        meshlet->corner[1][axis][k] = used ? t->b[axis] : t->a[axis];
+        meshlet->corner[2][axis][k] = used ? t->c[axis] : t->a[axis];
+        meshlet->vertex[axis][k] = v->position[axis];
+      }
+    }
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      float lo = INFINITY;
+      float hi = -INFINITY;
+      for (uint k = 0u; k < OX_LANES; ++k) {
+        lo = ox_min(lo, meshlet->vertex[axis][k]);
+        hi = ox_max(hi, meshlet->vertex[axis][k]);
+      }
+      meshlet->lo[axis] = lo;
+      meshlet->hi[axis] = hi;
+    }
+    ox_measure_slab(meshlet);
+    meshlet->edges_apart = 0u;
+    for (uint e = 0u; e < meshlet->edge_count; ++e)
+      if (!ox_is_flat(triangles, edges + meshlet->edge[e])) meshlet->edges_apart |= 1u << e;
+  }
+}
+
+__kernel void deform_meshlet_nodes(__global const ox_move* moves, uint move_count,
+                                   __global const uint* all_starts, uint starts_first,
+                                   __global const uint* topology, __global const ox_node* nodes,
+                                   __global ox_node* meshlet_nodes) {
+  __global const uint* starts = all_starts + starts_first;
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
+    const uint m = ox_move_of(starts, move_count, i);
+    __global const ox_move* move = moves + m;
+    const uint n = i - starts[m];
+    __global const ox_node* from =
+        nodes + move->shape.node_first + topology[move->meshlet_node_first + n];
+    __global ox_node* to = meshlet_nodes + move->shape.meshlet_node_first + n;
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      to->lo[axis] = from->lo[axis];
+      to->hi[axis] = from->hi[axis];
+    }
+  }
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Match: which meshlets of the other mesh can this one meet?
+//
+// in    tasks, pairs, meshes, meshlets, meshlet_nodes
+// out   meshlet_pairs
+// item  1 meshlet of the list (grid-stride)
+// may overflow: OX_LIST_MESHLET_PAIRS
+#include "shared/meshlet.h"
+
+__kernel void match(__global volatile uint* counters, __global const ox_list* lists,
+                    __global const ox_meshlet_task* tasks, __global const ox_pair* pairs,
+                    __global const ox_mesh* meshes, __global const ox_meshlet* meshlets,
+                    __global const ox_node* meshlet_nodes,
+                    __global ox_meshlet_pair* meshlet_pairs) {
+  const uint count = ox_length(counters, lists, OX_LIST_MESHLETS);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    const ox_meshlet_task task = tasks[i];
+    const uint side = task.pair_side & 1u;
+    __global const ox_pair* pair = pairs + (task.pair_side >> 1);
+    __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+    const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
+    __global const ox_node* nodes = meshlet_nodes + target->meshlet_node_first;
+    for (uint n = 0u; n < target->meshlet_node_count;) {
+      __global const ox_node* node = nodes + n;
+      if (!ox_meets_node(&box, node)) {
+        n = node->skip;
+        continue;
+      }
+      ++n;
+      if (node->leaf == 0u) continue;
+      const uint slot = ox_append(counters, lists, OX_LIST_MESHLET_PAIRS);
+      if (slot == OX_NONE) continue;
+      meshlet_pairs[slot].pair = task.pair_side >> 1;
+      meshlet_pairs[slot].meshlet[side] = task.meshlet;
+      meshlet_pairs[slot].meshlet[1u - side] = target->meshlet_first + (node->leaf >> 3);
+    }
+  }
+}

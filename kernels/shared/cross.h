@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges of one meshlet against the triangles of another. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_CROSS_H
+#define ODE_EXT_KERNELS_SHARED_CROSS_H
+
+#include "shared/meshlet.h"
+#include "shared/ray_triangle.h"
+
+// The vertices of a meshlet in the frame of the other one's mesh, and beyond which sides of that
+// one's box and slab each lies, a bit for each side.
+typedef struct {
+  float x[OX_LANES], y[OX_LANES], z[OX_LANES];
+  int beyond[OX_LANES];
+} ox_near_points;
+
+// False: all lie beyond one side.
+static inline bool ox_find_near(__global const ox_pair* pair, uint side,
+                                __global const ox_meshlet* source,
+                                __global const ox_meshlet* target, ox_near_points* near) {
+  const float margin = ox_search_margin(pair);
+  const float3 lo = vload3(0, target->lo) - margin;
+  const float3 hi = vload3(0, target->hi) + margin;
+  const float3 n = vload3(0, target->slab_normal);
+  const float slab_lo = target->slab_lo - margin;
+  const float slab_hi = target->slab_hi + margin;
+  int beyond_all = -1;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    ox_points p;
+    ox_place_vertices(pair, side, source, block, &p);
+    // Heights round by 4 * 2^-24 of the coordinates, less than epsilon (pair_step.cl).
+    const ox_floats height = n.x * p.x + n.y * p.y + n.z * p.z;
+    const ox_ints none = 0;
+    const ox_ints beyond = (p.x < lo.x ? none + 1 : none) | (p.x > hi.x ? none + 2 : none) |
+                           (p.y < lo.y ? none + 4 : none) | (p.y > hi.y ? none + 8 : none) |
+                           (p.z < lo.z ? none + 16 : none) | (p.z > hi.z ? none + 32 : none) |
+                           (height < slab_lo ? none + 64 : none) |
+                           (height > slab_hi ? none + 128 : none);
+    ox_store(p.x, block, near->x);
+    ox_store(p.y, block, near->y);
+    ox_store(p.z, block, near->z);
+    ox_store(beyond, block, near->beyond);
+    beyond_all &= ox_and_of(&beyond);
+  }
+  return beyond_all == 0;
+}
+
+// a * b - c * d with the right sign, as ox_det2.
+static inline void ox_det2_lanes(const ox_floats* a, const ox_floats* b, const ox_floats* c,
+                                 const ox_floats* d, ox_floats* result) {
+  const ox_floats p = *a * *b;
+  const ox_floats q = *c * *d;
+  *result = p != q ? p - q : fma(*a, *b, -p) - fma(*c, *d, -q);
+}
+
+// ox_meets for a block of triangles, bit for bit: in which lanes the line of the cast meets one; *t
+// is where [m], *determinant is negative where it leaves by it.
+static inline void ox_meets_lanes(const ox_cast* cast, __global const ox_meshlet* m, uint block,
+                                  ox_ints* met, ox_floats* t, ox_floats* determinant) {
+  const uint kx = cast->kx;
+  const uint ky = cast->ky;
+  const uint kz = cast->kz;
+  const float ox = ox_axis(cast->origin, kx);
+  const float oy = ox_axis(cast->origin, ky);
+  const float oz = ox_axis(cast->origin, kz);
+  const ox_floats az = ox_load(block, m->corner[0][kz]) - oz;
+  const ox_floats bz = ox_load(block, m->corner[1][kz]) - oz;
+  const ox_floats cz = ox_load(block, m->corner[2][kz]) - oz;
+  const ox_floats sx = -cast->sx;
+  const ox_floats sy = -cast->sy;
+  const ox_floats ax = fma(sx, az, ox_load(block, m->corner[0][kx]) - ox);
+  const ox_floats ay = fma(sy, az, ox_load(block, m->corner[0][ky]) - oy);
+  const ox_floats bx = fma(sx, bz, ox_load(block, m->corner[1][kx]) - ox);
+  const ox_floats by = fma(sy, bz, ox_load(block, m->corner[1][ky]) - oy);
+  const ox_floats cx = fma(sx, cz, ox_load(block, m->corner[2][kx]) - ox);
+  const ox_floats cy = fma(sy, cz, ox_load(block, m->corner[2][ky]) - oy);
+  ox_floats u, v, w;
+  ox_det2_lanes(&cx, &by, &cy, &bx, &u);
+  ox_det2_lanes(&ax, &cy, &ay, &cx, &v);
+  ox_det2_lanes(&bx, &ay, &by, &ax, &w);
+  const ox_ints mixed =
+      ((u < 0.0f) | (v < 0.0f) | (w < 0.0f)) & ((u > 0.0f) | (v > 0.0f) | (w > 0.0f));
+  *determinant = u + v + w;
+  *met = (mixed == 0) & (*determinant != 0.0f);
+  *t = (u * az + v * bz + w * cz) * cast->sz / *determinant;
+}
+
+static inline void ox_append_crossing(__global volatile uint* counters,
+                                      __global const ox_list* lists, uint pair_side, uint edge,
+                                      uint triangle, float t, bool leaves,
+                                      __global volatile uint* pair_crossings,
+                                      __global ox_edge_crossing* crossings) {
+  const uint slot = ox_append(counters, lists, OX_LIST_CROSSINGS);
+  if (slot == OX_NONE) return;
+  __global ox_edge_crossing* crossing = crossings + slot;
+  crossing->pair_side = pair_side;
+  crossing->edge = edge;
+  crossing->triangle = triangle;
+  crossing->t = t;
+  crossing->leaves = leaves ? 1u : 0u;
+  crossing->slot = atomic_inc(pair_crossings + (pair_side >> 1));
+}
+
+// Every place where an edge of the source crosses the target, a little beyond its ends too: edges
+// that meet in a vertex are cast one by one, and none of them may leave it to the other.
+static inline void ox_cross_edges(__global volatile uint* counters, __global const ox_list* lists,
+                                  uint pair_side, __global const ox_pair* pair,
+                                  __global const ox_meshlet* source,
+                                  __global const ox_meshlet* target, const ox_near_points* near,
+                                  __global volatile uint* pair_crossings,
+                                  __global ox_edge_crossing* crossings) {
+  const float from = -pair->epsilon;
+  for (uint e = 0u; e < source->edge_count; ++e) {
+    const uint p = OX_END(source->ends, e, 0u);
+    const uint q = OX_END(source->ends, e, 1u);
+    if ((near->beyond[p] & near->beyond[q]) != 0 || (source->edges_apart >> e & 1u) == 0u) continue;
+    const float3 start = (float3)(near->x[p], near->y[p], near->z[p]);
+    const float3 along = (float3)(near->x[q], near->y[q], near->z[q]) - start;
+    const float length = sqrt(ox_dot(along, along));
+    if (length == 0.0f) continue;
+    const float limit = length + pair->epsilon;
+    const ox_cast cast = ox_cast_from(start, along / length);
+    for (uint block = 0u; block < OX_BLOCKS; ++block) {
+      ox_floats t, determinant;
+      ox_ints met;
+      ox_meets_lanes(&cast, target, block, &met, &t, &determinant);
+      met &= (t >= from) & (t <= limit);
+      if (ox_or_of(&met) == 0) continue;
+      int met_lane[OX_VECTOR_WIDTH];
+      float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
+      ox_store(met, 0, met_lane);
+      ox_store(t, 0, t_lane);
+      ox_store(determinant, 0, determinant_lane);
+      for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k)
+        if (met_lane[k] != 0)
+          ox_append_crossing(counters, lists, pair_side, source->edge[e],
+                             target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
+                             determinant_lane[k] < 0.0f, pair_crossings, crossings);
+    }
+  }
+}
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lanes of a meshlet, OX_LANES of them, taken OX_VECTOR_WIDTH at a time: as vectors where the
+// device has such, one by one where it has not. Lane by lane the same operations in the same order,
+// so the width changes no bit. The host chooses it (device/program.h). Device only.
+//
+// Of a comparison only say whether it is 0: true is -1 in a vector and 1 alone.
+#ifndef ODE_EXT_KERNELS_SHARED_LANES_H
+#define ODE_EXT_KERNELS_SHARED_LANES_H
+
+#include "shared/transform.h"
+
+#ifndef OX_VECTOR_WIDTH
+#define OX_VECTOR_WIDTH 8
+#endif
+
+#define OX_BLOCKS (OX_LANES / OX_VECTOR_WIDTH)
+
+// Values go to functions by address: by value their convention changes with what the CPU has.
+#if OX_VECTOR_WIDTH == 16
+typedef float16 ox_floats;
+typedef int16 ox_ints;
+#define ox_load(block, p) vload16(block, p)
+#define ox_store(v, block, p) vstore16(v, block, p)
+#elif OX_VECTOR_WIDTH == 8
+typedef float8 ox_floats;
+typedef int8 ox_ints;
+#define ox_load(block, p) vload8(block, p)
+#define ox_store(v, block, p) vstore8(v, block, p)
+#elif OX_VECTOR_WIDTH == 4
+typedef float4 ox_floats;
+typedef int4 ox_ints;
+#define ox_load(block, p) vload4(block, p)
+#define ox_store(v, block, p) vstore4(v, block, p)
+#else
+typedef float ox_floats;
+typedef int ox_ints;
+#define ox_load(block, p) ((p)[block])
+#define ox_store(v, block, p) ((p)[block] = (v))
+#endif
+
+// All lanes by one operator: `op(a, b)`.
+#define OX_OR(a, b) ((a) | (b))
+#define OX_AND(a, b) ((a) & (b))
+#define OX_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#define OX_GREATER(a, b) ((a) > (b) ? (a) : (b))
+#define OX_FOLD4(v, op) op(op((v).x, (v).y), op((v).z, (v).w))
+#if OX_VECTOR_WIDTH == 16
+#define OX_FOLD(v, op) OX_FOLD4(op(op((v).s0123, (v).s4567), op((v).s89ab, (v).scdef)), op)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_FOLD(v, op) OX_FOLD4(op((v).lo, (v).hi), op)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_FOLD(v, op) OX_FOLD4(v, op)
+#else
+#define OX_FOLD(v, op) (v)
+#endif
+
+static inline int ox_or_of(const ox_ints* v) { return OX_FOLD(*v, OX_OR); }
+static inline int ox_and_of(const ox_ints* v) { return OX_FOLD(*v, OX_AND); }
+static inline float ox_least_of(const ox_floats* v) { return OX_FOLD(*v, OX_LESSER); }
+static inline float ox_greatest_of(const ox_floats* v) { return OX_FOLD(*v, OX_GREATER); }
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshlets in the frame of the other mesh of their pair. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_MESHLET_H
+#define ODE_EXT_KERNELS_SHARED_MESHLET_H
+
+#include "shared/append.h"
+#include "shared/lanes.h"
+
+// As many points as a vector has lanes.
+typedef struct {
+  ox_floats x, y, z;
+} ox_points;
+
+typedef struct {
+  float3 lo, hi;
+} ox_box;
+
+// A block of the vertices of a meshlet of the source in the frame of the target; lane by lane the
+// bits of ox_place.
+static inline void ox_place_vertices(__global const ox_pair* pair, uint side,
+                                     __global const ox_meshlet* meshlet, uint block,
+                                     ox_points* points) {
+  __global const float* r = pair->rotation[side];
+  __global const float* o = pair->offset[side];
+  const ox_floats x = ox_load(block, meshlet->vertex[0]);
+  const ox_floats y = ox_load(block, meshlet->vertex[1]);
+  const ox_floats z = ox_load(block, meshlet->vertex[2]);
+  points->x = r[0] * x + r[1] * y + r[2] * z + o[0];
+  points->y = r[3] * x + r[4] * y + r[5] * z + o[1];
+  points->z = r[6] * x + r[7] * y + r[8] * z + o[2];
+}
+
+static inline bool ox_meets_node(const ox_box* box, __global const ox_node* node) {
+  return box->lo.x <= node->hi[0] && box->hi.x >= node->lo[0] && box->lo.y <= node->hi[1] &&
+         box->hi.y >= node->lo[1] && box->lo.z <= node->hi[2] && box->hi.z >= node->lo[2];
+}
+
+// The box of a meshlet of the source in the frame of the target.
+static inline ox_box ox_box_there(__global const ox_pair* pair, uint side,
+                                  __global const ox_meshlet* meshlet, float margin) {
+  ox_points lo, hi;
+  ox_place_vertices(pair, side, meshlet, 0u, &lo);
+  hi = lo;
+  for (uint block = 1u; block < OX_BLOCKS; ++block) {
+    ox_points p;
+    ox_place_vertices(pair, side, meshlet, block, &p);
+    lo.x = OX_LESSER(lo.x, p.x);
+    lo.y = OX_LESSER(lo.y, p.y);
+    lo.z = OX_LESSER(lo.z, p.z);
+    hi.x = OX_GREATER(hi.x, p.x);
+    hi.y = OX_GREATER(hi.y, p.y);
+    hi.z = OX_GREATER(hi.z, p.z);
+  }
+  ox_box box;
+  box.lo = (float3)(ox_least_of(&lo.x), ox_least_of(&lo.y), ox_least_of(&lo.z)) - margin;
+  box.hi = (float3)(ox_greatest_of(&hi.x), ox_greatest_of(&hi.y), ox_greatest_of(&hi.z)) + margin;
+  return box;
+}
+
+// What crosses where is decided within epsilon of either end of an edge, by coordinates that carry
+// as much rounding (pair_step.cl): so far apart nothing does.
+static inline float ox_search_margin(__global const ox_pair* pair) { return 2.0f * pair->epsilon; }
+
+#endif
