@@ -17,14 +17,6 @@ __kernel void cross_meshlets(__global volatile uint* counters, __global const ox
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     const ox_meshlet_pair both = meshlet_pairs[i];
-    __global const ox_pair* pair = pairs + both.pair;
-    __global const ox_meshlet* a = meshlets + both.meshlet[0];
-    __global const ox_meshlet* b = meshlets + both.meshlet[1];
-    ox_near_points near_b;  // vertices of A, in the frame of B
-    ox_near_points near_a;
-    if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) continue;
-    ox_cross_edges(counters, lists, both.pair << 1, pair, a, b, &near_b, pair_crossings, crossings);
-    ox_cross_edges(counters, lists, both.pair << 1 | 1u, pair, b, a, &near_a, pair_crossings,
-                   crossings);
+    ox_cross_meshlets(counters, lists, &both, pairs, meshlets, pair_crossings, crossings);
   }
 }

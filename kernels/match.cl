@@ -2,16 +2,18 @@
 // Match: which meshlets of the other mesh can this one meet?
 //
 // in    tasks, pairs, meshes, meshlets, meshlet_nodes
-// out   meshlet_pairs
+// out   meshlet_pairs; crossings, and per pair their number, of what these have no room for: boxes
+//       may overlap by the million where next to nothing crosses, so their list grows with what is
+//       predicted and no further, and what it cannot take is crossed at once (cross.cl)
 // item  1 meshlet of the list (grid-stride)
-// may overflow: OX_LIST_MESHLET_PAIRS
-#include "shared/meshlet.h"
+// may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
+#include "shared/cross.h"
 
 __kernel void match(__global volatile uint* counters, __global const ox_list* lists,
                     __global const ox_meshlet_task* tasks, __global const ox_pair* pairs,
                     __global const ox_mesh* meshes, __global const ox_meshlet* meshlets,
-                    __global const ox_node* meshlet_nodes,
-                    __global ox_meshlet_pair* meshlet_pairs) {
+                    __global const ox_node* meshlet_nodes, __global ox_meshlet_pair* meshlet_pairs,
+                    __global volatile uint* pair_crossings, __global ox_edge_crossing* crossings) {
   const uint count = ox_length(counters, lists, OX_LIST_MESHLETS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
@@ -29,11 +31,16 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
       }
       ++n;
       if (node->leaf == 0u) continue;
+      ox_meshlet_pair both;
+      both.pair = task.pair_side >> 1;
+      both.meshlet[side] = task.meshlet;
+      both.meshlet[1u - side] = target->meshlet_first + (node->leaf >> 3);
+      both.padding = 0u;
       const uint slot = ox_append(counters, lists, OX_LIST_MESHLET_PAIRS);
-      if (slot == OX_NONE) continue;
-      meshlet_pairs[slot].pair = task.pair_side >> 1;
-      meshlet_pairs[slot].meshlet[side] = task.meshlet;
-      meshlet_pairs[slot].meshlet[1u - side] = target->meshlet_first + (node->leaf >> 3);
+      if (slot != OX_NONE)
+        meshlet_pairs[slot] = both;
+      else
+        ox_cross_meshlets(counters, lists, &both, pairs, meshlets, pair_crossings, crossings);
     }
   }
 }

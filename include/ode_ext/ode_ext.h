@@ -96,8 +96,9 @@ enum {
 enum {
   dBatchOrganisationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
                                       between (default) */
-  dBatchOrganisationMonolithic = 1 /**< one kernel with a switch, a work-item per vertex of every
-                                      pair: what the paper compares itself with */
+  dBatchOrganisationMonolithic = 1 /**< one kernel with a switch for vertices and their rays, a
+                                      work-item per vertex of every pair: what the paper compares
+                                      itself with. Crossings of edges are searched as ever */
 };
 
 /** What happens when an append buffer was predicted too small (GRAPP section 4.1). */
@@ -148,8 +149,9 @@ typedef struct dBatchColliderParams {
   dReal displacement_limit; /**< how far the vertices of a pair may have moved since its last pass
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
-  int count_work;         /**< nonzero: count the work of every work-item (see dBatchWork); slow */
-  int edges;              /**< dBatchEdges... */
+  int count_work; /**< nonzero: count the work of every work-item of the vertex and ray steps
+                             (see dBatchWork); slow */
+  int edges;      /**< dBatchEdges... */
   int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
                              above); 0 (default): as in ODE it is not asked */
 } dBatchColliderParams;

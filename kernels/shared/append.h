@@ -5,10 +5,15 @@
 
 #include "shared/transform.h"
 
+// More is not counted: a counter that ran past 2^32 would begin again.
+#define OX_MOST_COUNTED 0x80000000u
+
 // Where the next record of a list goes; OX_NONE: it is full, and the counter says by how much.
 static inline uint ox_append(__global volatile uint* counters, __global const ox_list* lists,
                              uint list) {
-  const uint slot = atomic_inc(counters + list * OX_COUNTER_STRIDE);
+  __global volatile uint* counter = counters + list * OX_COUNTER_STRIDE;
+  const uint slot = atomic_inc(counter);
+  if (slot >= OX_MOST_COUNTED) atomic_dec(counter);
   return slot < lists[list].capacity ? lists[list].first + slot : OX_NONE;
 }
 

@@ -139,4 +139,22 @@ static inline void ox_cross_edges(__global volatile uint* counters, __global con
   }
 }
 
+// The edges of either meshlet against the triangles of the other.
+static inline void ox_cross_meshlets(__global volatile uint* counters,
+                                     __global const ox_list* lists, const ox_meshlet_pair* both,
+                                     __global const ox_pair* pairs,
+                                     __global const ox_meshlet* meshlets,
+                                     __global volatile uint* pair_crossings,
+                                     __global ox_edge_crossing* crossings) {
+  __global const ox_pair* pair = pairs + both->pair;
+  __global const ox_meshlet* a = meshlets + both->meshlet[0];
+  __global const ox_meshlet* b = meshlets + both->meshlet[1];
+  ox_near_points near_b;  // vertices of A, in the frame of B
+  ox_near_points near_a;
+  if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) return;
+  ox_cross_edges(counters, lists, both->pair << 1, pair, a, b, &near_b, pair_crossings, crossings);
+  ox_cross_edges(counters, lists, both->pair << 1 | 1u, pair, b, a, &near_a, pair_crossings,
+                 crossings);
+}
+
 #endif

@@ -19,24 +19,27 @@
 #if OX_VECTOR_WIDTH == 16
 typedef float16 ox_floats;
 typedef int16 ox_ints;
-#define ox_load(block, p) vload16(block, p)
 #define ox_store(v, block, p) vstore16(v, block, p)
 #elif OX_VECTOR_WIDTH == 8
 typedef float8 ox_floats;
 typedef int8 ox_ints;
-#define ox_load(block, p) vload8(block, p)
 #define ox_store(v, block, p) vstore8(v, block, p)
 #elif OX_VECTOR_WIDTH == 4
 typedef float4 ox_floats;
 typedef int4 ox_ints;
-#define ox_load(block, p) vload4(block, p)
 #define ox_store(v, block, p) vstore4(v, block, p)
-#else
+#elif OX_VECTOR_WIDTH == 1
 typedef float ox_floats;
 typedef int ox_ints;
-#define ox_load(block, p) ((p)[block])
 #define ox_store(v, block, p) ((p)[block] = (v))
+#else
+#error "OX_VECTOR_WIDTH is 1, 4, 8 or 16"
 #endif
+
+// A block of the lanes of a record, which lie on a boundary of all of them: buffers do, and their
+// records' lanes come first or after as many bytes (types.h). What is not known to be aligned is
+// loaded in halves.
+#define ox_load(block, p) (((__global const ox_floats*)(p))[block])
 
 // All lanes by one operator: `op(a, b)`.
 #define OX_OR(a, b) ((a) | (b))

@@ -168,6 +168,8 @@ typedef struct {
   ox_u32 vertex_index[OX_LANES];
 } ox_meshlet;
 OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1088, ox_meshlet_is_1088_bytes);
+// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 320.
+OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 
 // Where edge e of a meshlet begins or ends: eight bits each, two edges a word.
 #define OX_END_SHIFT(e, end) (16u * ((e)&1u) + 8u * (end))

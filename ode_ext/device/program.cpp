@@ -33,16 +33,6 @@ std::string build_log(cl_program program, cl_device_id device) {
   return code == CL_SUCCESS ? log.c_str() : "(the driver does not give it)";
 }
 
-}  // namespace
-
-std::string embedded_source() {
-  std::string source;
-  for (std::size_t i = 0; i < kEmbeddedKernelCount; ++i) append_file(source, kEmbeddedKernels[i]);
-  return source;
-}
-
-namespace {
-
 // The widest that shared/lanes.h knows and the device takes at once.
 unsigned vector_width(const DeviceInfo& device) {
   for (const unsigned width : {16u, 8u, 4u})
@@ -57,6 +47,12 @@ std::string with_vector_width(const DeviceInfo& device, const std::string& optio
 }
 
 }  // namespace
+
+std::string embedded_source() {
+  std::string source;
+  for (std::size_t i = 0; i < kEmbeddedKernelCount; ++i) append_file(source, kEmbeddedKernels[i]);
+  return source;
+}
 
 Program::Program(Device& device, const std::string& options)
     : Program(device, embedded_source(), with_vector_width(device.info(), options)) {}

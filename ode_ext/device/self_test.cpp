@@ -65,6 +65,7 @@ constexpr Property kProperties[] = {
     {kLargest, "a > b ? a : b is not what C makes it"},
     {kSmallest, "a < b ? a : b is not what C makes it"},
     {kQuotient, "a division by zero, infinity or NaN comes out wrong"},
+    {kVectors, "vectors give other results than single floats"},
 };
 
 // OpenCL lets a finite quotient be off by 2.5 ulp, and nothing in the collider needs it better.
@@ -120,6 +121,7 @@ SelfTestResult expected_result(const SelfTestCase& values) {
   result[kLargest] = bits_of(a > b ? a : b);
   result[kSmallest] = bits_of(a < b ? a : b);
   result[kQuotient] = bits_of(a / b);
+  result[kVectors] = 1;
   return result;
 }
 
@@ -130,8 +132,9 @@ SelfTestReport check_self_test(const std::vector<SelfTestCase>& cases,
   for (const auto& [column, broken] : kProperties) {
     for (std::size_t i = 0; i < judged; ++i) {
       const std::uint32_t expected = expected_result(cases[i])[column];
-      const std::uint32_t result =
-          column == kComparisons ? results[i][column] : canonical(results[i][column]);
+      const std::uint32_t result = column == kComparisons || column == kVectors
+                                       ? results[i][column]
+                                       : canonical(results[i][column]);
       if (result != expected && is_judged(column, cases[i])) {
         refuse(device, broken + in_words(cases[i], result, expected));
       }

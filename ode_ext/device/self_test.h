@@ -22,6 +22,7 @@ enum SelfTestColumn {
   kLargest,         // a > b ? a : b
   kSmallest,        // a < b ? a : b
   kQuotient,        // a / b
+  kVectors,         // 1: lane by lane the same as single floats (shared/lanes.h)
   kTicket,          // what the counter stood at
   kSelfTestColumns  // their number
 };

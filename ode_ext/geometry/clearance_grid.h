@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far it is at least from a point to the surface of a mesh: a vertex, an edge or a whole run of
-// them is dismissed by one look. Blocks of 2 x 2 x 2 cells of the occupancy grid, each with the
+// How far it is at least from a point to the surface of a mesh: a vertex or a whole run of them is
+// dismissed by one look. Blocks of 2 x 2 x 2 cells of the occupancy grid, each with the
 // distance of its centre.
 #pragma once
 

@@ -12,7 +12,9 @@ static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SM
               static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
               kArrowCount == OX_LIST_COUNT);
 
-// Counters and indices have 32 bits; tiles are cut so that nothing needs more.
+// Counters and indices have 32 bits. Tiles are cut so that vertices need no more; what else there
+// is too much of is seen, since counters stop at 2^31 (shared/append.h), and does not fit the
+// device.
 constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 30;
 
 // What a record of each list takes in all buffers together [bytes].

@@ -58,6 +58,10 @@ Collider::Collider(const ColliderOptions& options)
       read_counters_(device_),
       read_ranges_(device_),
       read_contacts_(device_) {
+  if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
+      options_.vector_width != 8 && options_.vector_width != 16)
+    throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
+                                ", not 0, 1, 4, 8 or 16");
   if (options_.work_group_size > device_.info().work_group_limit)
     throw std::invalid_argument("work_group_size is " + std::to_string(options_.work_group_size) +
                                 ", more than the " +
@@ -297,11 +301,13 @@ ArrowCounts Collider::read_back(Tile tile, const ArrowCounts& predicted) {
 }
 
 // Of what was counted, what was to be stored: the monolithic organisation has no chunk lists and no
-// ray lists.
+// ray lists, and pairs of meshlets that are not stored are crossed at once (kernels/match.cl).
 ArrowCounts Collider::stored(const ArrowCounts& actual) const {
   ArrowCounts counts = actual;
   if (options_.organisation == Organisation::kMonolithic)
     std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kMeshlets), 0u);
+  std::uint64_t& pairs = counts[static_cast<std::size_t>(Arrow::kMeshletPairs)];
+  pairs = std::min(pairs, at(lists_.capacities(), Arrow::kMeshletPairs));
   return counts;
 }
 

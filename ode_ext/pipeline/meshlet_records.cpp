@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace ode_ext {
 namespace {
 
+static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, corner) % 64 == 0,
+              "shared/lanes.h loads them whole");
 static_assert(kMeshletTriangles == OX_LANES && kMeshletVertices == OX_LANES &&
               kMeshletEdges == OX_MESHLET_EDGES);
 

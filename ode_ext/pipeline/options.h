@@ -32,8 +32,8 @@ struct ColliderOptions {
   bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
   bool count_work = false;
-  // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that no
-  // counter and no index passes 2^32.
+  // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that none
+  // of their counters and indices passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;
   std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it
 };

@@ -33,7 +33,7 @@ class MatchStep {
            const PairBuffers& pairs) {
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.meshlets(),
                    pairs.pairs, meshes.records(), meshes.meshlets(), meshes.meshlet_nodes(),
-                   lists.meshlet_pairs());
+                   lists.meshlet_pairs(), pairs.crossings, lists.crossings());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

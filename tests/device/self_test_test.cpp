@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 
-#include "device/embedded_kernels.h"
 #include "device/error.h"
 
 namespace ode_ext {
@@ -71,6 +70,7 @@ TEST(SelfTestCheck, NamesTheProperty) {
   EXPECT_TRUE(mentions(verdict_with_fault_in(kComparisons), "a comparison"));
   EXPECT_TRUE(mentions(verdict_with_fault_in(kLargest), "a > b ? a : b"));
   EXPECT_TRUE(mentions(verdict_with_fault_in(kSmallest), "a < b ? a : b"));
+  EXPECT_TRUE(mentions(verdict_with_fault_in(kVectors), "vectors give other results"));
 }
 
 TEST(SelfTestCheck, AcceptsAnyNan) {
@@ -92,7 +92,8 @@ TEST(SelfTestCheck, TakesZerosOfEitherSignForOne) {
     for (SelfTestResult& result : planted.results) {
       for (int column = 0; column < kTicket; ++column) {
         std::uint32_t& word = result[static_cast<std::size_t>(column)];
-        if (column == kComparisons || std::bit_cast<float>(word) != 0) continue;
+        if (column == kComparisons || column == kVectors || std::bit_cast<float>(word) != 0)
+          continue;
         word = zero;
         ++zeros[column];
       }
@@ -168,16 +169,10 @@ TEST(SelfTestCases, ContainDifferencesThatAreExactlyZeroOnlyIfNothingIsFused) {
   EXPECT_GE(not_zero_if_fused, 300);
 }
 
-// kernels/self_test.cl with `from` replaced.
+// The kernels with `from` in self_test.cl replaced.
 std::string changed_kernel(const std::string& from, const std::string& to) {
-  std::string source;
-  for (std::size_t i = 0; i < kEmbeddedKernelCount; ++i) {
-    const EmbeddedKernel& file = kEmbeddedKernels[i];
-    if (file.name == std::string("self_test.cl")) {
-      source.assign(reinterpret_cast<const char*>(file.text), file.size);
-    }
-  }
-  const std::size_t at = source.find(from);
+  std::string source = embedded_source();
+  const std::size_t at = source.find(from, source.find("#line 1 \"self_test.cl\""));
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? source : source.replace(at, from.size(), to);
 }
@@ -212,6 +207,12 @@ TEST(SelfTest, RefusesAnInexactFma) {
 
 TEST(SelfTest, RefusesSelectionsThatTreatNanAsFmaxDoes) {
   EXPECT_TRUE(mentions(verdict_of(changed_kernel("a > b ? a : b", "fmax(a, b)")), "a > b ? a : b"));
+}
+
+TEST(SelfTest, RefusesVectorsThatFuse) {
+  EXPECT_TRUE(mentions(verdict_of(changed_kernel("in[0] * in[1] - in[2] * in[3]",
+                                                 "fma(in[0], in[1], -(in[2] * in[3]))")),
+                       "vectors give other results"));
 }
 
 TEST(SelfTest, RefusesCountersThatAreNotAtomic) {

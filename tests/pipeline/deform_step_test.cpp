@@ -119,6 +119,7 @@ void expect_meshlets(const Mesh& mesh, const MeshRecords& records) {
       return mesh.vertices[built.meshlets.vertices[meshlet.vertex_first + used]];
     };
     Box box = empty_box();
+    float low = kInfinity, high = -kInfinity;
     for (std::uint32_t k = 0; k < OX_LANES; ++k) {
       const bool used = k < meshlet.triangle_count;
       const ox_triangle& triangle =
@@ -133,7 +134,11 @@ void expect_meshlets(const Mesh& mesh, const MeshRecords& records) {
       const float height = dot(vec(record.slab_normal), vertex(k));
       EXPECT_NEAR(std::clamp(height, record.slab_lo, record.slab_hi), height,
                   1e-6f * records.mesh.extent);
+      low = std::min(low, height);
+      high = std::max(high, height);
     }
+    EXPECT_NEAR(low, record.slab_lo, 1e-6f * records.mesh.extent);
+    EXPECT_NEAR(high, record.slab_hi, 1e-6f * records.mesh.extent);
     EXPECT_EQ(vec(record.lo), box.lo);
     EXPECT_EQ(vec(record.hi), box.hi);
   }
@@ -284,8 +289,6 @@ TEST(DeformStep, TakesTheThicknessAskedForOfASheet) {
   for (const ox_vertex& vertex : rig.read(0).vertices) EXPECT_EQ(vertex.exit, 0.375f);
 }
 
-// With the device's own normals, so that only the rays differ: they are right to 16 roundings of
-// the size (2^-20) across the face that they meet, along it at up to 16 times that.
 // A flat edge lies within a facet: it crosses nothing that others do not.
 TEST(DeformStep, LeavesEdgesOutThatAreFlatInThePresentShape) {
   const TriangleSoup sheet = soup_of(make_sheet(1.5, 8));
@@ -305,6 +308,8 @@ TEST(DeformStep, LeavesEdgesOutThatAreFlatInThePresentShape) {
   EXPECT_EQ(edges_apart(), 32);
 }
 
+// With the device's own normals, so that only the rays differ: they are right to 16 roundings of
+// the size (2^-20) across the face that they meet, along it at up to 16 times that.
 TEST(DeformStep, CastsTheExitsOfClosedMeshes) {
   DeformRig rig;
   for (const TestMesh& mesh : {make_icosphere(0.6, 3), make_torus(0.5, 0.2, 24, 16),

@@ -46,6 +46,22 @@ TEST(OclgrindPipeline, CollidesClosedMeshes) {
   EXPECT_EQ(found[3], 0u);
 }
 
+// Oclgrind's own device has no vectors.
+TEST(OclgrindPipeline, CollidesTheSameByVectors) {
+  TestScene scene;
+  const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.6, 1));
+  scene.add_pair(sphere, at(0.1, 0.05, 0.9), sphere, at(0, 0, 0));
+  const auto contacts = [&](std::uint32_t width) {
+    ColliderOptions options = small_options();
+    options.vector_width = width;
+    Collider collider(options);
+    return bits_of(collider.collide(scene.scene, nullptr));
+  };
+  const auto expected = contacts(1);
+  EXPECT_FALSE(expected[0].empty());
+  EXPECT_EQ(contacts(8), expected);
+}
+
 TEST(OclgrindPipeline, RedoesWhatOverflows) {
   TestScene scene;
   const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.6, 1));

@@ -255,7 +255,7 @@ TEST(Search, FindsTheSameBytesWhateverTheWidthOfVectors) {
   const auto expected = contacts(8);
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
-  for (const std::uint32_t width : {1u, 16u}) EXPECT_EQ(contacts(width), expected) << width;
+  for (const std::uint32_t width : {1u, 4u, 16u}) EXPECT_EQ(contacts(width), expected) << width;
 }
 
 // Each crossing is among those of its pair, once, with all that its ray found.
