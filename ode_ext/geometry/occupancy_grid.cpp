@@ -19,6 +19,12 @@ constexpr double kFewestCells = 4096;   // 16 cubed
 constexpr double kMostCells = 1 << 22;  // 512 KiB
 constexpr double kLongestSide = 512;    // [cells], of a box with a side of no length
 
+// Each cell in the box of a triangle is looked at, for slabs likewise (surface_slabs.cpp). A
+// surface that is cut evenly has some 50 of them a triangle; long triangles that lie askew have as
+// many as there are cells, which is no fraction of anything: they get fewer cells.
+constexpr double kMostLooks = 1024;  // [cells] a triangle, on average
+constexpr double kFewLooks = 1 << 20;
+
 // The cell of a point is computed in float by a subtraction, a factor that is itself rounded, and a
 // multiplication: off by at most 3 * 2^-24 of the side. Surface cells are widened by more, and the
 // upper face of the box stays within the last cell although cells_per_meter is rounded.
@@ -29,18 +35,25 @@ constexpr double kLargestSide = 0x1p100;  // [m]
 constexpr double kSmallestSide = 0x1p-100;
 
 using Cell = std::array<std::int64_t, 3>;
+using Triangle = std::array<std::uint32_t, 3>;
 
 class GridBuilder {
  public:
   // False if the box has no size that a grid can be laid over.
-  bool lay_over(Vec3f lo, Vec3f hi, double margin, std::size_t triangle_count) {
+  bool lay_over(Vec3f lo, Vec3f hi, double margin, const std::vector<Vec3f>& vertices,
+                const std::vector<Triangle>& triangles) {
     const Vec3d size = extent({lo, hi});
     const double longest = std::max({size.x, size.y, size.z});
     if (!(longest >= kSmallestSide && longest <= kLargestSide)) return false;
-    const double budget = std::clamp(kCellsPerTriangle * static_cast<double>(triangle_count),
-                                     kFewestCells, kMostCells);
-    const double cube =
-        std::max(std::cbrt(size.x / budget * size.y * size.z), longest / kLongestSide);
+    const auto count = static_cast<double>(triangles.size());
+    double budget = std::clamp(kCellsPerTriangle * count, kFewestCells, kMostCells);
+    const auto cube_for = [&](double cells) {
+      return std::max(std::cbrt(size.x / cells * size.y * size.z), longest / kLongestSide);
+    };
+    while (budget > kFewestCells &&
+           cells_in_boxes(vertices, triangles, cube_for(budget)) > kMostLooks * count + kFewLooks)
+      budget = std::max(kFewestCells, budget / 2);
+    const double cube = cube_for(budget);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       grid_.origin[axis] = rounded_down(lo[axis] - margin);
       side_[axis] = (double{hi[axis]} - grid_.origin[axis]) + margin;
@@ -130,6 +143,19 @@ class GridBuilder {
   }
 
  private:
+  // About how many cells of this side the boxes of all triangles have together.
+  static double cells_in_boxes(const std::vector<Vec3f>& vertices,
+                               const std::vector<Triangle>& triangles, double side) {
+    double sum = 0;
+    for (const Triangle& triangle : triangles) {
+      Box box = empty_box();
+      for (const std::uint32_t corner : triangle) box = grown(box, vertices[corner]);
+      const Vec3d size = extent(box);
+      sum += (size.x / side + 1) * (size.y / side + 1) * (size.z / side + 1);
+    }
+    return sum;
+  }
+
   static float rounded_down(double value) {
     const auto rounded = static_cast<float>(value);
     if (rounded <= value) return rounded;
@@ -166,7 +192,7 @@ OccupancyGrid build_occupancy_grid(const std::vector<Vec3f>& vertices,
                                    const std::vector<std::array<std::uint32_t, 3>>& triangles,
                                    Vec3f lo, Vec3f hi, float margin, bool closed) {
   GridBuilder builder;
-  if (!builder.lay_over(lo, hi, margin, triangles.size())) return {};
+  if (!builder.lay_over(lo, hi, margin, vertices, triangles)) return {};
   for (const auto& triangle : triangles) {
     builder.add_triangle(vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]);
   }

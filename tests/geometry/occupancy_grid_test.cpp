@@ -132,6 +132,27 @@ TEST(OccupancyGrid, HasMoreCellsForMoreTriangles) {
   EXPECT_GT(more, 10 * few);
 }
 
+// Each cell in the box of a triangle is looked at: of needles that lie askew, all of them.
+TEST(OccupancyGrid, IsCoarserWhereTheBoxesOfTrianglesHoldMostOfIt) {
+  const auto cells_of = [](float across) {
+    std::vector<Vec3f> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < 4000; ++i) {
+      const auto t = static_cast<float>(i) / 4000;
+      const float x = std::fmod(37 * t, 1.0f), y = std::fmod(101 * t, 1.0f);
+      vertices.insert(vertices.end(), {{x, y, t},
+                                       {x + across, y + across, t + across},
+                                       {x + across, y + across + 0.001f, t + across}});
+      triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const OccupancyGrid grid =
+        build_occupancy_grid(vertices, triangles, {0, 0, 0}, {2, 2, 2}, 0, false);
+    return std::size_t{grid.cells[0]} * grid.cells[1] * grid.cells[2];
+  };
+  EXPECT_GT(cells_of(0.01f), 900000u);
+  EXPECT_LT(cells_of(1), 50000u);
+}
+
 TEST(OccupancyGrid, TakesFarPointsAndPointsThatAreNotNumbersForOutside) {
   const Mesh mesh = build_mesh(shapes::cube());
   for (const float far : {-1.0f, 2.0f, 1e10f, -1e38f, INFINITY, -INFINITY, NAN}) {
