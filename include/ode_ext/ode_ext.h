@@ -262,8 +262,10 @@ enum {
   dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
   dBatchBufferRaysBasic = 5,     /**< every triangle */
   /* cull -> match -> cross */
-  dBatchBufferMeshlets = 6,     /**< clusters of triangles that can meet the other mesh */
-  dBatchBufferMeshletPairs = 7, /**< that can meet one another */
+  dBatchBufferMeshlets = 6, /**< clusters of triangles that can meet the other mesh */
+  dBatchBufferMeshletPairs =
+      7, /**< that can meet one another; those beyond the capacity are crossed
+                                   at once, so that none is lost and nothing is redone for them */
   /* ray step, cross -> contact step */
   dBatchBufferHits = 8,      /**< of vertex rays */
   dBatchBufferCrossings = 9, /**< of edges with triangles */

@@ -26,6 +26,7 @@ std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Tr
     found.push_back(edge);
     middles.push_back(0.5f * vertices[edge.vertices[0]] + 0.5f * vertices[edge.vertices[1]]);
   }
+  if (facets.empty()) return found;
   std::vector<Edge> result;
   result.reserve(found.size());
   for (const std::uint32_t i : order_into_runs(middles)) result.push_back(found[i]);

@@ -16,7 +16,8 @@ struct Edge {
   std::array<std::uint32_t, 2> triangles;  // the second is kNone where there is none
 };
 
-// In runs by their middles (runs.h). `facets` as facets.h gives them; empty: every edge. Where more
+// In runs by their middles (runs.h). `facets` as facets.h gives them; empty: every edge, by their
+// vertices. Where more
 // than two triangles meet, they are taken two by two: each of them is at one of the edges.
 std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
                         const std::vector<std::uint32_t>& facets);

@@ -45,8 +45,9 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.finite = is_finite(soup);
   if (!mesh.finite) return mesh;
 
-  WeldedMesh welded = weld(soup);
-  // Not of a deformable one: its vertices are numbered by the shape it was first met in.
+  // No number may depend on the shape that a deformable mesh happened to be met in first, or equal
+  // contacts would be told apart by its past; nor on how the program lists a rigid one.
+  WeldedMesh welded = weld(soup, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
   if (!mesh.deformable) order_by_vertices(welded);
   mesh.vertices = std::move(welded.vertices);
   mesh.triangles = std::move(welded.triangles);

@@ -40,8 +40,8 @@ struct Mesh {
   // What it was made of, bit for bit: by this it is known to be unchanged, or the same as another.
   // 36 bytes a triangle, about a tenth of the rest.
   TriangleSoup soup;
-  // Vertices welded by exact equality, in runs (runs.h) [m], local frame.
-  // Those of a shape are in the order of its base.
+  // Vertices welded by exact equality, in runs (runs.h), of deformable meshes in the order in which
+  // the program lists them [m], local frame. Those of a shape are in the order of its base.
   std::vector<Vec3f> vertices;
   // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
   // normals of the faces are empty for a deformable mesh: the device makes them.

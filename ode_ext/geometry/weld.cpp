@@ -26,9 +26,22 @@ Triangle rotated(const Triangle& t) {
   return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
 }
 
+// The places by the first corner that lies there; `place` of each corner.
+std::vector<std::uint32_t> in_order_of_listing(const std::vector<std::uint32_t>& place,
+                                               std::size_t place_count) {
+  std::vector<std::uint32_t> order;
+  std::vector<bool> listed(place_count);
+  for (const std::uint32_t i : place) {
+    if (listed[i]) continue;
+    listed[i] = true;
+    order.push_back(i);
+  }
+  return order;
+}
+
 }  // namespace
 
-WeldedMesh weld(const std::vector<Vec3f>& soup) {
+WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder vertex_order) {
   WeldedMesh mesh;
   std::vector<Corner> corners;
   corners.reserve(soup.size());
@@ -50,7 +63,9 @@ WeldedMesh weld(const std::vector<Vec3f>& soup) {
     place[corner.index] = static_cast<std::uint32_t>(places.size() - 1);
   }
 
-  const std::vector<std::uint32_t> order = order_into_runs(places);
+  const std::vector<std::uint32_t> order = vertex_order == VertexOrder::kRuns
+                                               ? order_into_runs(places)
+                                               : in_order_of_listing(place, places.size());
   std::vector<std::uint32_t> vertex(places.size());
   mesh.vertices.reserve(places.size());
   for (const std::uint32_t i : order) {

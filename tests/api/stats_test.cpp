@@ -105,7 +105,10 @@ TEST_F(ApiStats, TellThatABufferWasTooSmallAndThePassRedone) {
   const auto stats = collider.stats();
   EXPECT_NE(stats.status & dBatchStatusRedone, 0u);
   EXPECT_GE(stats.redone, 1);
-  for (int i = 0; i < dBatchBufferCount; ++i) EXPECT_GE(stats.capacity[i], stats.actual[i]) << i;
+  for (int i = 0; i < dBatchBufferCount; ++i) {
+    if (i == dBatchBufferMeshletPairs) continue;  // what has no room there is crossed at once
+    EXPECT_GE(stats.capacity[i], stats.actual[i]) << i;
+  }
   pile.shake(1);  // the poses it had
   collider.pass(space);
   EXPECT_EQ(collider.stats().status & dBatchStatusRedone, 0u);

@@ -120,6 +120,25 @@ TEST(Chunks, HoldEveryVertexOnceInTightBoxes) {
   }
 }
 
+// Deformable meshes: numbers that stay while vertices move.
+TEST(Weld, NumbersVerticesByTheListingAloneWhereAskedTo) {
+  const TriangleSoup soup = shapes::torus(1, 0.3, 20);
+  TriangleSoup moved = soup;
+  for (Vec3f& v : moved) v = {v.y - 0.25f * v.x, v.z * v.z * v.z + v.y, v.x};
+  const WeldedMesh built = weld(soup, VertexOrder::kListing);
+  const WeldedMesh other = weld(moved, VertexOrder::kListing);
+  EXPECT_EQ(built.corner_vertex, other.corner_vertex);
+  EXPECT_EQ(built.triangles, other.triangles);
+  EXPECT_NE(weld(soup).corner_vertex, weld(moved).corner_vertex) << "what runs depend on";
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < soup.size(); ++i) {
+    EXPECT_LE(built.corner_vertex[i], next);
+    EXPECT_EQ(built.vertices[built.corner_vertex[i]], soup[i] + Vec3f{});
+    next = std::max(next, built.corner_vertex[i] + 1);
+  }
+  EXPECT_EQ(next, built.vertices.size());
+}
+
 TEST(Chunks, AreSmallBecauseVerticesComeInRuns) {
   const std::vector<Vec3f> vertices = weld(shapes::sphere(1, 60)).vertices;
   double sum = 0;
