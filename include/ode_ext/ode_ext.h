@@ -149,9 +149,9 @@ typedef struct dBatchColliderParams {
   dReal displacement_limit; /**< how far the vertices of a pair may have moved since its last pass
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
-  int count_work; /**< nonzero: count the work of every work-item of the vertex and ray steps
+  int count_work;         /**< nonzero: count the work of every work-item of vertices and their rays
                              (see dBatchWork); slow */
-  int edges;      /**< dBatchEdges... */
+  int edges;              /**< dBatchEdges... */
   int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
                              above); 0 (default): as in ODE it is not asked */
 } dBatchColliderParams;
@@ -262,10 +262,9 @@ enum {
   dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
   dBatchBufferRaysBasic = 5,     /**< every triangle */
   /* cull -> match -> cross */
-  dBatchBufferMeshlets = 6, /**< clusters of triangles that can meet the other mesh */
-  dBatchBufferMeshletPairs =
-      7, /**< that can meet one another; those beyond the capacity are crossed
-                                   at once, so that none is lost and nothing is redone for them */
+  dBatchBufferMeshlets = 6,     /**< clusters of triangles that can meet the other mesh */
+  dBatchBufferMeshletPairs = 7, /**< that can meet one another; without loss or redoing those beyond
+                                     the capacity are crossed at once */
   /* ray step, cross -> contact step */
   dBatchBufferHits = 8,      /**< of vertex rays */
   dBatchBufferCrossings = 9, /**< of edges with triangles */

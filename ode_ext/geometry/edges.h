@@ -16,9 +16,9 @@ struct Edge {
   std::array<std::uint32_t, 2> triangles;  // the second is kNone where there is none
 };
 
-// In runs by their middles (runs.h). `facets` as facets.h gives them; empty: every edge, by their
-// vertices. Where more
-// than two triangles meet, they are taken two by two: each of them is at one of the edges.
+// Those between facets, in runs by their middles (runs.h); `facets` as facets.h gives them. Where
+// these are empty: every edge, by its vertices. Where more than two triangles meet, they are taken
+// two by two: each of them is at one of the edges.
 std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
                         const std::vector<std::uint32_t>& facets);
 

@@ -279,8 +279,10 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
-  append_edges(built,
-               {vertex_first, record.triangle_first, static_cast<ox_u32>(host_edges_.size())});
+  const MeshletPlaces first{vertex_first, record.triangle_first,
+                            static_cast<std::uint32_t>(host_edges_.size())};
+  append_edges(built, first);
+  append_meshlets(built, first, host_meshlets_);
   if (!mesh.deformable) append_groups(built.chunks, record.chunk_first, host_chunks_);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
@@ -321,7 +323,6 @@ void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first) {
     }
     host_edges_.push_back(record);
   }
-  append_meshlets(mesh, first, host_meshlets_);
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
