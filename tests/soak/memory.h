@@ -10,6 +10,14 @@
 
 namespace ode_ext::soak {
 
+// A sanitizer keeps shadows of all memory ever touched, several times its size, and freed blocks in
+// quarantine: resident memory then says nothing about this program.
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr bool kResidentMemoryIsOurs = false;
+#else
+constexpr bool kResidentMemoryIsOurs = true;
+#endif
+
 // What the process holds in memory now [MiB].
 inline double resident_mib() {
   long long pages = 0, resident = 0;
