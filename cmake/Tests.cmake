@@ -9,7 +9,7 @@ find_package(ccd REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
 # All of contact_accuracy but main, once for the program and once for its tests.
-file(GLOB accuracy_sources CONFIGURE_DEPENDS tests/accuracy/*.cpp)
+file(GLOB accuracy_sources CONFIGURE_DEPENDS tests/bench/accuracy/*.cpp)
 list(FILTER accuracy_sources EXCLUDE REGEX "(/main|_test)\\.cpp$")
 add_library(contact_accuracy_parts OBJECT ${accuracy_sources})
 ode_ext_compile_options(contact_accuracy_parts)
@@ -27,11 +27,12 @@ target_link_libraries(ode_ext_cgal_oracle PRIVATE CGAL::CGAL)
 
 include(Fuzz)
 
-file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp
+file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test.cpp
      tests/support/fcl_*.cpp tests/support/ccd_*.cpp
-     tests/audit/scene_audit.cpp tests/audit/kind*.cpp tests/audit/pair_*.cpp
-     tests/stability/bench.cpp tests/stability/ground.cpp tests/stability/report.cpp
-     tests/stability/shape.cpp tests/stability/stack.cpp)
+     tests/bench/audit/scene_audit.cpp tests/bench/audit/kind*.cpp tests/bench/audit/pair_*.cpp
+     tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
+     tests/bench/stability/report.cpp tests/bench/stability/shape.cpp
+     tests/bench/stability/stack.cpp)
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
@@ -67,14 +68,14 @@ set_tests_properties(short_soak PROPERTIES TIMEOUT 120)
 
 # The contacts of a whole run against FCL; too long for the tests, which audit a small scene.
 add_executable(rigid_audit EXCLUDE_FROM_ALL
-  tests/audit/rigid_audit.cpp tests/audit/scene_audit.cpp tests/audit/pair_audit.cpp
-  tests/audit/pair_poses.cpp tests/support/fcl_oracle.cpp)
+  tests/bench/audit/rigid_audit.cpp tests/bench/audit/scene_audit.cpp tests/bench/audit/pair_audit.cpp
+  tests/bench/audit/pair_poses.cpp tests/support/fcl_oracle.cpp)
 ode_ext_compile_options(rigid_audit)
 target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 fcl Eigen3::Eigen)
 
 # Do bodies rest, slide and stand on the contacts? Minutes; the tests try its parts.
-file(GLOB stability_sources CONFIGURE_DEPENDS tests/stability/*.cpp)
+file(GLOB stability_sources CONFIGURE_DEPENDS tests/bench/stability/*.cpp)
 list(FILTER stability_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(contact_stability ${stability_sources})
 ode_ext_compile_options(contact_stability)
@@ -83,25 +84,39 @@ target_link_libraries(contact_stability PRIVATE
   nlohmann_json::nlohmann_json)
 
 # How true are the contacts, against oracles and beside ODE's own collider? Half a minute; the tests judge its trials.
-add_executable(contact_accuracy tests/accuracy/main.cpp tests/support/ccd_oracle.cpp)
+add_executable(contact_accuracy tests/bench/accuracy/main.cpp tests/support/ccd_oracle.cpp)
 ode_ext_compile_options(contact_accuracy)
 target_link_libraries(contact_accuracy PRIVATE
   ode_ext::ode_ext contact_accuracy_parts ode_ext_test_support CLI11::CLI11 ccd)
 
 # Every kind of mesh against every other in random poses, and the same scene.
-file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/audit/*.cpp tests/support/fcl_*.cpp)
+file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/bench/audit/*.cpp tests/support/fcl_*.cpp)
 list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit)\\.cpp$")
 add_executable(missed_pairs EXCLUDE_FROM_ALL ${missed_pairs_sources})
 ode_ext_compile_options(missed_pairs)
 target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
 
-# What a pair costs, beside ODE's own collider and FCL. Minutes.
-file(GLOB pair_times_sources CONFIGURE_DEPENDS tests/bench/*.cpp tests/support/fcl_*.cpp)
-add_executable(pair_times EXCLUDE_FROM_ALL ${pair_times_sources})
-ode_ext_compile_options(pair_times)
-target_link_libraries(pair_times PRIVATE ode_ext::ode_ext ode_ext_test_support CLI11::CLI11
-                      GTest::gtest fcl Eigen3::Eigen)
+# What a pair and a pass cost, beside ODE's own collider, FCL and Bullet's GImpact. Minutes.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(Bullet REQUIRED IMPORTED_TARGET bullet)
+add_library(ode_ext_bench OBJECT EXCLUDE_FROM_ALL
+  tests/bench/pair_cases.cpp tests/bench/rivals.cpp tests/support/fcl_oracle.cpp)
+ode_ext_compile_options(ode_ext_bench)
+target_link_libraries(ode_ext_bench PUBLIC
+  ode_ext_test_support fcl Eigen3::Eigen PkgConfig::Bullet)
+foreach(bench pair_times pile_times)
+  add_executable(${bench} tests/bench/${bench}.cpp)
+  ode_ext_compile_options(${bench})
+  target_link_libraries(${bench} PRIVATE
+    ode_ext::ode_ext ode_ext_bench falling_objects_parts CLI11::CLI11 GTest::gtest)
+endforeach()
+
+add_test(NAME bench_of_pairs COMMAND pair_times
+         --pairs 4 --triangles 100 --repetitions 1 --only rocks --csv pair_times.csv)
+add_test(NAME bench_of_a_pile COMMAND pile_times
+         --bodies 6 --triangles 100 --steps 40 --first 36 --every 2 --csv pile_times.csv)
+set_tests_properties(bench_of_pairs bench_of_a_pile PROPERTIES TIMEOUT 120)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)

@@ -154,6 +154,8 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
       << summary.hash << std::dec << std::setfill(' ') << '\n';
 }
 
+const char* stage_name(std::size_t stage) { return kStageNames.at(stage); }
+
 void write_csv(std::ostream& out, const std::vector<StepRecord>& steps) {
   out << "step,pairs,colliding_pairs,contacts,rays,status";
   for (const char* name : kStageNames) out << ',' << name << "_ms";

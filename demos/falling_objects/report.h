@@ -28,6 +28,9 @@ class Progress {
   int every_;
 };
 
+// Of the timed stages (dBatchStage...) as columns are named; "gather".
+const char* stage_name(std::size_t stage);
+
 struct Summary {
   std::string device;  // empty: no batch collider
   std::size_t lost_objects = 0;

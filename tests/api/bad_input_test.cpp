@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "accuracy/contact_match.h"
+#include "bench/accuracy/contact_match.h"
 #include "reference/reference_hits.h"
 #include "support/batch_collider.h"
 

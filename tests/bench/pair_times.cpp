@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pair costs: the library in a batch and alone, ODE's own collider, and FCL, on the same
-// poses, interleaved. Poses change by a hair from one repetition to the next: nobody answers from
-// memory.
-#include <fcl/fcl.h>
+// What a pair costs: the library in a batch and alone, ODE's own collider, FCL and GImpact, on
+// the same poses, interleaved. Poses change by a hair from one repetition to the next: nobody
+// answers from memory.
 #include <ode/ode.h>
 #include <ode_ext/ode_ext.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/pair_cases.h"
+#include "bench/rivals.h"
+#include "bench/timing.h"
 #include "support/batch_collider.h"
 #include "support/ode_world.h"
 
@@ -26,185 +26,169 @@ int dCollideTTL(dxGeom* a, dxGeom* b, int flags, dContactGeom* contacts, int str
 namespace {
 
 using namespace ode_ext;
+using bench::median;
+using bench::milliseconds;
 
 constexpr int kContacts = 16;
-using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
 
 struct Options {
   int pairs = 200;
   int repetitions = 9;
+  std::vector<int> triangles = {100, 1000, 5000, 20000, 100000};
   std::string only, csv;
 };
 
-struct Times {
-  std::vector<double> batch, alone, ode, fcl_all, fcl_any;  // [ms a pair]
+struct Contestant {
+  std::string name;
+  std::vector<double> ms;  // a pair
+};
+constexpr std::size_t kBatch = 0, kAlone = 1, kOde = 2;  // rivals follow
+
+struct Result {
+  std::vector<Contestant> contestants;
   int colliding = 0;
 };
 
-std::shared_ptr<FclModel> fcl_model(const test::TestMesh& mesh) {
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> triangles;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(mesh.vertex_count()); ++i)
-    vertices.emplace_back(mesh.vertex(i)[0], mesh.vertex(i)[1], mesh.vertex(i)[2]);
-  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-    triangles.emplace_back(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
-  auto model = std::make_shared<FclModel>();
-  model->beginModel();
-  model->addSubModel(vertices, triangles);
-  model->endModel();
-  return model;
-}
-
-fcl::Transform3d fcl_pose(const test::TestPose& pose) {
-  fcl::Transform3d result = fcl::Transform3d::Identity();
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c)
-      result.linear()(r, c) = pose.rotation[static_cast<std::size_t>(3 * r + c)];
-    result.translation()[r] = pose.position[static_cast<std::size_t>(r)];
+Result measure(const bench::PairCase& pair_case, const Options& options) {
+  test::OdeWorld world;
+  const test::BatchCollider collider;
+  const test::OdeMesh &a = world.mesh(pair_case.a), &b = world.mesh(pair_case.b);
+  const std::vector<std::unique_ptr<bench::Rival>> rivals = bench::make_rivals();
+  Result result{{{"batch", {}}, {"alone", {}}, {"ODE", {}}}};
+  for (const auto& rival : rivals) {
+    result.contestants.push_back({rival->name(), {}});
+    rival->add_mesh(pair_case.a);
+    rival->add_mesh(pair_case.b);
+  }
+  std::vector<dGeomID> geoms;
+  for (const bench::PosedPair& pair : pair_case.pairs) {
+    for (const auto& rival : rivals) {
+      rival->add_object(0);
+      rival->add_object(1);
+      rival->place(geoms.size(), pair.a);
+      rival->place(geoms.size() + 1, pair.b);
+    }
+    geoms.push_back(world.geom(a, pair.a));
+    geoms.push_back(world.geom(b, pair.b));
+  }
+  const std::size_t count = pair_case.pairs.size();
+  std::vector<dContactGeom> contacts(count * kContacts);
+  std::vector<int> counts(count);
+  const auto stir = [&](int repetition) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const test::Point& at = pair_case.pairs[i].b.position;
+      const double off = 1 + 1e-7 * repetition;
+      dGeomSetPosition(geoms[2 * i + 1], off * at[0], off * at[1], off * at[2]);
+    }
+  };
+  const auto each_pair = [&](auto collide) {
+    return milliseconds([&] {
+      for (std::size_t i = 0; i < 2 * count; i += 2) collide(i, i + 1);
+    });
+  };
+  for (int r = -1; r < options.repetitions; ++r) {  // the first is to warm up
+    std::vector<double> ms;
+    stir(3 * r + 3);
+    ms.push_back(milliseconds([&] {
+      dBatchColliderCollidePairs(collider, geoms.data(), static_cast<int>(count), kContacts,
+                                 contacts.data(), sizeof(dContactGeom), counts.data());
+    }));
+    result.colliding =
+        static_cast<int>(std::count_if(counts.begin(), counts.end(), [](int n) { return n != 0; }));
+    stir(3 * r + 4);
+    ms.push_back(each_pair([&](std::size_t i, std::size_t k) {
+      dCollide(geoms[i], geoms[k], kContacts, contacts.data(), sizeof(dContactGeom));
+    }));
+    ms.push_back(each_pair([&](std::size_t i, std::size_t k) {
+      dCollideTTL(geoms[i], geoms[k], kContacts, contacts.data(), sizeof(dContactGeom));
+    }));
+    for (const auto& rival : rivals)
+      ms.push_back(each_pair([&](std::size_t i, std::size_t k) { rival->collide(i, k); }));
+    if (r < 0) continue;
+    for (std::size_t i = 0; i < ms.size(); ++i)
+      result.contestants[i].ms.push_back(ms[i] / static_cast<double>(count));
   }
   return result;
 }
 
-template <class Work>
-double milliseconds(Work work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
+struct Shape {
+  std::string name;
+  test::TestMesh a, b;
+};
 
-Times measure(const bench::PairCase& pair_case, const Options& options) {
-  test::OdeWorld world;
-  const test::BatchCollider collider;
-  const test::OdeMesh &a = world.mesh(pair_case.a), &b = world.mesh(pair_case.b);
-  std::vector<dGeomID> geoms;
-  std::vector<fcl::CollisionObjectd> objects;
-  const auto fcl_a = fcl_model(pair_case.a), fcl_b = fcl_model(pair_case.b);
-  for (const bench::PosedPair& pair : pair_case.pairs) {
-    geoms.push_back(world.geom(a, pair.a));
-    geoms.push_back(world.geom(b, pair.b));
-    objects.emplace_back(fcl_a, fcl_pose(pair.a));
-    objects.emplace_back(fcl_b, fcl_pose(pair.b));
+std::vector<Shape> shapes_of(const Options& options) {
+  std::vector<Shape> shapes;
+  shapes.push_back(
+      {"tori", test::make_torus(0.4, 0.15, 48, 24), test::make_torus(0.4, 0.15, 72, 24)});
+  for (const int triangles : options.triangles) {
+    const test::TestMesh rock = bench::make_rock(triangles);
+    shapes.push_back({"rocks", rock, rock});
   }
-  const auto count = static_cast<int>(pair_case.pairs.size());
-  const double each = 1.0 / count;
-  std::vector<dContactGeom> contacts(static_cast<std::size_t>(count * kContacts));
-  std::vector<int> counts(static_cast<std::size_t>(count));
-  const auto stir = [&](int repetition) {
-    for (int i = 0; i < count; ++i) {
-      const auto& at = pair_case.pairs[static_cast<std::size_t>(i)].b.position;
-      const double off = 1 + 1e-7 * repetition;
-      dGeomSetPosition(geoms[static_cast<std::size_t>(2 * i + 1)], off * at[0], off * at[1],
-                       off * at[2]);
-    }
-  };
-  Times times;
-  for (int r = -1; r < options.repetitions; ++r) {  // the first is to warm up
-    stir(3 * r + 3);
-    const double batch = milliseconds([&] {
-      dBatchColliderCollidePairs(collider, geoms.data(), count, kContacts, contacts.data(),
-                                 sizeof(dContactGeom), counts.data());
-    });
-    times.colliding =
-        static_cast<int>(std::count_if(counts.begin(), counts.end(), [](int n) { return n != 0; }));
-    stir(3 * r + 4);
-    const double alone = milliseconds([&] {
-      for (int i = 0; i < count; ++i)
-        dCollide(geoms[static_cast<std::size_t>(2 * i)], geoms[static_cast<std::size_t>(2 * i + 1)],
-                 kContacts, contacts.data(), sizeof(dContactGeom));
-    });
-    const double ode = milliseconds([&] {
-      for (int i = 0; i < count; ++i)
-        dCollideTTL(geoms[static_cast<std::size_t>(2 * i)],
-                    geoms[static_cast<std::size_t>(2 * i + 1)], kContacts, contacts.data(),
-                    sizeof(dContactGeom));
-    });
-    const auto fcl_time = [&](std::size_t most, bool enable) {
-      return milliseconds([&] {
-        for (int i = 0; i < count; ++i) {
-          fcl::CollisionResultd result;
-          fcl::collide(&objects[static_cast<std::size_t>(2 * i)],
-                       &objects[static_cast<std::size_t>(2 * i + 1)],
-                       fcl::CollisionRequestd(most, enable), result);
-        }
-      });
-    };
-    const double fcl_all = fcl_time(1000000, true), fcl_any = fcl_time(1, false);
-    if (r < 0) continue;
-    times.batch.push_back(batch * each);
-    times.alone.push_back(alone * each);
-    times.ode.push_back(ode * each);
-    times.fcl_all.push_back(fcl_all * each);
-    times.fcl_any.push_back(fcl_any * each);
-  }
-  return times;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-// Of the ratios of each repetition.
-double ratio(const std::vector<double>& of, const std::vector<double>& to) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < of.size(); ++i) ratios.push_back(of[i] / to[i]);
-  return median(ratios);
+  return shapes;
 }
 
 void run(const Options& options) {
   const std::vector<bench::Depth> depths = {
       {"apart", -0.02, 0}, {"near", 0, 0.002}, {"shallow", 0.01, 0}, {"deep", 0.2, 0}};
-  struct Shape {
-    const char* name;
-    test::TestMesh a, b;
-  };
-  std::vector<Shape> shapes;
-  shapes.push_back({"tori of 2,304 and 3,456", test::make_torus(0.4, 0.15, 48, 24),
-                    test::make_torus(0.4, 0.15, 72, 24)});
-  for (const int triangles : {100, 1000, 5000, 20000, 100000})
-    shapes.push_back({"rocks", bench::make_rock(triangles), bench::make_rock(triangles)});
-
-  std::ofstream csv;
+  std::FILE* csv = nullptr;
   if (!options.csv.empty()) {
-    csv.open(options.csv);
-    if (!csv) throw std::runtime_error("cannot write '" + options.csv + "'");
-    csv << "shape,triangles,depth,pairs,colliding,batch_ms,alone_ms,ode_ms,fcl_all_ms,fcl_any_ms\n";
+    csv = std::fopen(options.csv.c_str(), "w");
+    if (csv == nullptr) throw std::runtime_error("cannot write '" + options.csv + "'");
+    std::fprintf(csv,
+                 "shape,triangles_a,triangles_b,depth,pairs,colliding,collider,ms,ode_over_it\n");
   }
-  std::printf("ms a pair, medians of %d; %d pairs a batch\n\n", options.repetitions, options.pairs);
-  std::printf("%-24s %9s %-8s %9s %8s %8s %8s %8s %8s %10s %10s\n", "shape", "triangles", "depth",
-              "colliding", "batch", "alone", "ODE", "FCL all", "FCL any", "ODE/batch", "ODE/alone");
-  for (const Shape& shape : shapes)
+  std::printf("ms a pair, medians of %d; %d pairs a batch, fewer of large meshes\n\n",
+              options.repetitions, options.pairs);
+  bool named = false;
+  for (const Shape& shape : shapes_of(options))
     for (const bench::Depth& depth : depths) {
-      const std::string name = std::string(shape.name) + ", " + depth.name;
-      if (name.find(options.only) == std::string::npos) continue;
       const int triangles = shape.a.triangle_count() + shape.b.triangle_count();
+      const std::string name = shape.name + ' ' + std::to_string(triangles / 2) + ", " + depth.name;
+      if (name.find(options.only) == std::string::npos) continue;
       const int count = std::max(4, std::min(options.pairs, 8000000 / triangles));
-      const Times t = measure(bench::make_case(name, shape.a, shape.b, depth, count, 1), options);
-      std::printf("%-24s %9d %-8s %5d/%3d %8.4f %8.4f %8.4f %8.4f %8.4f %10.2f %10.2f\n",
-                  shape.name, triangles, depth.name.c_str(), t.colliding, count, median(t.batch),
-                  median(t.alone), median(t.ode), median(t.fcl_all), median(t.fcl_any),
-                  ratio(t.ode, t.batch), ratio(t.ode, t.alone));
+      const Result result =
+          measure(bench::make_case(name, shape.a, shape.b, depth, count, 1), options);
+      const std::vector<Contestant>& all = result.contestants;
+      if (!std::exchange(named, true)) {
+        std::printf("%-24s %9s", "", "colliding");
+        for (const Contestant& one : all) std::printf(" %9s", one.name.c_str());
+        std::printf(" %10s %10s\n", "ODE/batch", "ODE/alone");
+      }
+      std::printf("%-24s %5d/%3d", name.c_str(), result.colliding, count);
+      for (const Contestant& one : all) std::printf(" %9.4f", median(one.ms));
+      const auto ode_over = [&](const Contestant& one) {
+        return median(bench::ratios(all[kOde].ms, one.ms));
+      };
+      std::printf(" %10.2f %10.2f\n", ode_over(all[kBatch]), ode_over(all[kAlone]));
       std::fflush(stdout);
-      if (csv.is_open())
-        csv << shape.name << ',' << triangles << ',' << depth.name << ',' << count << ','
-            << t.colliding << ',' << median(t.batch) << ',' << median(t.alone) << ','
-            << median(t.ode) << ',' << median(t.fcl_all) << ',' << median(t.fcl_any) << '\n';
+      if (csv == nullptr) continue;
+      for (const Contestant& one : all)
+        std::fprintf(csv, "%s,%d,%d,%s,%d,%d,%s,%g,%g\n", shape.name.c_str(),
+                     shape.a.triangle_count(), shape.b.triangle_count(), depth.name.c_str(), count,
+                     result.colliding, one.name.c_str(), median(one.ms), ode_over(one));
     }
+  if (csv != nullptr) std::fclose(csv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "What a pair of meshes costs: this library in a batch and alone, ODE's own collider, "
-      "FCL. One thread of the device's with POCL_MAX_PTHREAD_COUNT=1."};
+      "What a pair of meshes costs: this library in a batch and alone, ODE's own collider, FCL "
+      "(every "
+      "contact, and yes or no) and Bullet's GImpact. One thread of the device's with "
+      "POCL_MAX_PTHREAD_COUNT=1.",
+      "pair_times"};
   Options options;
   app.add_option("--pairs", options.pairs, "pairs a batch, fewer of large meshes")
       ->check(CLI::Range(4, 100000))
       ->capture_default_str();
   app.add_option("--repetitions", options.repetitions, "medians of so many")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_option("--triangles", options.triangles, "of the rocks, a row of depths for each")
+      ->check(CLI::Range(24, 10000000))
+      ->delimiter(',')
       ->capture_default_str();
   app.add_option("--only", options.only, "only cases whose name has this, for instance 'shallow'");
   app.add_option("--csv", options.csv, "write the figures there too");
