@@ -32,7 +32,7 @@ static void ox_measure_slab(__global ox_meshlet* meshlet) {
   vstore3(normal, 0, meshlet->slab_normal);
   meshlet->slab_lo = INFINITY;
   meshlet->slab_hi = -INFINITY;
-  for (uint k = 0u; k < meshlet->vertex_count; ++k) {
+  for (uint k = 0u; k < OX_LANES; ++k) {
     const float height = ox_dot(
         normal, (float3)(meshlet->vertex[0][k], meshlet->vertex[1][k], meshlet->vertex[2][k]));
     meshlet->slab_lo = ox_min(meshlet->slab_lo, height);
@@ -53,8 +53,7 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
     for (uint k = 0u; k < OX_LANES; ++k) {
       const bool used = k < meshlet->triangle_count;
       __global const ox_triangle* t = triangles + meshlet->triangle_first + (used ? k : 0u);
-      __global const ox_vertex* v =
-          vertices + meshlet->vertex_index[k < meshlet->vertex_count ? k : 0u];
+      __global const ox_vertex* v = vertices + meshlet->vertex_index[k];
       for (uint axis = 0u; axis < 3u; ++axis) {
         meshlet->corner[0][axis][k] = t->a[axis];
         meshlet->corner[1][axis][k] = used ? t->b[axis] : t->a[axis];

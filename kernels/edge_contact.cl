@@ -27,6 +27,7 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     ox_edge_crossing crossing = crossings[i];
+    if (crossing.slot == OX_NONE) continue;
     const uint p = crossing.pair_side >> 1;
     const uint side = crossing.pair_side & 1u;
     __global const ox_edge* edge = edges + crossing.edge;

@@ -2,7 +2,7 @@
 // Match: which meshlets of the other mesh can this one meet?
 //
 // in    tasks, pairs, meshes, meshlets, meshlet_nodes
-// out   meshlet_pairs; crossings, and per pair their number, of what these have no room for: boxes
+// out   meshlet_pairs; what cross.cl puts out, of what these have no room for: boxes
 //       may overlap by the million where next to nothing crosses, so their list grows with what is
 //       predicted and no further, and what it cannot take is crossed at once (cross.cl)
 // item  1 meshlet of the list (grid-stride)
@@ -12,8 +12,11 @@
 __kernel void match(__global volatile uint* counters, __global const ox_list* lists,
                     __global const ox_meshlet_task* tasks, __global const ox_pair* pairs,
                     __global const ox_mesh* meshes, __global const ox_meshlet* meshlets,
-                    __global const ox_node* meshlet_nodes, __global ox_meshlet_pair* meshlet_pairs,
-                    __global volatile uint* pair_crossings, __global ox_edge_crossing* crossings) {
+                    __global const ox_node* meshlet_nodes, uint rays_mode,
+                    __global ox_meshlet_pair* meshlet_pairs, __global volatile uint* pair_crossings,
+                    __global ox_edge_crossing* crossings, __global volatile uint* heads,
+                    __global uint* links) {
+  const ox_crossing_lists to = {counters, lists, pair_crossings, crossings, heads, links};
   const uint count = ox_length(counters, lists, OX_LIST_MESHLETS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
@@ -40,7 +43,7 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
       if (slot != OX_NONE)
         meshlet_pairs[slot] = both;
       else
-        ox_cross_meshlets(counters, lists, &both, pairs, meshlets, pair_crossings, crossings);
+        ox_cross_meshlets(&to, &both, pairs, meshes, meshlets, rays_mode);
     }
   }
 }

@@ -5,9 +5,10 @@
 // out   pairs: the relative transform and the displacement of every pair whose oriented boxes
 //       overlap
 //       tasks: runs of vertices whose box reaches the target's, in three lists: rigid pairs with
-//       small displacement, with high displacement, pairs with a deformable mesh
+//       small displacement, with high displacement, pairs with a deformable mesh; none of sides
+//       that are flooded (flood.cl)
 //       poses, directory: what the next step needs to find its temporal data
-//       pair_hits, pair_crossings, pair_ranges: cleared
+//       pair_hits, pair_crossings, heads, pair_ranges: cleared
 // item  1 pair (grid-stride)
 // may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE
 #include "shared/append.h"
@@ -136,14 +137,16 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
                         uint pair_count, uint step, uint rays_mode, float displacement_limit,
                         __global ox_relative_pose* poses, __global ox_directory_entry* directory,
                         __global ox_pair* pairs, __global uint* pair_hits,
-                        __global uint* pair_crossings, __global ox_range* pair_ranges,
-                        uint is_dense, __global const uint* dense_first,
-                        __global ox_chunk_task* tasks) {
+                        __global uint* pair_crossings, __global uint* heads,
+                        __global ox_range* pair_ranges, uint is_dense,
+                        __global const uint* dense_first, __global ox_chunk_task* tasks) {
   const uint parity = step & 1u;  // what is read and what is written: a step may be run again
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     pair_hits[p] = 0u;
     pair_crossings[p] = 0u;
+    heads[2u * p] = OX_NONE;
+    heads[2u * p + 1u] = OX_NONE;
     pair_ranges[p].first = 0u;
     pair_ranges[p].count = 0u;
     pairs[p].near = 0u;
@@ -206,6 +209,7 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     for (uint side = 0u; side < 2u; ++side) {
       __global const ox_mesh* source = side == 0u ? mesh_a : mesh_b;
       __global const ox_mesh* target = side == 0u ? mesh_b : mesh_a;
+      if ((rays_mode & OX_RAYS_FLOOD) != 0u && (target->flags & OX_MESH_EMBEDDED) != 0u) continue;
       const bool grouped = (source->flags & OX_MESH_DEFORMABLE) == 0u;
       bool near = bounded;
       for (uint k = 0u; k < source->chunk_count; ++k) {

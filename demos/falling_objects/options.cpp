@@ -50,8 +50,8 @@ void add_mode(CLI::App& app, const char* name, int& value, const char* help, con
 }
 
 void add_modes(CLI::App& app, Options& o) {
-  add_mode(app, "--rays", o.rays, "Which rays are cast (default: iterative)",
-           "iterative|full|iterative-paper",
+  add_mode(app, "--rays", o.rays, "Which rays are cast (default: full)",
+           "full|iterative|iterative-paper",
            {{"iterative", dBatchRaysIterative},
             {"full", dBatchRaysFull},
             {"iterative-paper", dBatchRaysIterativePaper}});

@@ -11,14 +11,14 @@ namespace paper {
 namespace {
 
 constexpr std::array<const char*, dBatchStageCount> kStages{
-    "gather",        "meshes",       "deform_step", "pair_step", "vertex_step", "iterative_rays",
-    "bvh_rays",      "basic_rays",   "monolithic",  "cull",      "match",       "cross",
-    "edge_contacts", "contact_step", "device",      "export",    "pass"};
+    "gather",   "meshes",        "deform_step",  "pair_step", "vertex_step", "iterative_rays",
+    "bvh_rays", "basic_rays",    "monolithic",   "cull",      "match",       "cross",
+    "flood",    "edge_contacts", "contact_step", "device",    "export",      "pass"};
 
 constexpr std::array<const char*, dBatchBufferCount> kBuffers{
     "chunks_small", "chunks_high", "chunks_deformable", "rays_iterative",
     "rays_bvh",     "rays_basic",  "meshlets",          "meshlet_pairs",
-    "hits",         "crossings",   "contacts"};
+    "hits",         "crossings",   "flood_words",       "contacts"};
 
 constexpr std::array<const char*, dBatchKernelCount> kKernels{
     "vertex_step", "iterative_rays", "bvh_rays", "basic_rays", "monolithic"};

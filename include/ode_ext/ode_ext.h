@@ -76,9 +76,11 @@ enum {
 
 /** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes. */
 enum {
-  dBatchRaysIterative = 0, /**< where a pair moved little, from the triangle met in the last pass;
-                                  what cannot be proven that way is cast in full (default) */
-  dBatchRaysFull = 1,      /**< every ray in full */
+  dBatchRaysFull = 0,      /**< every ray in full; with edges, redone mispredictions and in the
+                                  pipelined organisation only those of vertices inside, where
+                                  crossings of edges tell which these are (default) */
+  dBatchRaysIterative = 1, /**< where a pair moved little, from the triangle met in the last pass;
+                                  what cannot be proven that way is cast in full */
   dBatchRaysIterativePaper = 2 /**< as the paper: where a pair moved little, a vertex without
                                   temporal data is dropped and what the walk finds is believed.
                                   Misses contacts */
@@ -267,9 +269,11 @@ enum {
                                      the capacity are crossed at once */
   /* ray step, cross -> contact step */
   dBatchBufferHits = 8,      /**< of vertex rays */
-  dBatchBufferCrossings = 9, /**< of edges with triangles */
-  dBatchBufferContacts = 10, /**< contact step -> host */
-  dBatchBufferCount = 11
+  dBatchBufferCrossings = 9, /**< of edges with triangles; vertices that may touch one */
+  /* in flood */
+  dBatchBufferFloodWords = 10, /**< 32-bit words of room for finding the vertices inside */
+  dBatchBufferContacts = 11,   /**< contact step -> host */
+  dBatchBufferCount = 12
 };
 
 /** The timed stages of a pass. */
@@ -277,7 +281,7 @@ enum {
   dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
   dBatchStageMeshes = 1,     /**< comparing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
-                                  next eleven */
+                                  next twelve */
   dBatchStagePairStep = 3,
   dBatchStageVertexStep = 4,    /**< of all categories */
   dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
@@ -287,12 +291,13 @@ enum {
   dBatchStageCull = 9,       /**< crossings of edges: which meshlets can meet the other mesh, */
   dBatchStageMatch = 10,     /**< which of those can meet one another, */
   dBatchStageCross = 11,     /**< where edges cross triangles */
-  dBatchStageEdgeContacts = 12, /**< what crossings say that vertices do not */
-  dBatchStageContactStep = 13,
-  dBatchStageDevice = 14, /**< first upload to last read-back, host clock */
-  dBatchStageExport = 15, /**< storing the answers, host */
-  dBatchStagePass = 16,   /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 17
+  dBatchStageFlood = 12,     /**< which vertices are inside, by where edges cross */
+  dBatchStageEdgeContacts = 13, /**< what crossings say that vertices do not */
+  dBatchStageContactStep = 14,
+  dBatchStageDevice = 15, /**< first upload to last read-back, host clock */
+  dBatchStageExport = 16, /**< storing the answers, host */
+  dBatchStagePass = 17,   /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageCount = 18
 };
 
 /** The kernels whose work is counted on demand. */

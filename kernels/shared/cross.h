@@ -84,35 +84,44 @@ static inline void ox_meets_lanes(const ox_cast* cast, __global const ox_meshlet
   *t = (u * az + v * bz + w * cz) * cast->sz / *determinant;
 }
 
-static inline void ox_append_crossing(__global volatile uint* counters,
-                                      __global const ox_list* lists, uint pair_side, uint edge,
-                                      uint triangle, float t, bool leaves,
-                                      __global volatile uint* pair_crossings,
-                                      __global ox_edge_crossing* crossings) {
-  const uint slot = ox_append(counters, lists, OX_LIST_CROSSINGS);
+// Where crossings go: into their list and, of sides that are flooded (flood.cl), one linked to the
+// next from `heads` on.
+typedef struct {
+  __global volatile uint* counters;
+  __global const ox_list* lists;
+  __global volatile uint* pair_crossings;  // of contacts, per pair
+  __global ox_edge_crossing* crossings;
+  __global volatile uint* heads;  // per side of a pair
+  __global uint* links;
+} ox_crossing_lists;
+
+// `contact`: whether it is of one.
+static inline void ox_append_crossing(const ox_crossing_lists* to, uint pair_side, uint edge,
+                                      uint triangle, float t, bool leaves, bool contact,
+                                      bool flooded) {
+  const uint slot = ox_append(to->counters, to->lists, OX_LIST_CROSSINGS);
   if (slot == OX_NONE) return;
-  __global ox_edge_crossing* crossing = crossings + slot;
+  __global ox_edge_crossing* crossing = to->crossings + slot;
   crossing->pair_side = pair_side;
   crossing->edge = edge;
   crossing->triangle = triangle;
   crossing->t = t;
   crossing->leaves = leaves ? 1u : 0u;
-  crossing->slot = atomic_inc(pair_crossings + (pair_side >> 1));
+  crossing->slot = contact ? atomic_inc(to->pair_crossings + (pair_side >> 1)) : OX_NONE;
+  if (flooded) to->links[slot] = atomic_xchg(to->heads + pair_side, slot);
 }
 
 // Every place where an edge of the source crosses the target, a little beyond its ends too: edges
 // that meet in a vertex are cast one by one, and none of them may leave it to the other.
-static inline void ox_cross_edges(__global volatile uint* counters, __global const ox_list* lists,
-                                  uint pair_side, __global const ox_pair* pair,
-                                  __global const ox_meshlet* source,
-                                  __global const ox_meshlet* target, const ox_near_points* near,
-                                  __global volatile uint* pair_crossings,
-                                  __global ox_edge_crossing* crossings) {
+static inline void ox_cross_edges(const ox_crossing_lists* to, uint pair_side, bool flooded,
+                                  __global const ox_pair* pair, __global const ox_meshlet* source,
+                                  __global const ox_meshlet* target, const ox_near_points* near) {
   const float from = -pair->epsilon;
   for (uint e = 0u; e < source->edge_count; ++e) {
     const uint p = OX_END(source->ends, e, 0u);
     const uint q = OX_END(source->ends, e, 1u);
-    if ((near->beyond[p] & near->beyond[q]) != 0 || (source->edges_apart >> e & 1u) == 0u) continue;
+    const bool apart = (source->edges_apart >> e & 1u) != 0u;
+    if ((near->beyond[p] & near->beyond[q]) != 0 || !(apart || flooded)) continue;
     const float3 start = (float3)(near->x[p], near->y[p], near->z[p]);
     const float3 along = (float3)(near->x[q], near->y[q], near->z[q]) - start;
     const float length = sqrt(ox_dot(along, along));
@@ -132,29 +141,76 @@ static inline void ox_cross_edges(__global volatile uint* counters, __global con
       ox_store(determinant, 0, determinant_lane);
       for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k)
         if (met_lane[k] != 0)
-          ox_append_crossing(counters, lists, pair_side, source->edge[e],
+          ox_append_crossing(to, pair_side, source->edge[e],
                              target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
-                             determinant_lane[k] < 0.0f, pair_crossings, crossings);
+                             determinant_lane[k] < 0.0f, apart, flooded);
     }
   }
 }
 
+// Vertices that may lie on the surface, or beside it past a ridge or a corner: what is within
+// epsilon of a triangle is so of its plane, and within its box and slab. Of triangles so small that
+// their area underflows nobody knows the plane.
+static inline void ox_touch_vertices(const ox_crossing_lists* to, uint pair_side,
+                                     __global const ox_pair* pair,
+                                     __global const ox_meshlet* source,
+                                     __global const ox_meshlet* m, const ox_near_points* near) {
+  uint asked = 0u;
+  for (uint v = 0u; v < source->vertex_count; ++v) asked |= (near->beyond[v] == 0 ? 1u : 0u) << v;
+  if (asked == 0u) return;
+  uint touching = 0u;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    const ox_floats ax = ox_load(block, m->corner[0][0]);
+    const ox_floats ay = ox_load(block, m->corner[0][1]);
+    const ox_floats az = ox_load(block, m->corner[0][2]);
+    const ox_floats bx = ox_load(block, m->corner[1][0]) - ax;
+    const ox_floats by = ox_load(block, m->corner[1][1]) - ay;
+    const ox_floats bz = ox_load(block, m->corner[1][2]) - az;
+    const ox_floats cx = ox_load(block, m->corner[2][0]) - ax;
+    const ox_floats cy = ox_load(block, m->corner[2][1]) - ay;
+    const ox_floats cz = ox_load(block, m->corner[2][2]) - az;
+    const ox_floats nx = by * cz - bz * cy;
+    const ox_floats ny = bz * cx - bx * cz;
+    const ox_floats nz = bx * cy - by * cx;
+    const ox_floats norm2 = nx * nx + ny * ny + nz * nz;
+    const ox_ints triangle =
+        (bx != 0.0f) | (by != 0.0f) | (bz != 0.0f) | (cx != 0.0f) | (cy != 0.0f) | (cz != 0.0f);
+    const float limit = 2.0f * pair->epsilon;
+    for (uint left = asked & ~touching; left != 0u; left &= left - 1u) {
+      const uint v = 31u - clz(left & (~left + 1u));
+      const ox_floats d = nx * (near->x[v] - ax) + ny * (near->y[v] - ay) + nz * (near->z[v] - az);
+      const ox_ints met = ((d * d <= limit * limit * norm2) | (norm2 < 1e-30f)) & triangle;
+      if (ox_or_of(&met) != 0) touching |= 1u << v;
+    }
+  }
+  for (; touching != 0u; touching &= touching - 1u)
+    ox_append_crossing(to, pair_side, OX_NONE,
+                       source->vertex_index[31u - clz(touching & (~touching + 1u))], 0.0f, false,
+                       false, true);
+}
+
+static inline void ox_cross_side(const ox_crossing_lists* to, uint pair_side,
+                                 __global const ox_pair* pair, __global const ox_mesh* meshes,
+                                 uint rays_mode, __global const ox_meshlet* source,
+                                 __global const ox_meshlet* target, const ox_near_points* near) {
+  const bool flooded = (rays_mode & OX_RAYS_FLOOD) != 0u &&
+                       (meshes[pair->mesh[1u - (pair_side & 1u)]].flags & OX_MESH_EMBEDDED) != 0u;
+  ox_cross_edges(to, pair_side, flooded, pair, source, target, near);
+  if (flooded) ox_touch_vertices(to, pair_side, pair, source, target, near);
+}
+
 // The edges of either meshlet against the triangles of the other.
-static inline void ox_cross_meshlets(__global volatile uint* counters,
-                                     __global const ox_list* lists, const ox_meshlet_pair* both,
-                                     __global const ox_pair* pairs,
-                                     __global const ox_meshlet* meshlets,
-                                     __global volatile uint* pair_crossings,
-                                     __global ox_edge_crossing* crossings) {
+static inline void ox_cross_meshlets(const ox_crossing_lists* to, const ox_meshlet_pair* both,
+                                     __global const ox_pair* pairs, __global const ox_mesh* meshes,
+                                     __global const ox_meshlet* meshlets, uint rays_mode) {
   __global const ox_pair* pair = pairs + both->pair;
   __global const ox_meshlet* a = meshlets + both->meshlet[0];
   __global const ox_meshlet* b = meshlets + both->meshlet[1];
   ox_near_points near_b;  // vertices of A, in the frame of B
   ox_near_points near_a;
   if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) return;
-  ox_cross_edges(counters, lists, both->pair << 1, pair, a, b, &near_b, pair_crossings, crossings);
-  ox_cross_edges(counters, lists, both->pair << 1 | 1u, pair, b, a, &near_a, pair_crossings,
-                 crossings);
+  ox_cross_side(to, both->pair << 1, pair, meshes, rays_mode, a, b, &near_b);
+  ox_cross_side(to, both->pair << 1 | 1u, pair, meshes, rays_mode, b, a, &near_a);
 }
 
 #endif

@@ -22,6 +22,6 @@ typedef struct {
   ox_f32 on_surface;          // where a ray from a vertex begins [m]
   ox_u32 measure_first;       // of its triangles in the measures, in triangles
 } ox_move;
-OX_STATIC_ASSERT(sizeof(ox_move) == 212, ox_move_is_212_bytes);
+OX_STATIC_ASSERT(sizeof(ox_move) == 220, ox_move_is_220_bytes);
 
 #endif

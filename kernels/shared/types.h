@@ -38,14 +38,15 @@ typedef float ox_f32;
 #define OX_LIST_MESHLET_PAIRS 7u  // that can meet
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
-#define OX_LIST_CONTACTS 10u
-#define OX_LIST_COUNT 11u
-#define OX_COUNTER_BOUNDED 11u   // pairs whose bounding volumes overlap
-#define OX_COUNTER_SEGMENTS 12u  // candidates handed out to pairs
-#define OX_COUNTER_CROSSED 13u   // crossings handed out to pairs
-#define OX_COUNTER_UNPROVEN 14u  // iterative rays that had to be cast in full
-#define OX_COUNTER_DROPPED 15u   // vertices dropped for want of temporal data
-#define OX_COUNTER_COUNT 16u
+#define OX_LIST_FLOOD_WORDS 10u  // room for finding the vertices inside, handed out in stretches
+#define OX_LIST_CONTACTS 11u
+#define OX_LIST_COUNT 12u
+#define OX_COUNTER_BOUNDED 12u   // pairs whose bounding volumes overlap
+#define OX_COUNTER_SEGMENTS 13u  // candidates handed out to pairs
+#define OX_COUNTER_CROSSED 14u   // crossings handed out to pairs
+#define OX_COUNTER_UNPROVEN 15u  // iterative rays that had to be cast in full
+#define OX_COUNTER_DROPPED 16u   // vertices dropped for want of temporal data
+#define OX_COUNTER_COUNT 17u
 
 // Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
 typedef struct {
@@ -59,6 +60,7 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, without proof
 #define OX_RAYS_BASIC 2u  // deformable targets without their BVH
 #define OX_RAYS_EDGES 4u  // crossings of edges are searched too
+#define OX_RAYS_FLOOD 8u  // and tell which vertices are inside targets that are embedded
 
 #define OX_NONE 0xffffffffu
 
@@ -80,6 +82,7 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_MESH_TWO_SIDED 8u   // deformable and open: a sheet, with no inside
 #define OX_MESH_ISOLATED 16u   // the isolation of its triangles is known: iterative rays can prove
 #define OX_MESH_CLEARANCE 32u  // its clearance grid is there
+#define OX_MESH_EMBEDDED 64u   // a solid whose surface does not meet itself (geometry/embedded.h)
 
 // A geom of this step. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin.
@@ -98,6 +101,7 @@ typedef struct {
   ox_u32 triangle_first, triangle_count;
   ox_u32 meshlet_first, meshlet_count;
   ox_u32 meshlet_node_first, meshlet_node_count;
+  ox_u32 component_first, component_count;
   ox_u32 group_first;      // a deformable mesh has none
   ox_u32 grid_first;       // word index of the occupancy bits
   ox_u32 clearance_first;  // word index of the clearance, signed steps, four to a word
@@ -118,7 +122,7 @@ typedef struct {
   ox_f32 reach;            // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;  // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 164, ox_mesh_is_164_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 172, ox_mesh_is_172_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -140,16 +144,23 @@ typedef struct {
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 
-// An edge between facets. All indices count over all meshes.
+// An edge; those within a facet come last. All indices count over all meshes.
 typedef struct {
   ox_u32 vertex[2];
   ox_u32 triangle[2];  // at it, in the order of the leaves; the second is OX_NONE at a border
 } ox_edge;
 OX_STATIC_ASSERT(sizeof(ox_edge) == 16, ox_edge_is_16_bytes);
 
+// At a vertex: another, and the edge to it. Over all meshes.
+typedef struct {
+  ox_u32 vertex;
+  ox_u32 edge;
+} ox_neighbour;
+OX_STATIC_ASSERT(sizeof(ox_neighbour) == 8, ox_neighbour_is_8_bytes);
+
 // A meshlet (geometry/meshlets.h), component by component, as sixteen lanes want it. All indices
 // count over all meshes. Lanes beyond the triangles, and triangles of no area, have three equal
-// corners: no edge crosses them. Lanes beyond the vertices repeat the first.
+// corners: no edge crosses them. Lanes beyond the vertices repeat the first, indices too.
 typedef struct {
   // What is asked of every meshlet that may meet another, together,
   ox_f32 vertex[3][OX_LANES];  // x, y, z
@@ -319,14 +330,16 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 
 // Where an edge of one mesh crosses the surface of the other. The first six fields are what the
-// search finds; the rest is filled in where the crossings of a pair are brought together.
+// search finds; the rest is filled in where the crossings of a pair are brought together. Those
+// without a slot are of no contact: of an edge within a facet; or, without an edge, a vertex
+// (`triangle`) that may lie on the surface.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 edge;
   ox_u32 triangle;  // crossed, over all triangles
   ox_f32 t;         // [m] along the edge, from its first vertex
   ox_u32 leaves;    // whether the edge leaves the target here: a back face
-  ox_u32 slot;      // how many crossings of this pair were appended before it
+  ox_u32 slot;      // how many crossings of this pair were appended before it; OX_NONE: see above
   ox_u32 facet;     // of the triangle
   ox_u32 other;     // the crossing at the other end of its chord, among those of the pair; OX_NONE
   ox_f32 other_t;   // [m] the other end of the chord, the stretch of the edge inside the target

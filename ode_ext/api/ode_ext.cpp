@@ -133,7 +133,7 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   if (p.workload == dBatchWorkloadExact) options.workload = ode_ext::Workload::kExact;
   if (p.prediction == dBatchPredictionPlain) options.prediction = ode_ext::PredictionRule::kPlain;
   options.confidence = p.confidence;
-  options.rays = std::array{ode_ext::Rays::kIterative, ode_ext::Rays::kFull,
+  options.rays = std::array{ode_ext::Rays::kFull, ode_ext::Rays::kIterative,
                             ode_ext::Rays::kIterativePaper}[static_cast<std::size_t>(p.rays)];
   if (p.deformable_target == dBatchDeformableBasic)
     options.deformable_target = ode_ext::DeformableTarget::kBasic;

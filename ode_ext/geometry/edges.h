@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges of a mesh that are worth casting: those between facets.
+// The edges of a mesh that are worth casting: those between facets, where its surface bends, and as
+// many within facets as join all its vertices.
 #pragma once
 
 #include <array>
@@ -16,10 +17,17 @@ struct Edge {
   std::array<std::uint32_t, 2> triangles;  // the second is kNone where there is none
 };
 
-// Those between facets, in runs by their middles (runs.h); `facets` as facets.h gives them. Where
-// these are empty: every edge, by its vertices. Where more than two triangles meet, they are taken
-// two by two: each of them is at one of the edges.
-std::vector<Edge> edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
-                        const std::vector<std::uint32_t>& facets);
+struct Edges {
+  std::vector<Edge> apart;  // between facets, in runs by their middles (runs.h)
+  // Within a facet, by their vertices: none of which the ends are joined by the others and `apart`.
+  // So each two vertices that any edges of the mesh join, these join too.
+  std::vector<Edge> flat;
+};
+
+// `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
+// come by their vertices. Where more than two triangles meet, they are taken two by two: each of
+// them is at one of the edges.
+Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
+                 const std::vector<std::uint32_t>& facets);
 
 }  // namespace ode_ext

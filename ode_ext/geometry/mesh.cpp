@@ -33,6 +33,17 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
   return rounded_up(largest);
 }
 
+// What depends on edges.
+void connect(Mesh& mesh) {
+  Edges edges = find_edges(mesh.vertices, mesh.triangles, mesh.facets);
+  std::vector<Edge> all = edges.apart;
+  all.insert(all.end(), edges.flat.begin(), edges.flat.end());
+  mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, all);
+  mesh.rings = build_rings(mesh.vertices.size(), all);
+  mesh.edges = std::move(edges.apart);
+  mesh.flat_edges = std::move(edges.flat);
+}
+
 }  // namespace
 
 Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
@@ -67,8 +78,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
-    mesh.edges = edges(mesh.vertices, mesh.triangles, {});
-    mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, mesh.edges);
+    connect(mesh);
     return mesh;
   }
 
@@ -76,15 +86,14 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
-  mesh.edges = edges(mesh.vertices, mesh.triangles, mesh.facets);
-  mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, mesh.edges);
+  connect(mesh);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
-  const bool embedded =
-      mesh.closed && (options.isolation || !options.grids) &&
-      is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours, mesh.bvh, mesh.face_normals);
+  mesh.embedded = mesh.closed && is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours,
+                                             mesh.bvh, mesh.face_normals);
   // Of a mesh that cuts itself, vertices that grids know to be outside may have rays that first
   // meet a face from behind: without the grids it would have other contacts.
-  if (options.grids || (mesh.closed && !embedded)) {
+  const bool wants_grids = options.grids && !(options.flooded && mesh.embedded);
+  if (wants_grids || (mesh.closed && !mesh.embedded)) {
     const auto margin = static_cast<float>(kGridMargin * length(extent(mesh.box)));
     mesh.grid = build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi,
                                      margin, mesh.closed);
@@ -94,7 +103,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   }
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
-    if (options.isolation && embedded) {
+    if (options.isolation && mesh.embedded) {
       mesh.isolation =
           isolation(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.bvh, mesh.neighbours);
     }

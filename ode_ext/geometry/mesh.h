@@ -16,6 +16,7 @@
 #include "geometry/meshlets.h"
 #include "geometry/neighbours.h"
 #include "geometry/occupancy_grid.h"
+#include "geometry/rings.h"
 #include "geometry/runs.h"
 #include "geometry/surface_slabs.h"
 #include "geometry/vec.h"
@@ -63,9 +64,11 @@ struct Mesh {
   // For each triangle the number of its facet (facets.h); empty for a deformable mesh, whose
   // triangles are facets each.
   std::vector<std::uint32_t> facets;
-  std::vector<Edge> edges;  // between facets
-  Meshlets meshlets;        // of `bvh`, with `edges`
-  // Of each triangle, if asked for; empty unless the mesh is closed and is_embedded (embedded.h).
+  // As in edges.h. Indices of edges count those between facets first, then those within one.
+  std::vector<Edge> edges, flat_edges;
+  Meshlets meshlets;  // of `bvh`, with these edges
+  Rings rings;        // of these edges
+  // Of each triangle, if asked for; empty unless the mesh is embedded.
   std::vector<Isolation> isolation;
 
   Bvh bvh;                          // over `triangles`
@@ -79,6 +82,7 @@ struct Mesh {
   // [m].
   float radius = 0;
   float mean_edge = 0;       // [m]
+  bool embedded = false;     // as in embedded.h; not asked of deformable meshes
   bool closed = false;       // every edge has exactly two triangles, of opposite direction
   bool inverted = false;     // the winding was turned: the closed mesh had a negative volume
   bool reoriented = false;   // the winding was made consistent: each part now faces outward
@@ -104,6 +108,7 @@ struct MeshOptions {
   // proven to be embedded has them anyway, since its contacts depend on them.
   bool grids = true;
   bool isolation = true;    // likewise, but no contact depends on it
+  bool flooded = false;     // an embedded mesh has no use for grids (kernels/flood.cl)
   bool deformable = false;  // implies that there is neither
 };
 

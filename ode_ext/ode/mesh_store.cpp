@@ -56,7 +56,7 @@ void MeshStore::update(Entry& entry) {
     if (entry.base != nullptr) shape = deformed(entry.base, soup_);
     if (shape == nullptr)
       shape = entry.base = std::make_shared<const Mesh>(
-          build_mesh(soup_, {.open_thickness = open_thickness_, .deformable = true}));
+          build_mesh(soup_, {.open_thickness = options_.open_thickness, .deformable = true}));
     entry.mesh = std::move(shape);
   }
   const std::string reason = why_refused(soup_);
@@ -73,8 +73,9 @@ std::shared_ptr<const Mesh> MeshStore::build(bool restless) {
     auto mesh = known->second.lock();
     if (mesh != nullptr && compare_soups(mesh->soup, soup_) == 0) return mesh;
   }
-  auto mesh = std::make_shared<const Mesh>(build_mesh(
-      soup_, {.open_thickness = open_thickness_, .grids = !restless, .isolation = !restless}));
+  MeshOptions options = options_;
+  if (restless) options.grids = options.isolation = false;
+  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, options));
   if (!restless) by_content_.emplace(hash, mesh);
   return mesh;
 }

@@ -18,9 +18,9 @@ namespace ode_ext {
 
 class MeshStore {
  public:
-  // `open_thickness` as in build_mesh. With `trust`, a known mesh is not read again until
-  // announced.
-  MeshStore(float open_thickness, bool trust) : open_thickness_(open_thickness), trust_(trust) {}
+  // `options` as build_mesh takes them, for meshes that live for long. With `trust`, a known mesh
+  // is not read again until announced.
+  MeshStore(const MeshOptions& options, bool trust) : options_(options), trust_(trust) {}
 
   // The mesh as it is now: its triangles are compared with those it was made of, and if they are
   // others it is rebuilt, or followed where it is deformable and only its vertices moved. Looks
@@ -77,7 +77,7 @@ class MeshStore {
   std::shared_ptr<const Mesh> build(bool restless);
   static void drop(Entry& entry);
 
-  float open_thickness_;
+  MeshOptions options_;
   bool trust_;
   std::unordered_map<dTriMeshDataID, Entry> entries_;
   // Equal content of rigid meshes is built once, whoever holds it. By content_hash.

@@ -36,6 +36,7 @@ void note_report(const StepReport& report, dBatchColliderStats& stats) {
   stats.ms[dBatchStageCull] = report.ms_cull;
   stats.ms[dBatchStageMatch] = report.ms_match;
   stats.ms[dBatchStageCross] = report.ms_cross;
+  stats.ms[dBatchStageFlood] = report.ms_flood;
   stats.ms[dBatchStageEdgeContacts] = report.ms_edge_contacts;
   stats.ms[dBatchStageContactStep] = report.ms_contact_step;
   stats.ms[dBatchStageDevice] = report.ms_total;

@@ -42,6 +42,7 @@ constexpr Stage kKernels[] = {{"deform_step", dBatchStageDeformStep},
                               {"cull", dBatchStageCull},
                               {"match", dBatchStageMatch},
                               {"cross", dBatchStageCross},
+                              {"flood", dBatchStageFlood},
                               {"edge_contacts", dBatchStageEdgeContacts},
                               {"contact_step", dBatchStageContactStep}};
 

@@ -58,14 +58,16 @@ class AppendLists {
   // One per hit, OX_POINTS_PER_CROSSING per crossing.
   const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
+  const Buffer& crossing_links() const { return crossing_links_; }          // one per crossing
   const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
   const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
+  const Buffer& flood_words() const { return flood_words_; }
   const Buffer& contacts() const { return contacts_; }
 
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
   struct Ends {
-    std::uint64_t tasks, rays, meshlets, meshlet_pairs, hits, crossings, contacts;
+    std::uint64_t tasks, rays, meshlets, meshlet_pairs, hits, crossings, flood_words, contacts;
   };
   Ends lay_out(const ArrowCounts& room);
   void resize(const ArrowCounts& capacities);
@@ -76,7 +78,7 @@ class AppendLists {
   int steps_noted_ = 0;
   std::array<ox_list, kArrowCount> host_lists_{};
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
-      crossings_, gathered_crossings_, crossing_order_, contacts_;
+      crossings_, crossing_links_, gathered_crossings_, crossing_order_, flood_words_, contacts_;
 };
 
 }  // namespace ode_ext

@@ -22,6 +22,7 @@ StepSettings settings_of(const ColliderOptions& options) {
   if (options.rays == Rays::kIterativePaper) settings.rays_mode |= OX_RAYS_PAPER;
   if (options.deformable_target == DeformableTarget::kBasic) settings.rays_mode |= OX_RAYS_BASIC;
   if (options.edges) settings.rays_mode |= OX_RAYS_EDGES;
+  if (floods(options)) settings.rays_mode |= OX_RAYS_FLOOD;
   settings.displacement_limit = options.displacement_limit;
   settings.walk_limit = options.walk_limit;
   settings.max_contacts = options.max_contacts;
@@ -225,11 +226,13 @@ ArrowCounts Collider::run_tile(const Scene& scene, Tile tile, const ArrowCounts&
   upload(scene, tile);
   const bool dense = options_.organisation == Organisation::kMonolithic;
   steps_.pair.run(launch_for(tile.count), lists_, meshes_, pairs_, *temporal_, settings_, dense);
+  if (options_.edges) run_search(predicted);
+  if (floods(options_))
+    steps_.flood.run(launch_for(2 * std::uint64_t{pairs_.count}), lists_, meshes_, pairs_);
   if (dense)
     run_monolithic();
   else
     run_pipelined(predicted);
-  if (options_.edges) run_search(predicted);
   settle_workload();
   steps_.contact.run(launch_for(tile.count), launch(Arrow::kHits, predicted),
                      launch(Arrow::kCrossings, predicted), lists_, meshes_, pairs_, settings_);
@@ -267,9 +270,9 @@ void Collider::run_pipelined(const ArrowCounts& predicted) {
 void Collider::run_search(const ArrowCounts& predicted) {
   steps_.cull.run(launch_for(pairs_.count), lists_, meshes_, pairs_);
   settle_workload();
-  steps_.match.run(launch(Arrow::kMeshlets, predicted), lists_, meshes_, pairs_);
+  steps_.match.run(launch(Arrow::kMeshlets, predicted), lists_, meshes_, pairs_, settings_);
   settle_workload();
-  steps_.cross.run(launch(Arrow::kMeshletPairs, predicted), lists_, meshes_, pairs_);
+  steps_.cross.run(launch(Arrow::kMeshletPairs, predicted), lists_, meshes_, pairs_, settings_);
 }
 
 void Collider::run_monolithic() {
@@ -352,6 +355,9 @@ void Collider::reserve(const ArrowCounts& counts) {
       share_room(Arrow::kRaysIterative, Arrow::kRaysBvh);
     }
     for (std::uint64_t& count : wanted) count = std::max(count, options_.initial_capacity);
+    // A record takes as many words.
+    std::uint64_t& words = wanted[static_cast<std::size_t>(Arrow::kFloodWords)];
+    words = std::max(words, 16 * options_.initial_capacity);
     lists_.reserve(wanted);
   }
   read_contacts_.reserve(at(lists_.capacities(), Arrow::kContacts) * sizeof(ox_contact));
@@ -430,8 +436,9 @@ void Collider::warm_up() {
   for (RayStep* step : {&steps_.iterative, &steps_.bvh, &steps_.basic})
     step->run(wide, lists_, meshes_, pairs_, nothing_, settings_, works_);
   steps_.cull.run(wide, lists_, meshes_, pairs_);
-  steps_.match.run(wide, lists_, meshes_, pairs_);
-  steps_.cross.run(wide, lists_, meshes_, pairs_);
+  steps_.match.run(wide, lists_, meshes_, pairs_, settings_);
+  steps_.cross.run(wide, lists_, meshes_, pairs_, settings_);
+  steps_.flood.run(wide, lists_, meshes_, pairs_);
   steps_.monolithic.run(wide, lists_, 0, meshes_, pairs_, nothing_, settings_, works_);
   steps_.contact.run(wide, wide, wide, lists_, meshes_, pairs_, settings_);
   meshes_.warm_up(wide);
@@ -459,6 +466,7 @@ void Collider::take_kernel_times() {
   report_.ms_cull = take(steps_.cull);
   report_.ms_match = take(steps_.match);
   report_.ms_cross = take(steps_.cross);
+  report_.ms_flood = take(steps_.flood);
   report_.ms_edge_contacts = read([&] { return steps_.contact.take_edge_milliseconds(); });
   report_.ms_contact_step = take(steps_.contact);
 }

@@ -178,6 +178,9 @@ DeviceMeshes::DeviceMeshes(Program& program)
       nodes_(program.device()),
       triangles_(program.device()),
       edges_(program.device()),
+      ring_starts_(program.device()),
+      rings_(program.device()),
+      components_(program.device()),
       meshlets_(program.device()),
       meshlet_nodes_(program.device()),
       facets_(program.device()),
@@ -222,6 +225,9 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_nodes_.clear();
   host_triangles_.clear();
   host_edges_.clear();
+  host_ring_starts_ = {0};
+  host_rings_.clear();
+  host_components_.clear();
   host_meshlets_.clear();
   host_meshlet_nodes_.clear();
   host_facets_.clear();
@@ -249,6 +255,8 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.meshlet_count = static_cast<ox_u32>(built.meshlets.meshlets.size());
   record.meshlet_node_first = static_cast<ox_u32>(host_meshlet_nodes_.size());
   record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.nodes.size());
+  record.component_first = static_cast<ox_u32>(host_components_.size());
+  record.component_count = static_cast<ox_u32>(built.rings.components.size());
   record.group_first = record.chunk_first + record.chunk_count;
   record.grid_first = static_cast<ox_u32>(host_grids_.size());
   record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
@@ -258,12 +266,12 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   if (!built.clearance.steps.empty()) record.steps_per_metre = 1 / built.clearance.step;
   record.slab_reach = built.slabs.reach;
   std::copy(built.grid.cells.begin(), built.grid.cells.end(), record.grid_cells);
-  record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) |
-                 (built.grid.bits.empty() ? 0u : OX_MESH_GRID) |
-                 (built.clearance.steps.empty() ? 0u : OX_MESH_CLEARANCE) |
-                 (built.isolation.empty() ? 0u : OX_MESH_ISOLATED) |
-                 (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
-                 (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
+  record.flags =
+      (mesh.closed ? OX_MESH_CLOSED : 0u) | (built.grid.bits.empty() ? 0u : OX_MESH_GRID) |
+      (built.clearance.steps.empty() ? 0u : OX_MESH_CLEARANCE) |
+      (built.isolation.empty() ? 0u : OX_MESH_ISOLATED) | (built.embedded ? OX_MESH_EMBEDDED : 0u) |
+      (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
+      (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
   store(record.grid_origin, built.grid.origin);
   store(record.grid_scale, built.grid.cells_per_meter);
   for (std::size_t k = 0; k < 3; ++k) record.grid_side[k] = 1 / built.grid.cells_per_meter[k];
@@ -282,6 +290,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   const MeshletPlaces first{vertex_first, record.triangle_first,
                             static_cast<std::uint32_t>(host_edges_.size())};
   append_edges(built, first);
+  append_rings(built.rings, first);
   append_meshlets(built, first, host_meshlets_);
   if (!mesh.deformable) append_groups(built.chunks, record.chunk_first, host_chunks_);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
@@ -314,15 +323,30 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
 
 void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first) {
   const std::vector<std::uint32_t> places = places_in_leaves(mesh);
-  for (const Edge& edge : mesh.edges) {
-    ox_edge record{};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const std::uint32_t triangle = edge.triangles[k];
-      record.vertex[k] = first.vertex_first + edge.vertices[k];
-      record.triangle[k] = triangle == kNone ? OX_NONE : first.triangle_first + places[triangle];
+  const auto append_all = [&](const std::vector<Edge>& edges) {
+    for (const Edge& edge : edges) {
+      ox_edge record{};
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::uint32_t triangle = edge.triangles[k];
+        record.vertex[k] = first.vertex_first + edge.vertices[k];
+        record.triangle[k] = triangle == kNone ? OX_NONE : first.triangle_first + places[triangle];
+      }
+      host_edges_.push_back(record);
     }
-    host_edges_.push_back(record);
-  }
+  };
+  append_all(mesh.edges);
+  append_all(mesh.flat_edges);
+}
+
+void DeviceMeshes::append_rings(const Rings& rings, const MeshletPlaces& first) {
+  const ox_u32 before = host_ring_starts_.back();
+  for (std::size_t v = 1; v < rings.starts.size(); ++v)
+    host_ring_starts_.push_back(before + rings.starts[v]);
+  for (const RingNeighbour& neighbour : rings.neighbours)
+    host_rings_.push_back(
+        {first.vertex_first + neighbour.vertex, first.edge_first + neighbour.edge});
+  for (const std::uint32_t vertex : rings.components)
+    host_components_.push_back(first.vertex_first + vertex);
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
@@ -357,6 +381,9 @@ void DeviceMeshes::upload() {
   upload_all(nodes_, host_nodes_);
   upload_all(triangles_, host_triangles_);
   upload_all(edges_, host_edges_);
+  upload_all(ring_starts_, host_ring_starts_);
+  upload_all(rings_, host_rings_);
+  upload_all(components_, host_components_);
   upload_all(meshlets_, host_meshlets_);
   upload_all(meshlet_nodes_, host_meshlet_nodes_);
   upload_all(facets_, host_facets_);

@@ -49,6 +49,10 @@ class DeviceMeshes {
   const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
   const Buffer& edges() const { return edges_; }
+  // Of vertex v: rings()[ring_starts()[v]] to before ring_starts()[v + 1].
+  const Buffer& ring_starts() const { return ring_starts_; }
+  const Buffer& rings() const { return rings_; }
+  const Buffer& components() const { return components_; }  // a vertex of each
   const Buffer& meshlets() const { return meshlets_; }
   const Buffer& meshlet_nodes() const { return meshlet_nodes_; }
   // Of each triangle, over all triangles: the number of its facet within its mesh.
@@ -70,6 +74,7 @@ class DeviceMeshes {
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
   void append_edges(const Mesh& mesh, const MeshletPlaces& places);
+  void append_rings(const Rings& rings, const MeshletPlaces& places);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
 
@@ -83,6 +88,9 @@ class DeviceMeshes {
   std::vector<ox_node> host_nodes_;
   std::vector<ox_triangle> host_triangles_;
   std::vector<ox_edge> host_edges_;
+  std::vector<ox_u32> host_ring_starts_;  // one more than there are vertices
+  std::vector<ox_neighbour> host_rings_;
+  std::vector<ox_u32> host_components_;
   std::vector<ox_meshlet> host_meshlets_;
   std::vector<ox_node> host_meshlet_nodes_;
   std::vector<ox_u32> host_facets_;
@@ -92,8 +100,8 @@ class DeviceMeshes {
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
-  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, meshlets_, meshlet_nodes_,
-      facets_, isolations_, grids_, topologies_;
+  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, ring_starts_, rings_,
+      components_, meshlets_, meshlet_nodes_, facets_, isolations_, grids_, topologies_;
 };
 
 }  // namespace ode_ext

@@ -18,13 +18,16 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces
   record.triangle_first = places.triangle_first + meshlet.triangle_first;
   record.triangle_count = meshlet.triangle_count;
   record.vertex_count = meshlet.vertex_count;
-  for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k)
-    record.vertex_index[k] = places.vertex_first + mesh.meshlets.vertices[meshlet.vertex_first + k];
+  for (std::uint32_t k = 0; k < OX_LANES; ++k) {
+    const std::uint32_t used = k < meshlet.vertex_count ? k : 0;
+    record.vertex_index[k] =
+        places.vertex_first + mesh.meshlets.vertices[meshlet.vertex_first + used];
+  }
   record.edge_count = meshlet.edge_count;
-  record.edges_apart = meshlet.edge_count == 32 ? ~0u : (1u << meshlet.edge_count) - 1;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
     const MeshletEdge& edge = mesh.meshlets.edges[meshlet.edge_first + k];
     record.edge[k] = places.edge_first + edge.edge;
+    if (edge.edge < mesh.edges.size()) record.edges_apart |= 1u << k;
     for (std::uint32_t end = 0; end < 2; ++end)
       record.ends[k / 2] |= edge.ends[end] << OX_END_SHIFT(k, end);
   }

@@ -9,7 +9,7 @@
 namespace ode_ext {
 
 enum class Workload { kPredicted, kExact };
-enum class Rays { kIterative, kFull, kIterativePaper };
+enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
 enum class Organisation { kPipelined, kMonolithic };
 enum class Misprediction { kRedo, kIgnore, kBacktrack };
@@ -18,7 +18,7 @@ struct ColliderOptions {
   std::string device;  // see choose_device
   std::uint32_t max_contacts = 16;
   std::uint32_t max_contacts_deformable = 0;  // 0: all
-  Rays rays = Rays::kIterative;
+  Rays rays = Rays::kFull;
   DeformableTarget deformable_target = DeformableTarget::kRefit;
   Organisation organisation = Organisation::kPipelined;
   Workload workload = Workload::kPredicted;
@@ -37,6 +37,14 @@ struct ColliderOptions {
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;
   std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it
 };
+
+// Whether crossings of edges tell which vertices are inside (kernels/flood.cl). The modes of the
+// paper look at every vertex.
+inline bool floods(const ColliderOptions& options) {
+  return options.edges && options.rays == Rays::kFull &&
+         options.organisation == Organisation::kPipelined &&
+         options.misprediction == Misprediction::kRedo;
+}
 
 // The largest max_contacts (OX_MAX_CONTACTS in contact_step.cl).
 inline constexpr std::uint32_t kMaxContacts = 64;

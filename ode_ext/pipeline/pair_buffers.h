@@ -17,6 +17,7 @@ struct PairBuffers {
         pairs(device),
         hits(device),
         crossings(device),
+        heads(device),
         ranges(device),
         segments(device),
         crossing_segments(device) {}
@@ -28,6 +29,7 @@ struct PairBuffers {
     pairs.reserve(pair_count * sizeof(ox_pair));
     hits.reserve(pair_count * sizeof(ox_u32));
     crossings.reserve(pair_count * sizeof(ox_u32));
+    heads.reserve(2 * pair_count * sizeof(ox_u32));
     ranges.reserve(pair_count * sizeof(ox_range));
     segments.reserve(pair_count * sizeof(ox_u32));
     crossing_segments.reserve(pair_count * sizeof(ox_u32));
@@ -41,6 +43,7 @@ struct PairBuffers {
   // out
   Buffer pairs;              // ox_pair
   Buffer hits, crossings;    // their number per pair
+  Buffer heads;              // per side the last of its crossings, AppendLists::crossing_links on
   Buffer ranges;             // ox_range of contacts
   Buffer segments;           // where the candidates of a pair start
   Buffer crossing_segments;  // where its crossings start

@@ -23,8 +23,8 @@ class PairStep {
                    meshes.records(), meshes.chunks(), meshes.grids(), pairs.members,
                    temporal.links(), pairs.count, temporal.step(), settings.rays_mode,
                    settings.displacement_limit, temporal.poses(), temporal.directory(), pairs.pairs,
-                   pairs.hits, pairs.crossings, pairs.ranges, cl_uint{dense}, pairs.dense_first,
-                   lists.tasks());
+                   pairs.hits, pairs.crossings, pairs.heads, pairs.ranges, cl_uint{dense},
+                   pairs.dense_first, lists.tasks());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -20,9 +20,10 @@ enum class Arrow : std::size_t {
   kMeshletPairs,
   kHits,
   kCrossings,
+  kFloodWords,
   kContacts
 };
-inline constexpr std::size_t kArrowCount = 11;
+inline constexpr std::size_t kArrowCount = 12;
 using ArrowCounts = std::array<std::uint64_t, kArrowCount>;
 
 enum class PredictionRule { kPairScaled, kPlain };

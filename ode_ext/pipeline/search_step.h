@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kernels/cull.cl, match.cl, cross.cl: pairs -> meshlets -> pairs of meshlets -> crossings.
+// kernels/cull.cl, match.cl, cross.cl, flood.cl: pairs -> meshlets -> pairs of meshlets ->
+// crossings -> rays of the vertices inside.
 #pragma once
 
 #include "device/program.h"
@@ -7,6 +8,7 @@
 #include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
 #include "pipeline/pair_buffers.h"
+#include "pipeline/step_settings.h"
 
 namespace ode_ext {
 
@@ -30,10 +32,11 @@ class MatchStep {
   explicit MatchStep(Program& program) : kernel_(program, "match") {}
 
   void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs) {
+           const PairBuffers& pairs, const StepSettings& settings) {
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.meshlets(),
                    pairs.pairs, meshes.records(), meshes.meshlets(), meshes.meshlet_nodes(),
-                   lists.meshlet_pairs(), pairs.crossings, lists.crossings());
+                   settings.rays_mode, lists.meshlet_pairs(), pairs.crossings, lists.crossings(),
+                   pairs.heads, lists.crossing_links());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 
@@ -46,10 +49,29 @@ class CrossStep {
   explicit CrossStep(Program& program) : kernel_(program, "cross_meshlets") {}
 
   void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs) {
+           const PairBuffers& pairs, const StepSettings& settings) {
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(),
-                   lists.meshlet_pairs(), pairs.pairs, meshes.meshlets(), pairs.crossings,
-                   lists.crossings());
+                   lists.meshlet_pairs(), pairs.pairs, meshes.records(), meshes.meshlets(),
+                   settings.rays_mode, pairs.crossings, lists.crossings(), pairs.heads,
+                   lists.crossing_links());
+  }
+  double take_milliseconds() { return kernel_.take_milliseconds(); }
+
+ private:
+  Kernel kernel_;
+};
+
+class FloodStep {
+ public:
+  explicit FloodStep(Program& program) : kernel_(program, "flood") {}
+
+  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
+           const PairBuffers& pairs) {
+    kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.pairs,
+                   meshes.records(), pairs.heads, lists.crossings(), lists.crossing_links(),
+                   meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
+                   meshes.components(), meshes.nodes(), meshes.triangles(), pairs.count,
+                   lists.rays(), lists.flood_words());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

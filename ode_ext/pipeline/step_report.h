@@ -28,7 +28,7 @@ struct StepReport {
   std::array<WorkCount, kWorkerCount> work{};
   double ms_deform_step = 0, ms_pair_step = 0, ms_vertex_step = 0, ms_iterative_rays = 0,
          ms_bvh_rays = 0, ms_basic_rays = 0, ms_monolithic = 0, ms_cull = 0, ms_match = 0,
-         ms_cross = 0, ms_edge_contacts = 0, ms_contact_step = 0;  // device
+         ms_cross = 0, ms_flood = 0, ms_edge_contacts = 0, ms_contact_step = 0;  // device
   double ms_total = 0;  // host clock, first upload to last read-back
 };
 

@@ -23,6 +23,7 @@ struct Steps {
         cull(program),
         match(program),
         cross(program),
+        flood(program),
         contact(program) {}
 
   PairStep pair;
@@ -32,6 +33,7 @@ struct Steps {
   CullStep cull;
   MatchStep match;
   CrossStep cross;
+  FloodStep flood;
   ContactStep contact;
 };
 

@@ -31,8 +31,12 @@ namespace {
 std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
   const Mesh& a = topology(*scene.meshes[scene.objects[pair[0]].mesh]);
   const Mesh& b = topology(*scene.meshes[scene.objects[pair[1]].mesh]);
-  return std::uint64_t{a.edges.size()} * b.triangles.size() +
-         std::uint64_t{b.edges.size()} * a.triangles.size();
+  const auto edges = [](const Mesh& mesh) {
+    return std::uint64_t{mesh.edges.size()} + mesh.flat_edges.size();
+  };
+  // Of two meshlets each vertex may touch the other.
+  return edges(a) * b.triangles.size() + edges(b) * a.triangles.size() +
+         2 * OX_LANES * a.meshlets.meshlets.size() * b.meshlets.meshlets.size();
 }
 
 }  // namespace
@@ -69,8 +73,13 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
                                                  : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
-  return {chunks,   chunks,        chunks,   vertices,  vertices, vertices,
-          meshlets, meshlet_pairs, vertices, crossings, contacts};
+  // A table has fewer than 8 places for each crossing it starts from, or 4 for each key: a vertex,
+  // a vertex that is outside, an edge that crosses. A place is two and a half words, and all tables
+  // before the last one take no more than it does.
+  const std::uint64_t flood_words =
+      options.edges ? 5 * (8 * crossings + 4 * (2 * vertices + crossings) + 32 * tile.count) : 0;
+  return {chunks,   chunks,        chunks,   vertices,  vertices,    vertices,
+          meshlets, meshlet_pairs, vertices, crossings, flood_words, contacts};
 }
 
 ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {

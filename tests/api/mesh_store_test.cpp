@@ -28,7 +28,7 @@ class MeshStoreTest : public ::testing::Test {
 
   OdeWorld world_;
   OdeMesh& mesh_ = world_.mesh(make_icosphere(1, 2));
-  MeshStore store_{0, false};
+  MeshStore store_{MeshOptions{}, false};
   std::uint64_t pass_ = 0;
 };
 

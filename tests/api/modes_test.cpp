@@ -69,8 +69,8 @@ class ApiMode : public ::testing::Test {
   Pile pile{world, space, 12, 1};
 };
 
-TEST_F(ApiMode, IterativeRaysAreTheDefaultAndAreUsed) {
-  const BatchCollider collider, full([](auto&p) { p.rays = dBatchRaysFull; });
+TEST_F(ApiMode, IterativeRaysAreUsedWhereTheyAreAskedFor) {
+  const BatchCollider collider([](auto&p) { p.rays = dBatchRaysIterative; }), full;
   for (const BatchCollider* each : {&collider, &full}) each->pass(space);
   EXPECT_GT(collider.stats().temporal_pairs, 0);
   nudge();
@@ -95,7 +95,12 @@ TEST_F(ApiMode, ThePapersIterativeRaysDropVerticesAndSayHowMany) {
 }
 
 TEST_F(ApiMode, CountedWorkIsReportedPerKernel) {
-  const BatchCollider counting([](auto&p) { p.count_work = 1; }), plain;
+  // Every vertex is looked at.
+  const BatchCollider counting([](auto& p) {
+    p.count_work = 1;
+    p.edges = dBatchEdgesOff;
+  });
+  const BatchCollider plain([](auto& p) { p.edges = dBatchEdgesOff; });
   counting.pass(space);
   plain.pass(space);
   for (const int kernel : {dBatchKernelVertexStep, dBatchKernelBvhRays}) {

@@ -30,7 +30,7 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.open_thickness, 0);
   EXPECT_EQ(params.work_group_size, 0);
   EXPECT_EQ(params.initial_capacity, 0);
-  EXPECT_EQ(params.rays, dBatchRaysIterative);
+  EXPECT_EQ(params.rays, dBatchRaysFull);
   EXPECT_EQ(params.deformable_target, dBatchDeformableRefit);
   EXPECT_EQ(params.organisation, dBatchOrganisationPipelined);
   EXPECT_EQ(params.misprediction, dBatchMispredictionRedo);

@@ -60,8 +60,10 @@ TEST_F(ApiStats, CountPassesAndBuffers) {
   for (int i = 0; i < dBatchBufferCount; ++i) {
     EXPECT_GE(stats.capacity[i], stats.actual[i]) << i;
   }
-  EXPECT_GT(stats.actual[dBatchBufferChunksSmall] + stats.actual[dBatchBufferChunksHigh], 0);
-  EXPECT_GT(stats.actual[dBatchBufferRaysIterative] + stats.actual[dBatchBufferRaysBvh], 0);
+  EXPECT_GT(stats.actual[dBatchBufferMeshlets], 0);
+  EXPECT_GT(stats.actual[dBatchBufferCrossings], 0);
+  EXPECT_GT(stats.actual[dBatchBufferFloodWords], 0);
+  EXPECT_GT(stats.actual[dBatchBufferRaysBvh], 0);
   EXPECT_GT(stats.actual[dBatchBufferHits], 0);
   EXPECT_GE(stats.actual[dBatchBufferContacts], collected.total());
   EXPECT_EQ(stats.pairs_stock, 0);

@@ -38,7 +38,7 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.collider, Collider::kBatch);
   EXPECT_EQ(o.max_contacts, 16);
   EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
-  EXPECT_EQ(o.rays, dBatchRaysIterative);
+  EXPECT_EQ(o.rays, dBatchRaysFull);
   EXPECT_EQ(o.organisation, dBatchOrganisationPipelined);
   EXPECT_EQ(o.edges, dBatchEdgesOn);
   EXPECT_EQ(o.deformable_target, dBatchDeformableRefit);

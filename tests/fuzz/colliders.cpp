@@ -17,7 +17,7 @@ Collider make_kept(std::size_t index) {
     case 0:
       break;
     case 1:  // everything must be grown and redone
-      params.rays = dBatchRaysFull;
+      params.rays = dBatchRaysIterative;
       params.workload = dBatchWorkloadExact;
       params.initial_capacity = 1;
       params.confidence = 0.01;

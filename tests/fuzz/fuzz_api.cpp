@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 
 #include "fuzz/program.h"
@@ -26,10 +27,14 @@ constexpr int kProgramsPerColliders = 200;
 
 void say_nothing(int, const char*, va_list) {}
 
-// LLVM, in PoCL, takes the signals that libFuzzer writes its artifacts at, at the latest when it
-// first compiles a kernel, and lets an abort pass. So they are given back before every program.
+// LLVM, in PoCL, takes the signals that libFuzzer writes its artifacts at when it first compiles a
+// kernel, and lets an abort pass. If that was before libFuzzer began, it leaves them to LLVM. So
+// they are free when it begins, and given back to it before every program.
 class Signals {
  public:
+  static void free() {
+    for (const int fatal : kFatal) std::signal(fatal, SIG_DFL);
+  }
   Signals() {
     for (std::size_t i = 0; i < std::size(kFatal); ++i) sigaction(kFatal[i], nullptr, &actions_[i]);
   }
@@ -54,11 +59,12 @@ class Session {
   void run(std::span<const std::uint8_t> bytes) {
     if (programs_++ == kProgramsPerColliders) renew();
     remember(bytes);
-    signals_.give_back();
+    if (!signals_) signals_.emplace();
+    signals_->give_back();
     const Verdict verdict = run_program(bytes, colliders_);
     tally_ += verdict.tally;
     if (verdict.flaw.empty()) return;
-    renew();
+    colliders_.renew();  // the history stays: its last program is this one
     const Verdict again = run_program(bytes, colliders_);
     // Kernels that were compiled while the clock ran are there the second time.
     if (verdict.slow && again.flaw.empty()) return;
@@ -67,7 +73,7 @@ class Session {
       std::fprintf(stderr, "... but not with new colliders: it depends on the programs before\n");
     else if (again.flaw != verdict.flaw)
       std::fprintf(stderr, "... and with new colliders: %s\n", again.flaw.c_str());
-    signals_.give_back();
+    signals_->give_back();
     std::abort();
   }
 
@@ -92,7 +98,7 @@ class Session {
                static_cast<std::streamsize>(bytes.size()));
   }
 
-  const Signals signals_;
+  std::optional<Signals> signals_;
   Colliders colliders_;
   Tally tally_;
   int programs_ = 0;
@@ -104,6 +110,7 @@ Session* session = nullptr;
 void start() {
   try {
     session = new Session;
+    Signals::free();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "no collider to fuzz: %s\n", error.what());
     std::exit(1);

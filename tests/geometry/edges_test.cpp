@@ -90,10 +90,33 @@ TEST(Edges, NameTheirVerticesInAscendingOrder) {
     for (const Edge& edge : build_mesh(soup).edges) EXPECT_LT(edge.vertices[0], edge.vertices[1]);
 }
 
+TEST(Edges, AreBetweenFacetsOrWithinOne) {
+  for (const TriangleSoup& soup : manifolds()) {
+    const Mesh mesh = build_mesh(soup);
+    for (const Edge& edge : mesh.flat_edges)
+      EXPECT_EQ(mesh.facets[edge.triangles[0]], mesh.facets[edge.triangles[1]]);
+    for (const Edge& edge : mesh.edges)
+      EXPECT_TRUE(edge.triangles[1] == kNone ||
+                  mesh.facets[edge.triangles[0]] != mesh.facets[edge.triangles[1]]);
+  }
+}
+
+// A side of n x n squares has (n - 1)^2 vertices that no edge between sides joins to anything; the
+// edges between the sides join all others.
+TEST(Edges, WithinFacetsAreAsFewAsJoinAllVertices) {
+  for (const int n : {1, 2, 5}) {
+    const Mesh mesh = build_mesh(test::soup_of(test::make_cube(1, n)));
+    EXPECT_EQ(mesh.edges.size(), static_cast<std::size_t>(12 * n));
+    EXPECT_EQ(mesh.flat_edges.size(), static_cast<std::size_t>(6 * (n - 1) * (n - 1)));
+  }
+}
+
 TEST(Edges, AreAllOfThemWithoutFacets) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh rigid = build_mesh(soup);
-    EXPECT_EQ(edges(rigid.vertices, rigid.triangles, {}).size(), all_edges(rigid.triangles).size());
+    const Edges edges = find_edges(rigid.vertices, rigid.triangles, {});
+    EXPECT_EQ(edges.apart.size(), all_edges(rigid.triangles).size());
+    EXPECT_TRUE(edges.flat.empty());
     const Mesh deformable = build_mesh(soup, {.deformable = true});
     EXPECT_TRUE(deformable.facets.empty());
     EXPECT_EQ(deformable.edges.size(), all_edges(deformable.triangles).size());

@@ -196,9 +196,9 @@ TEST(Collider, RedoesAStepWhoseBuffersOverflowAndLosesNothing) {
   const Bits expected = bits_of(with_room.collide(scene.scene, nullptr));
   EXPECT_EQ(with_room.report().redone, 0);
   EXPECT_EQ(bits_of(without.collide(scene.scene, nullptr)), expected);
-  // Tasks, rays, hits and contacts one after the other at most.
+  // Meshlets, crossings, words of the flood, rays, hits and contacts one after the other at most.
   EXPECT_GE(without.report().redone, 1);
-  EXPECT_LE(without.report().redone, 4);
+  EXPECT_LE(without.report().redone, 6);
   EXPECT_EQ(without.report().actual, with_room.report().actual);
   EXPECT_EQ(without.report().pairs_bounded, with_room.report().pairs_bounded);
   EXPECT_EQ(bits_of(without.collide(scene.scene, nullptr)), expected);
@@ -357,9 +357,8 @@ TEST(Collider, WaitsForEveryCountWhereTheExactWorkloadIsAskedFor) {
   Collider collider(options);
   PassMemory history;
   for (int i = 0; i < 3; ++i) collider.collide(scene.scene, &history);
-  // Chunks, rays, rays after those that the iterative ones hand on, meshlets, pairs of them, hits
-  // and crossings, and the answer.
-  EXPECT_EQ(collider.report().synchronizations, 7);
+  // Meshlets, pairs of them, chunks, rays, hits and crossings, and the answer.
+  EXPECT_EQ(collider.report().synchronizations, 6);
 }
 
 TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
@@ -371,7 +370,7 @@ TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
   EXPECT_EQ(first.pairs, 100u);
   EXPECT_EQ(history.history.pairs, 100u);
   EXPECT_EQ(history.history.counts, first.actual);
-  EXPECT_EQ(first.predicted, (ArrowCounts{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(first.predicted, (ArrowCounts{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   collider.collide(scene.scene, &history);
   const StepReport& second = collider.report();
   EXPECT_EQ(second.actual, first.actual);

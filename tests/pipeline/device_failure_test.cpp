@@ -140,7 +140,9 @@ TEST_F(DeviceFailure, LeavesNoTemporalDataHalfWritten) {
   full.rays = Rays::kFull;
   Collider reference(full);
   MovingScene moving(smooth_meshes(), 6, 0.002, 78);
-  Collider collider({});
+  ColliderOptions remembering;
+  remembering.rays = Rays::kIterative;
+  Collider collider(remembering);
   std::uint64_t iterative = 0;
   for (const int code : {kCode, CL_OUT_OF_RESOURCES, CL_MEM_OBJECT_ALLOCATION_FAILURE}) {
     for (int n = 1; n < 200; n += 3) {

@@ -40,6 +40,8 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_mesh, meshlet_count),
     OFFSET_OF(ox_mesh, meshlet_node_first),
     OFFSET_OF(ox_mesh, meshlet_node_count),
+    OFFSET_OF(ox_mesh, component_first),
+    OFFSET_OF(ox_mesh, component_count),
     OFFSET_OF(ox_mesh, group_first),
     OFFSET_OF(ox_mesh, grid_first),
     OFFSET_OF(ox_mesh, clearance_first),

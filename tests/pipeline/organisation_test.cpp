@@ -29,6 +29,7 @@ class Organisations : public testing::TestWithParam<Rays> {};
 TEST_P(Organisations, GiveTheSameBytes) {
   ColliderOptions options;
   options.rays = GetParam();
+  const ColliderOptions flooding_or_not = options;
   Collider pipelined(options);
   options.organisation = Organisation::kMonolithic;
   Collider monolithic(options);
@@ -37,6 +38,7 @@ TEST_P(Organisations, GiveTheSameBytes) {
   for (int i = 0; i < 10; ++i, moving.advance()) {
     const Bits expected = bits_of(pipelined.collide(moving.scene(), &memory));
     ASSERT_EQ(bits_of(monolithic.collide(moving.scene(), &memory_of_monolithic)), expected) << i;
+    if (floods(flooding_or_not)) continue;  // it casts fewer rays
     for (const Arrow arrow : {Arrow::kRaysIterative, Arrow::kRaysBvh, Arrow::kHits,
                               Arrow::kCrossings, Arrow::kContacts})
       EXPECT_EQ(count(monolithic.report(), arrow), count(pipelined.report(), arrow)) << i;
@@ -51,6 +53,7 @@ TEST_P(Organisations, DoTheSameWork) {
   ColliderOptions options;
   options.rays = GetParam();
   options.count_work = true;
+  options.edges = false;  // every vertex is looked at in both
   Collider pipelined(options);
   options.organisation = Organisation::kMonolithic;
   Collider monolithic(options);

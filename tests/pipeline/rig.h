@@ -66,8 +66,8 @@ class Rig {
         run_vertices(launch);
       }
       steps_.cull.run(launch, lists_, meshes_, pairs_);
-      steps_.match.run(launch, lists_, meshes_, pairs_);
-      steps_.cross.run(launch, lists_, meshes_, pairs_);
+      steps_.match.run(launch, lists_, meshes_, pairs_, settings_);
+      steps_.cross.run(launch, lists_, meshes_, pairs_, settings_);
     } while (grow_for_search());
     steps_.contact.run(launch, launch, launch, lists_, meshes_, pairs_, settings_);
     StepRecords records = read_back();
@@ -121,7 +121,7 @@ class Rig {
     host_dense_first_.clear();
     edge_count_ = meshlet_count_ = 0;
     for (const auto& mesh : scene.meshes) {
-      edge_count_ += topology(*mesh).edges.size();
+      edge_count_ += topology(*mesh).edges.size() + topology(*mesh).flat_edges.size();
       meshlet_count_ += topology(*mesh).meshlets.meshlets.size();
     }
     for (const Scene::Object& object : scene.objects)
@@ -150,7 +150,7 @@ class Rig {
     // An edge may cross every triangle; that all of them do takes more memory than there is, so
     // the room for what the search finds follows what it did.
     lists_.reserve({tasks, tasks, tasks, vertices, vertices, vertices, edges, edges, vertices,
-                    edges, std::uint64_t{count} * max_contacts + 1});
+                    edges, 1, std::uint64_t{count} * max_contacts + 1});
     lists_.begin(lists_.capacities());
     lists_.tasks().reserve((dense_tasks_ + 1) * sizeof(ox_chunk_task));
     temporal_.begin_without(count);

@@ -186,7 +186,7 @@ bool SoakThread::mark_deformables(dBatchColliderID collider) const {
 void SoakThread::replace_collider() {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
-  if (once_in(3)) params.rays = dBatchRaysFull;
+  if (once_in(3)) params.rays = dBatchRaysIterative;
   if (once_in(3)) params.initial_capacity = 64;
   if (once_in(3)) params.organisation = dBatchOrganisationMonolithic;
   dBatchColliderDestroy(collider_);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which vertices are inside follows from where edges cross: the contacts are those that rays of all
+// vertices give, for a fraction of the rays. The other way to them, iterative rays, looks at every
+// vertex that grids cannot dismiss.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/collider.h"
+#include "pipeline/moving_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+ColliderOptions flooded() { return {}; }
+
+ColliderOptions of_every_vertex() {
+  ColliderOptions options;
+  options.rays = Rays::kIterative;  // without memory of the last step: each ray in full
+  return options;
+}
+
+std::uint64_t rays(const Collider& collider) {
+  return collider.report().actual[static_cast<std::size_t>(Arrow::kRaysBvh)];
+}
+
+std::uint64_t hits(const Collider& collider) {
+  return collider.report().actual[static_cast<std::size_t>(Arrow::kHits)];
+}
+
+class Flood : public testing::Test {
+ protected:
+  void collide(const Scene& scene) {  // both ways
+    const auto expected = bits_of(all_.collide(scene, nullptr));
+    EXPECT_EQ(bits_of(flood_.collide(scene, nullptr)), expected);
+    rays_ += rays(flood_);
+    rays_of_all_ += rays(all_);
+    hits_ += hits(flood_);
+  }
+
+  Collider all_{of_every_vertex()}, flood_{flooded()};
+  std::uint64_t rays_ = 0, rays_of_all_ = 0, hits_ = 0;
+};
+
+TEST_F(Flood, FindsTheVerticesInsideOfSmoothMeshes) {
+  MovingScene moving(smooth_meshes(), 40, 0.01, 1);
+  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
+  EXPECT_GT(hits_, 10000u);
+  // What it casts meets something, but for what is near the surface.
+  EXPECT_LT(rays_, hits_ + hits_ / 20);
+}
+
+TEST_F(Flood, FindsTheVerticesInsideOfMeshesOfAllKinds) {
+  MovingScene moving(small_meshes(), 200, 0.02, 2);
+  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
+  EXPECT_GT(hits_, 3000u);
+}
+
+// Facets of many triangles: the flood runs over edges that lie within them.
+TEST_F(Flood, RunsAcrossFlatFaces) {
+  const std::vector<TestMesh> meshes = {make_cube(1, 8), make_plate(1.5, 0.2, 9),
+                                        make_box({0.5, 0.7, 1.2}, 3, 7, 11)};
+  MovingScene moving(meshes, 60, 0.02, 3);
+  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
+  EXPECT_GT(hits_, 3000u);
+}
+
+TEST_F(Flood, FindsMeshesThatAreWhollyInside) {
+  for (const Point& place : {Point{0, 0, 0}, Point{0.2, 0.1, -0.3}, Point{3, 0, 0}}) {
+    const TestScene scene = one_pair(make_icosphere(1, 3), at(0, 0, 0), make_icosphere(0.3, 2),
+                                     turned({1, 2, 3}, 0.4, place));
+    hits_ = 0;
+    collide(scene.scene);
+    EXPECT_EQ(hits_, place[0] < 1 ? 162u : 0u);
+  }
+}
+
+// One part outside, one across the surface, one inside: the first two tell nothing of the third.
+TEST_F(Flood, FindsPartsOfAMeshThatAreWhollyInside) {
+  const TestMesh ball = make_icosphere(0.2, 2);
+  const TestMesh parts =
+      merged(merged(moved(ball, {2, 0, 0}), moved(ball, {1, 0, 0})), moved(ball, {0.3, 0.2, 0}));
+  const TestScene scene = one_pair(make_icosphere(1, 3), at(0, 0, 0), parts, at(0, 0, 0));
+  collide(scene.scene);
+  EXPECT_GT(hits_, 162u + 50u);
+  EXPECT_LT(hits_, 2 * 162u);
+}
+
+// Its faces are pierced, its edges are not: all of its vertices are inside.
+TEST_F(Flood, FindsAMeshWhoseFacesAloneCross) {
+  // A ball with a spike inward that pierces a large face of the box inside.
+  TestMesh ball = make_icosphere(2, 4);
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(ball.vertex_count()); ++i)
+    if (ball.vertex(i)[2] > ball.vertex(top)[2]) top = i;
+  ball.vertices[3 * top + 2] = 0.4f;
+  const TestScene scene =
+      one_pair(ball, at(0, 0, 0), make_cube(1), turned({0, 0, 1}, 0.3, {0.07, 0.03, 0}));
+  collide(scene.scene);
+  EXPECT_GE(hits_, 8u);
+}
+
+TEST_F(Flood, IsNeededForTargetsThatAreSolidsOnly) {
+  // Of meshes that cut themselves every vertex is looked at, as before.
+  const TestMesh crossed = merged(make_cube(1, 3), moved(make_cube(1, 3), {0.5, 0.2, 0.1}));
+  ASSERT_FALSE(build_mesh(soup_of(crossed)).embedded);
+  for (int i = 0; i < 6; ++i) {
+    const TestScene scene =
+        one_pair(crossed, at(0, 0, 0), make_icosphere(0.6, 3), at(0.2 * i, 0.7, 0.1));
+    collide(scene.scene);
+  }
+  EXPECT_GT(hits_, 300u);
+}
+
+TEST_F(Flood, GrowsWhatItNeedsRoomFor) {
+  ColliderOptions tight = flooded();
+  tight.initial_capacity = 1;
+  Collider collider(tight);
+  const TestScene scene = one_pair(make_icosphere(1, 5), at(0, 0, 0), make_icosphere(1, 5),
+                                   turned({1, 2, 3}, 0.4, {0.1, 0.2, 0.3}));
+  const auto expected = bits_of(flood_.collide(scene.scene, nullptr));
+  EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+  EXPECT_GT(collider.report().redone, 0);
+  // More than its first table held.
+  EXPECT_GT(hits(collider), 4000u);
+}
+
+TEST_F(Flood, IsTheSameInGroupsOfAnySize) {
+  MovingScene moving(smooth_meshes(), 30, 0.01, 5);
+  const auto expected = bits_of(flood_.collide(moving.scene(), nullptr));
+  for (const std::uint32_t size : {1u, 32u, 256u}) {
+    ColliderOptions options = flooded();
+    options.work_group_size = size;
+    Collider collider(options);
+    EXPECT_EQ(bits_of(collider.collide(moving.scene(), nullptr)), expected) << size;
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
