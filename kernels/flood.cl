@@ -113,7 +113,7 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint vertex,
   return ox_is_inside(false, &query, target, nodes, triangles, &work);
 }
 
-// What is on one side with a vertex near the surface nobody knows before its own ray does.
+// Neighbours on one side with a vertex near the surface: which side that is, no crossing tells.
 static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_mesh* target,
                             __global const ox_node* nodes, __global const ox_triangle* triangles,
                             uint* next) {

@@ -149,8 +149,8 @@ static inline void ox_cross_edges(const ox_crossing_lists* to, uint pair_side, b
 }
 
 // Vertices that may lie on the surface, or beside it past a ridge or a corner: what is within
-// epsilon of a triangle is so of its plane, and within its box and slab. Of triangles so small that
-// their area underflows nobody knows the plane.
+// epsilon of a triangle is so of its plane, and within its box and slab. Triangles so small that
+// their area underflows have no plane to compute: all vertices may lie on them.
 static inline void ox_touch_vertices(const ox_crossing_lists* to, uint pair_side,
                                      __global const ox_pair* pair,
                                      __global const ox_meshlet* source,

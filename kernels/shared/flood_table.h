@@ -8,7 +8,8 @@
 
 #include "shared/append.h"
 
-// What a key is of: the index of a vertex or an edge, which is below 2^30 (pipeline/append_lists).
+// What a key is of: the index of a vertex or an edge. They are below 2^30: the meshlets of as many
+// edges take 45 GiB, more than one buffer can.
 #define OX_KEY_VERTEX 1u   // has its ray
 #define OX_KEY_OUTSIDE 2u  // a vertex that needs none
 #define OX_KEY_EDGE 3u     // value: how often it enters more than it leaves, from OX_BALANCED on
@@ -77,7 +78,7 @@ static inline bool ox_grow_table(__global volatile uint* counters, __global cons
   }
   ox_flood_table larger = ox_empty_table(counters, lists, words, 2u * table->places);
   if (larger.places == 0u) {
-    // What it will need after that nobody knows; asked for at once, a step is redone less often.
+    // More than is needed now: the less often a step is redone.
     ox_take_words(counters, lists, 16u * min(table->places, OX_MOST_COUNTED / 16u));
     return false;
   }

@@ -1,39 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/edges.h"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "geometry/directed_edges.h"
+#include "geometry/joined.h"
 #include "geometry/ray_cast.h"
 #include "geometry/runs.h"
 
 namespace ode_ext {
-namespace {
-
-// Which vertices are joined (union-find, with path halving).
-class Joined {
- public:
-  explicit Joined(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  // False: they were joined before.
-  bool join(const std::array<std::uint32_t, 2>& ends) {
-    const std::uint32_t a = root(ends[0]), b = root(ends[1]);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
 
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
                  const std::vector<std::uint32_t>& facets) {
@@ -56,8 +31,11 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>
     middles.push_back(0.5f * vertices[edge.vertices[0]] + 0.5f * vertices[edge.vertices[1]]);
   }
   Joined joined(vertices.size());
-  for (const Edge& edge : found) joined.join(edge.vertices);
-  std::erase_if(edges.flat, [&](const Edge& edge) { return !joined.join(edge.vertices); });
+  const auto join = [&](const Edge& edge) {
+    return joined.join(edge.vertices[0], edge.vertices[1]);
+  };
+  for (const Edge& edge : found) join(edge);
+  std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
   if (facets.empty()) {
     edges.apart = std::move(found);
     return edges;

@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "geometry/joined.h"
+
 namespace ode_ext {
 
 Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges) {
@@ -13,30 +15,15 @@ Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges) {
   std::partial_sum(rings.starts.begin(), rings.starts.end(), rings.starts.begin());
   rings.neighbours.resize(2 * edges.size());
   std::vector<std::uint32_t> next(rings.starts.begin(), rings.starts.end() - 1);
+  Joined joined(vertex_count);
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
     const auto& [p, q] = edges[i].vertices;
     rings.neighbours[next[p]++] = {q, i};
     rings.neighbours[next[q]++] = {p, i};
+    joined.join(p, q);
   }
-
-  std::vector<bool> known(vertex_count);
-  std::vector<std::uint32_t> stack;
-  for (std::uint32_t first = 0; first < vertex_count; ++first) {
-    if (known[first]) continue;
-    rings.components.push_back(first);
-    known[first] = true;
-    stack.push_back(first);
-    while (!stack.empty()) {
-      const std::uint32_t v = stack.back();
-      stack.pop_back();
-      for (std::uint32_t k = rings.starts[v]; k < rings.starts[v + 1]; ++k) {
-        const std::uint32_t w = rings.neighbours[k].vertex;
-        if (known[w]) continue;
-        known[w] = true;
-        stack.push_back(w);
-      }
-    }
-  }
+  for (std::uint32_t v = 0; v < vertex_count; ++v)
+    if (joined.lowest(v) == v) rings.components.push_back(v);
   return rings;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sizes and places for which there are contacts, and what is said of the others.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -193,6 +194,29 @@ TEST_F(ApiRange, PosesThatCannotBeComputedAreRefusedWithAStatusBit) {
     EXPECT_EQ(status_at(skewed), unsigned{dBatchStatusPoseRefused}) << bad;
     EXPECT_EQ(status_at(good), 0u);
   }
+}
+
+TEST_F(ApiRange, PosesTurnedByNoRotationAreRefusedWithAStatusBit) {
+  const dGeomID still = world.geom(world.mesh(cube), {});
+  const dGeomID moved = world.geom(world.mesh(cube), {});
+  const auto status_at = [&](const std::array<double, 9>& rotation) {
+    TestPose pose = at(0.1, 0.2, 0.9);
+    pose.rotation = rotation;
+    set_pose(moved, pose);
+    const bool none = answer_of(collider, moved, still).empty();
+    const unsigned status = collider.stats().status;
+    EXPECT_EQ(none, (status & dBatchStatusPoseRefused) != 0);
+    return status;
+  };
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  EXPECT_EQ(status_at({c, -s, 0, s, c, 0, 0, 0, 1}), 0u);
+  EXPECT_EQ(status_at({0.955, -0.296, 0, 0.296, 0.955, 0, 0, 0, 1}), 0u) << "three digits";
+  const std::array<double, 9> bad[] = {{1, 0, 0, 0, 1, 0, 0, 0, -1},       // a mirror
+                                       {1.1, 0, 0, 0, 1.1, 0, 0, 0, 1.1},  // larger
+                                       {1, 0, 0.1, 0, 1, 0, 0, 0, 1},      // askew
+                                       {0, 0, 0, 0, 0, 0, 0, 0, 0}};
+  for (const auto& rotation : bad)
+    EXPECT_EQ(status_at(rotation), unsigned{dBatchStatusPoseRefused}) << rotation[8];
 }
 
 }  // namespace

@@ -237,11 +237,7 @@ bool finite(const TestPose& pose) {
 }
 
 bool tame(const TestPose& pose) {
-  return is_rigid(pose) && largest_component(pose.position) <= 1e4;
-}
-
-bool is_rigid(const TestPose& pose) {
-  if (!finite(pose)) return false;
+  if (!finite(pose) || largest_component(pose.position) > 1e4) return false;
   // R Rt = 1 to within what rounding explains, and no mirror.
   const auto row = [&](std::size_t i) {
     return Point{pose.rotation[3 * i], pose.rotation[3 * i + 1], pose.rotation[3 * i + 2]};

@@ -27,9 +27,7 @@ test::TestPose decode_pose(ByteSource& bytes, bool wild);
 // is at least a thousandth of that high.
 bool tame(const test::TestMesh& mesh);
 bool finite(const test::TestMesh& mesh);
-// A rotation and a place.
-bool is_rigid(const test::TestPose& pose);
-// And that within 10 km.
+// A rotation and a place within 10 km.
 bool tame(const test::TestPose& pose);
 bool finite(const test::TestPose& pose);
 

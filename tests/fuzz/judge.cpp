@@ -164,12 +164,9 @@ void Judge::judge(Geom& a, Geom& b, const Contacts& contacts, int limit, const C
   if (by != nullptr && by->alike) compare(a, b, contacts, limit, *by);
 }
 
-// Colliders that know other pairs, from another past, with other settings. What is turned by no
-// rotation is in another place in the frame of the one mesh than in that of the other, so that
-// what is looked for in either, which depends on settings, is not one thing.
+// Colliders that know other pairs, from another past, with other settings.
 void Judge::compare(Geom& a, Geom& b, const Contacts& contacts, int limit, const Collider& by) {
   if (a.inner != nullptr || b.inner != nullptr || a.merges || b.merges) return;
-  if (!is_rigid(a.pose()) || !is_rigid(b.pose())) return;
   for (std::size_t i = 0; i < Colliders::kKept; ++i) {
     const Collider& other = colliders_.kept(i);
     if (!other.alike || other.id == by.id || ++compared_ > kMostCompared) continue;
