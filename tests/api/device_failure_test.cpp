@@ -140,7 +140,7 @@ class ApiInformation : public ApiDeviceFailure {
  protected:
   ApiInformation() { setenv("ODE_EXT_LOG", "info", 1); }
   ~ApiInformation() override { unsetenv("ODE_EXT_LOG"); }
-  const CountMessages count_;
+  CountMessages count_;
 };
 
 TEST_F(ApiInformation, SaysThatKernelsAreBuiltAndWhenTheyAre) {
