@@ -130,7 +130,7 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   ode_ext::ColliderOptions options;
   options.device = selection_or_environment(p.device);
   options.max_contacts = static_cast<std::uint32_t>(p.max_contacts);
-  if (p.workload == dBatchWorkloadExact) options.workload = ode_ext::Workload::kExact;
+  if (p.workload == dBatchWorkloadExact) options.launches = ode_ext::LaunchRule::kExact;
   if (p.prediction == dBatchPredictionPlain) options.prediction = ode_ext::PredictionRule::kPlain;
   options.confidence = p.confidence;
   options.rays = std::array{ode_ext::Rays::kFull, ode_ext::Rays::kIterative,

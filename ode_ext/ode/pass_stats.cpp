@@ -26,19 +26,8 @@ void note_report(const StepReport& report, dBatchColliderStats& stats) {
                      static_cast<long long>(work.lockstep32),
                      static_cast<long long>(work.lockstep64)};
   }
-  stats.ms[dBatchStageDeformStep] = report.ms_deform_step;
-  stats.ms[dBatchStagePairStep] = report.ms_pair_step;
-  stats.ms[dBatchStageVertexStep] = report.ms_vertex_step;
-  stats.ms[dBatchStageIterativeRays] = report.ms_iterative_rays;
-  stats.ms[dBatchStageBvhRays] = report.ms_bvh_rays;
-  stats.ms[dBatchStageBasicRays] = report.ms_basic_rays;
-  stats.ms[dBatchStageMonolithic] = report.ms_monolithic;
-  stats.ms[dBatchStageCull] = report.ms_cull;
-  stats.ms[dBatchStageMatch] = report.ms_match;
-  stats.ms[dBatchStageCross] = report.ms_cross;
-  stats.ms[dBatchStageFlood] = report.ms_flood;
-  stats.ms[dBatchStageEdgeContacts] = report.ms_edge_contacts;
-  stats.ms[dBatchStageContactStep] = report.ms_contact_step;
+  static_assert(dBatchStageDeformStep + kStageCount == dBatchStageDevice);
+  for (std::size_t i = 0; i < kStageCount; ++i) stats.ms[dBatchStageDeformStep + i] = report.ms[i];
   stats.ms[dBatchStageDevice] = report.ms_total;
 }
 

@@ -12,6 +12,8 @@ static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SM
               static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
               kArrowCount == OX_LIST_COUNT);
 
+constexpr std::size_t kCounterBytes = OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
+
 // Counters and indices have 32 bits. Tiles are cut so that vertices need no more; what else there
 // is too much of is seen, since counters stop at 2^31 (shared/append.h), and does not fit the
 // device.
@@ -48,6 +50,7 @@ constexpr std::uint64_t kNotWorthReleasing = std::uint64_t{32} << 20;  // [bytes
 
 AppendLists::AppendLists(Device& device)
     : device_(&device),
+      read_counters_(device),
       counters_(device),
       lists_(device),
       tasks_(device),
@@ -62,6 +65,7 @@ AppendLists::AppendLists(Device& device)
       crossing_order_(device),
       flood_words_(device),
       contacts_(device) {
+  read_counters_.reserve(kCounterBytes);
   counters_.reserve(kCounterBytes);
   lists_.reserve(sizeof(host_lists_));
 }
@@ -160,6 +164,11 @@ void AppendLists::begin(const ArrowCounts& most) {
   lay_out(room);
   counters_.fill_zero(kCounterBytes);
   lists_.write(host_lists_.data(), sizeof(host_lists_));
+}
+
+void AppendLists::count() {
+  counters_.read(read_counters_.data(), kCounterBytes);
+  device_->finish();
 }
 
 }  // namespace ode_ext

@@ -3,6 +3,7 @@
 // on past the capacity. Lists of one kind of record share a buffer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -32,6 +33,7 @@ class AppendLists {
   // steps are given back, so that one crowded moment is not paid for ever after.
   void note_use(const ArrowCounts& stored, bool is_step);
   const ArrowCounts& capacities() const { return capacities_; }
+  std::uint64_t capacity(Arrow list) const { return capacities_[static_cast<std::size_t>(list)]; }
   // The place of a list's first record in its buffer.
   std::uint64_t first(Arrow list) const {
     return host_lists_[static_cast<std::size_t>(list)].first;
@@ -43,14 +45,19 @@ class AppendLists {
   // Before a step: counters at zero, lists as reserved, but none with more room than the step can
   // `most` fill, so that the places of small steps are small numbers.
   void begin(const ArrowCounts& most);
-  // Enqueues the read of all counters into `target`.
-  static constexpr std::size_t kCounterBytes =
-      OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
-  void read_counters(void* target) const { counters_.read(target, kCounterBytes); }
+  // Reads all counters. Waits, for what else is to be read too.
+  void count();
+  // As of the last count(): what was appended, and how much of it is there.
+  std::uint64_t counted(Arrow list) const { return counted(static_cast<std::size_t>(list)); }
+  std::uint64_t counted(std::size_t counter) const {
+    return static_cast<const ox_u32*>(read_counters_.data())[counter * OX_COUNTER_STRIDE];
+  }
+  std::uint64_t length(Arrow list) const { return std::min(counted(list), capacity(list)); }
 
   const Buffer& counters() const { return counters_; }
   const Buffer& lists() const { return lists_; }
   Buffer& tasks() { return tasks_; }
+  const Buffer& tasks() const { return tasks_; }
   const Buffer& rays() const { return rays_; }
   const Buffer& meshlets() const { return meshlets_; }
   const Buffer& meshlet_pairs() const { return meshlet_pairs_; }
@@ -77,6 +84,7 @@ class AppendLists {
   ArrowCounts most_used_{};  // in the steps noted so far
   int steps_noted_ = 0;
   std::array<ox_list, kArrowCount> host_lists_{};
+  PinnedMemory read_counters_;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, crossing_links_, gathered_crossings_, crossing_order_, flood_words_, contacts_;
 };

@@ -3,11 +3,8 @@
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_lists.h"
-#include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
-#include "pipeline/pair_buffers.h"
-#include "pipeline/step_settings.h"
+#include "pipeline/step_data.h"
 #include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
@@ -16,11 +13,12 @@ class MonolithicStep {
  public:
   explicit MonolithicStep(Program& program) : kernel_(program, "monolithic") {}
 
-  void run(Launch launch, AppendLists& lists, cl_uint task_count, const DeviceMeshes& meshes,
-           const PairBuffers& pairs, const TemporalCache& temporal, const StepSettings& settings,
+  // All chunks of the pairs, at the places that PairStep gave them.
+  void run(Launch launch, const StepData& data, const TemporalCache& temporal,
            const Buffer& works) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(),
-                   task_count, pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
+                   pairs.chunks, pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
                    meshes.grids(), meshes.nodes(), meshes.triangles(), meshes.isolations(),
                    settings.rays_mode, settings.displacement_limit, settings.walk_limit,
                    temporal.before(), temporal.now(), pairs.hits, lists.hits(), works);

@@ -8,7 +8,7 @@
 
 namespace ode_ext {
 
-enum class Workload { kPredicted, kExact };
+enum class LaunchRule { kPredicted, kExact };
 enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
 enum class Organisation { kPipelined, kMonolithic };
@@ -21,7 +21,7 @@ struct ColliderOptions {
   Rays rays = Rays::kFull;
   DeformableTarget deformable_target = DeformableTarget::kRefit;
   Organisation organisation = Organisation::kPipelined;
-  Workload workload = Workload::kPredicted;
+  LaunchRule launches = LaunchRule::kPredicted;
   PredictionRule prediction = PredictionRule::kPairScaled;
   Misprediction misprediction = Misprediction::kRedo;
   double confidence = 1.2;

@@ -1,41 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pairs of a step in device memory.
+// The objects of a step and the pairs of one of its tiles in device memory.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "device/buffer.h"
+#include "pipeline/scene.h"
+#include "pipeline/tiles.h"
 #include "shared/types.h"
 
 namespace ode_ext {
 
 struct PairBuffers {
-  explicit PairBuffers(Device& device)
-      : objects(device),
-        members(device),
-        dense_first(device),
-        pairs(device),
-        hits(device),
-        crossings(device),
-        heads(device),
-        ranges(device),
-        segments(device),
-        crossing_segments(device) {}
+  explicit PairBuffers(Device& device);
 
-  void reserve(std::size_t pair_count) {
-    count = static_cast<cl_uint>(pair_count);
-    members.reserve(2 * pair_count * sizeof(ox_u32));
-    dense_first.reserve(pair_count * sizeof(ox_u32));
-    pairs.reserve(pair_count * sizeof(ox_pair));
-    hits.reserve(pair_count * sizeof(ox_u32));
-    crossings.reserve(pair_count * sizeof(ox_u32));
-    heads.reserve(2 * pair_count * sizeof(ox_u32));
-    ranges.reserve(pair_count * sizeof(ox_range));
-    segments.reserve(pair_count * sizeof(ox_u32));
-    crossing_segments.reserve(pair_count * sizeof(ox_u32));
-  }
+  // These enqueue only: the sources live in here.
+  void upload_objects(const Scene& scene);
+  void upload_pairs(const Scene& scene, Tile tile);
+  void upload_dense_first();  // of the pairs uploaded last
 
   cl_uint count = 0;
+  cl_uint chunks = 0;  // of vertices, of all pairs
   // in
   Buffer objects;      // ox_object
   Buffer members;      // two object indices per pair
@@ -47,6 +33,10 @@ struct PairBuffers {
   Buffer ranges;             // ox_range of contacts
   Buffer segments;           // where the candidates of a pair start
   Buffer crossing_segments;  // where its crossings start
+
+ private:
+  std::vector<ox_object> host_objects_;
+  std::vector<ox_u32> host_members_, host_dense_first_;
 };
 
 }  // namespace ode_ext

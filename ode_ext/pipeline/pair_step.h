@@ -3,11 +3,8 @@
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_lists.h"
-#include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
-#include "pipeline/pair_buffers.h"
-#include "pipeline/step_settings.h"
+#include "pipeline/step_data.h"
 #include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
@@ -17,8 +14,8 @@ class PairStep {
   explicit PairStep(Program& program) : kernel_(program, "pair_step") {}
 
   // dense: a task for every chunk of every pair, at its own place; those of PairBuffers.
-  void run(Launch launch, AppendLists& lists, const DeviceMeshes& meshes, const PairBuffers& pairs,
-           const TemporalCache& temporal, const StepSettings& settings, bool dense) {
+  void run(Launch launch, const StepData& data, const TemporalCache& temporal, bool dense) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.objects,
                    meshes.records(), meshes.chunks(), meshes.grids(), pairs.members,
                    temporal.links(), pairs.count, temporal.step(), settings.rays_mode,

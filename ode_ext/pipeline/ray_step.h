@@ -3,11 +3,8 @@
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_lists.h"
-#include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
-#include "pipeline/pair_buffers.h"
-#include "pipeline/step_settings.h"
+#include "pipeline/step_data.h"
 #include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
@@ -16,9 +13,9 @@ class RayStep {
  public:
   RayStep(Program& program, const char* kernel) : kernel_(program, kernel) {}
 
-  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs, const TemporalCache& temporal, const StepSettings& settings,
+  void run(Launch launch, const StepData& data, const TemporalCache& temporal,
            const Buffer& works) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.rays(),
                    pairs.pairs, meshes.records(), meshes.vertices(), meshes.nodes(),
                    meshes.triangles(), meshes.isolations(), settings.rays_mode, settings.walk_limit,

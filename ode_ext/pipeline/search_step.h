@@ -4,11 +4,8 @@
 #pragma once
 
 #include "device/program.h"
-#include "pipeline/append_lists.h"
-#include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
-#include "pipeline/pair_buffers.h"
-#include "pipeline/step_settings.h"
+#include "pipeline/step_data.h"
 
 namespace ode_ext {
 
@@ -16,8 +13,8 @@ class CullStep {
  public:
   explicit CullStep(Program& program) : kernel_(program, "cull") {}
 
-  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs) {
+  void run(Launch launch, const StepData& data) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.pairs,
                    meshes.records(), meshes.meshlet_nodes(), pairs.count, lists.meshlets());
   }
@@ -31,8 +28,8 @@ class MatchStep {
  public:
   explicit MatchStep(Program& program) : kernel_(program, "match") {}
 
-  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs, const StepSettings& settings) {
+  void run(Launch launch, const StepData& data) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.meshlets(),
                    pairs.pairs, meshes.records(), meshes.meshlets(), meshes.meshlet_nodes(),
                    settings.rays_mode, lists.meshlet_pairs(), pairs.crossings, lists.crossings(),
@@ -48,8 +45,8 @@ class CrossStep {
  public:
   explicit CrossStep(Program& program) : kernel_(program, "cross_meshlets") {}
 
-  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs, const StepSettings& settings) {
+  void run(Launch launch, const StepData& data) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(),
                    lists.meshlet_pairs(), pairs.pairs, meshes.records(), meshes.meshlets(),
                    settings.rays_mode, pairs.crossings, lists.crossings(), pairs.heads,
@@ -65,8 +62,8 @@ class FloodStep {
  public:
   explicit FloodStep(Program& program) : kernel_(program, "flood") {}
 
-  void run(Launch launch, const AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs) {
+  void run(Launch launch, const StepData& data) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.pairs,
                    meshes.records(), pairs.heads, lists.crossings(), lists.crossing_links(),
                    meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "pipeline/prediction.h"
+#include "pipeline/stage.h"
 #include "pipeline/work_count.h"
 
 namespace ode_ext {
@@ -26,9 +27,8 @@ struct StepReport {
   std::uint64_t dropped = 0;   // vertices dropped for want of temporal data
   std::uint64_t temporal_pairs = 0;
   std::array<WorkCount, kWorkerCount> work{};
-  double ms_deform_step = 0, ms_pair_step = 0, ms_vertex_step = 0, ms_iterative_rays = 0,
-         ms_bvh_rays = 0, ms_basic_rays = 0, ms_monolithic = 0, ms_cull = 0, ms_match = 0,
-         ms_cross = 0, ms_flood = 0, ms_edge_contacts = 0, ms_contact_step = 0;  // device
+  StageTimes ms{};
+  double milliseconds(Stage stage) const { return ms[static_cast<std::size_t>(stage)]; }
   double ms_total = 0;  // host clock, first upload to last read-back
 };
 

@@ -1,40 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of the pipeline by step. Each launches with its inputs and outputs spelled out once.
+// The kernels of the pipeline by step, but for those of rays of vertices (vertex_rays.h).
 #pragma once
 
 #include "device/program.h"
 #include "pipeline/contact_step.h"
-#include "pipeline/monolithic_step.h"
 #include "pipeline/pair_step.h"
-#include "pipeline/ray_step.h"
 #include "pipeline/search_step.h"
-#include "pipeline/vertex_step.h"
+#include "pipeline/stage.h"
 
 namespace ode_ext {
 
 struct Steps {
   explicit Steps(Program& program)
       : pair(program),
-        vertex(program),
-        iterative(program, "ray_iterative"),
-        bvh(program, "ray_bvh"),
-        basic(program, "ray_basic"),
-        monolithic(program),
         cull(program),
         match(program),
         cross(program),
         flood(program),
-        contact(program) {}
+        gather(program),
+        edge_contacts(program),
+        reduce(program) {}
+
+  // Adds the device time since the last call.
+  void take_milliseconds(StageTimes& ms) {
+    add_time(ms, Stage::kPairStep, pair);
+    add_time(ms, Stage::kCull, cull);
+    add_time(ms, Stage::kMatch, match);
+    add_time(ms, Stage::kCross, cross);
+    add_time(ms, Stage::kFlood, flood);
+    add_time(ms, Stage::kEdgeContacts, edge_contacts);
+    add_time(ms, Stage::kContactStep, gather);
+    add_time(ms, Stage::kContactStep, reduce);
+  }
 
   PairStep pair;
-  VertexStep vertex;
-  RayStep iterative, bvh, basic;
-  MonolithicStep monolithic;
   CullStep cull;
   MatchStep match;
   CrossStep cross;
   FloodStep flood;
-  ContactStep contact;
+  GatherStep gather;
+  EdgeContactStep edge_contacts;
+  ReduceStep reduce;
 };
 
 }  // namespace ode_ext

@@ -5,11 +5,8 @@
 #include <array>
 
 #include "device/program.h"
-#include "pipeline/append_lists.h"
-#include "pipeline/device_meshes.h"
 #include "pipeline/launch.h"
-#include "pipeline/pair_buffers.h"
-#include "pipeline/step_settings.h"
+#include "pipeline/step_data.h"
 #include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
@@ -21,9 +18,9 @@ class VertexStep {
                   {program, "vertex_high"},
                   {program, "vertex_deformable"}}} {}
 
-  void run(Arrow category, Launch launch, AppendLists& lists, const DeviceMeshes& meshes,
-           const PairBuffers& pairs, const TemporalCache& temporal, const StepSettings& settings,
+  void run(Arrow category, Launch launch, const StepData& data, const TemporalCache& temporal,
            const Buffer& works) {
+    const auto& [meshes, pairs, lists, settings] = data;
     kernels_[static_cast<std::size_t>(category)].launch(
         launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(), pairs.pairs,
         meshes.records(), meshes.chunks(), meshes.vertices(), meshes.grids(), settings.rays_mode,

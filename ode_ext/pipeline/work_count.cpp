@@ -32,4 +32,11 @@ void add_work(std::span<const ox_work> items, WorkCount& count) {
   count.lockstep64 += busy(items, 64);
 }
 
+void WorkRecords::take(std::uint64_t items, WorkCount& count) {
+  host_.resize(items);
+  buffer_.read(host_.data(), items * sizeof(ox_work));
+  device_->finish();
+  add_work(host_, count);
+}
+
 }  // namespace ode_ext

@@ -183,7 +183,7 @@ TEST(Collider, GivesTheSameBytesForEveryPrediction) {
 TEST(Collider, GivesTheSameBytesForTheExactWorkload) {
   const TestScene scene = scene_with_large_meshes();
   ColliderOptions options;
-  options.workload = Workload::kExact;
+  options.launches = LaunchRule::kExact;
   EXPECT_EQ(collide(scene, options), collide(scene));
 }
 
@@ -353,7 +353,7 @@ TEST(Collider, WaitsForTheDeviceOnceInAStepLikeTheLast) {
 TEST(Collider, WaitsForEveryCountWhereTheExactWorkloadIsAskedFor) {
   const TestScene scene = random_scene(100, 58);
   ColliderOptions options;
-  options.workload = Workload::kExact;
+  options.launches = LaunchRule::kExact;
   Collider collider(options);
   PassMemory history;
   for (int i = 0; i < 3; ++i) collider.collide(scene.scene, &history);
@@ -382,8 +382,8 @@ TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
   }
   for (const Arrow arrow : {Arrow::kChunksHigh, Arrow::kRaysBvh, Arrow::kHits, Arrow::kContacts})
     EXPECT_GT(first.actual[static_cast<std::size_t>(arrow)], 0u);
-  EXPECT_GT(second.ms_bvh_rays, 0);
-  EXPECT_GE(second.ms_total, second.ms_bvh_rays);
+  EXPECT_GT(second.milliseconds(Stage::kBvhRays), 0);
+  EXPECT_GE(second.ms_total, second.milliseconds(Stage::kBvhRays));
 }
 
 TEST(Collider, LeavesTheHistoryOfAPassAloneInSingleCalls) {

@@ -100,7 +100,7 @@ TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) {
 TEST_F(DeviceFailure, IsReportedWhereEveryCountIsWaitedFor) {
   const TestScene scene = random_scene(20, 75);
   ColliderOptions options;
-  options.workload = Workload::kExact;
+  options.launches = LaunchRule::kExact;
   Collider collider(options);
   const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
   EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);

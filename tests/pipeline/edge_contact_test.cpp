@@ -279,7 +279,7 @@ TEST(EdgeContacts, AreTheSameBytesInEveryMode) {
   std::vector<TestMesh> meshes = small_meshes();
   meshes.push_back(make_plate(1.2, 0.02, 2));
   ColliderOptions exact, monolithic, full, tiles;
-  exact.workload = Workload::kExact;
+  exact.launches = LaunchRule::kExact;
   monolithic.organisation = Organisation::kMonolithic;
   full.rays = Rays::kFull;
   tiles.tile_vertices = 200;

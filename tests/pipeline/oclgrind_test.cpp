@@ -187,7 +187,7 @@ TEST(OclgrindPipeline, CountsExactlyAndInTiles) {
   scene.add_pair(cube, turned({1, 2, 3}, 0.1, {0.2, 0.1, 0.9}), cube, at(0, 0, 0));
   scene.add_pair(cube, turned({3, 2, 1}, 0.1, {0.2, 0.1, 0.9}), cube, at(0, 0, 0));
   ColliderOptions exact = small_options();
-  exact.workload = Workload::kExact;
+  exact.launches = LaunchRule::kExact;
   exact.tile_vertices = 1;
   Collider collider(exact), plain(small_options());
   EXPECT_EQ(counts(collider, scene), counts(plain, scene));

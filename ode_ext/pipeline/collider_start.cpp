@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collider, before its first step.
+#include <stdexcept>
+#include <string>
+
+#include "pipeline/collider.h"
+
+namespace ode_ext {
+namespace {
+
+StepSettings settings_of(const ColliderOptions& options) {
+  StepSettings settings;
+  if (options.rays == Rays::kIterativePaper) settings.rays_mode |= OX_RAYS_PAPER;
+  if (options.deformable_target == DeformableTarget::kBasic) settings.rays_mode |= OX_RAYS_BASIC;
+  if (options.edges) settings.rays_mode |= OX_RAYS_EDGES;
+  if (floods(options)) settings.rays_mode |= OX_RAYS_FLOOD;
+  settings.displacement_limit = options.displacement_limit;
+  settings.walk_limit = options.walk_limit;
+  settings.max_contacts = options.max_contacts;
+  settings.max_contacts_deformable = options.max_contacts_deformable;
+  return settings;
+}
+
+std::string program_options(const ColliderOptions& options) {
+  std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
+  if (options.vector_width != 0)
+    text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  return text;
+}
+
+}  // namespace
+
+Collider::Collider(const ColliderOptions& options)
+    : options_(options),
+      device_(options.device, options.largest_buffer),
+      program_(device_, program_options(options)),
+      steps_(program_),
+      vertex_rays_(program_, options_),
+      data_(program_),
+      nothing_(device_),
+      read_ranges_(device_),
+      read_contacts_(device_) {
+  data_.settings = settings_of(options);
+  if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
+      options_.vector_width != 8 && options_.vector_width != 16)
+    throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
+                                ", not 0, 1, 4, 8 or 16");
+  if (options_.work_group_size > device_.info().work_group_limit)
+    throw std::invalid_argument("work_group_size is " + std::to_string(options_.work_group_size) +
+                                ", more than the " +
+                                std::to_string(device_.info().work_group_limit) + " that '" +
+                                device_.info().name + "' can run");
+  self_test(program_);
+  warm_up();
+}
+
+// Launches every kernel on empty input, so that one that cannot run in groups of this size is known
+// now. PoCL compiles a kernel at its first launch, and again at the first one of 65,536 items or
+// more, wherever that falls in a simulation; launching that many settles both.
+void Collider::warm_up() {
+  const Scene scene;
+  Step step{scene, nullptr, nothing_, report_,
+            Workload(options_, device_, data_.lists, scene, nullptr, report_)};
+  step.workload.begin_run();
+  data_.meshes.set({});
+  data_.pairs.upload_objects(scene);
+  data_.pairs.upload_pairs(scene, {0, 0});
+  vertex_rays_.begin_run(data_, step);
+  const std::size_t local = options_.work_group_size;
+  const bool is_pocl =
+      device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
+  const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
+  steps_.pair.run(wide, data_, nothing_, false);
+  steps_.cull.run(wide, data_);
+  steps_.match.run(wide, data_);
+  steps_.cross.run(wide, data_);
+  steps_.flood.run(wide, data_);
+  vertex_rays_.warm_up(wide, data_, nothing_);
+  steps_.gather.run(wide, wide, data_);
+  steps_.edge_contacts.run(wide, wide, data_);
+  steps_.reduce.run(wide, data_);
+  data_.meshes.warm_up(wide);
+  device_.finish();
+  take_milliseconds();
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "pipeline/pass_memory.h"
+#include "pipeline/scene.h"
+#include "pipeline/step_report.h"
+#include "pipeline/temporal_cache.h"
+#include "pipeline/workload.h"
+
+namespace ode_ext {
+
+// One step of the simulation, as long as it runs.
+struct Step {
+  const Scene& scene;
+  PassMemory* memory;      // of the same space; null: a call outside of any pass
+  TemporalCache& nothing;  // for steps that remember nothing
+  StepReport& report;
+  Workload workload;
+  std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
+  bool deforms = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                             [](const auto& mesh) { return mesh->deformable; });
+
+  bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
+  TemporalCache& temporal() const { return remembers() ? *memory->temporal : nothing; }
+};
+
+}  // namespace ode_ext

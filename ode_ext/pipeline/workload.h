@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How much a step takes before that is known (GRAPP section 4): the tiles it is cut into, room in
+// the append lists, the size of launches; and what to do where an expectation was wrong.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "device/device.h"
+#include "pipeline/append_lists.h"
+#include "pipeline/launch.h"
+#include "pipeline/options.h"
+#include "pipeline/pass_memory.h"
+#include "pipeline/scene.h"
+#include "pipeline/step_report.h"
+#include "pipeline/tiles.h"
+
+namespace ode_ext {
+
+// Of one step. What it finds out is noted in `memory`, if there is one, and in `report`.
+class Workload {
+ public:
+  Workload(const ColliderOptions& options, const Device& device, AppendLists& lists,
+           const Scene& scene, PassMemory* memory, StepReport& report);
+
+  // Whether all pairs of the step fit into one tile, as far as is known now.
+  bool is_whole() const { return tiles_.size() == 1; }
+  // Goes on to the next tile to be run; false: there is none.
+  bool next();
+  const Tile& tile() const { return tile_.tile; }
+  // Before a run: room in the lists for what is expected of the tile, or was found in its last run.
+  void begin_run();
+  // After a run, its records counted: whether none was lost. If one was, the tile is to be run
+  // again, with more room.
+  bool is_settled();
+  // After a run that failed since the device had no room: whether a smaller one is to be tried, as
+  // the next tile.
+  bool try_smaller(int code);
+
+  // Of a kernel that takes so many items.
+  Launch launch(std::uint64_t items) const;
+  // Of one that takes a list.
+  Launch launch(Arrow list) const;
+  // Where launches go by what there is: waits until it is known of all lists.
+  void settle_launches();
+
+  // Of the tile.
+  std::uint64_t predicted(Arrow list) const { return predicted_[static_cast<std::size_t>(list)]; }
+
+ private:
+  struct ExpectedTile {
+    Tile tile;
+    ArrowCounts expected;
+  };
+
+  // Records may be lost, as the paper has it.
+  bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
+  ArrowCounts stored() const;
+  void reserve(const ArrowCounts& counts);
+  bool remembers() const { return memory_ != nullptr && memory_->temporal != nullptr; }
+
+  const ColliderOptions& options_;
+  const DeviceInfo& device_;
+  AppendLists& lists_;
+  const Scene& scene_;
+  PassMemory* memory_;
+  StepReport& report_;
+  Misprediction misprediction_;
+  std::vector<ExpectedTile> tiles_;  // to be run, the last one first
+  ExpectedTile tile_{};
+  ArrowCounts most_{};       // that the tile can append
+  ArrowCounts predicted_{};  // of the tile
+  ArrowCounts needed_{};     // of its next run
+  bool measured_ = false;    // `needed_` is what a run had, not what was expected of it
+};
+
+}  // namespace ode_ext
