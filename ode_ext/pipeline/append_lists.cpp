@@ -2,6 +2,7 @@
 #include "pipeline/append_lists.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace ode_ext {
 namespace {
@@ -163,7 +164,10 @@ void AppendLists::begin(const ArrowCounts& most) {
   for (std::size_t i = 0; i < kArrowCount; ++i) room[i] = std::min(capacities_[i], most[i]);
   lay_out(room);
   counters_.fill_zero(kCounterBytes);
-  lists_.write(host_lists_.data(), sizeof(host_lists_));
+  if (written_lists_ && std::memcmp(&*written_lists_, &host_lists_, sizeof(Layout)) == 0) return;
+  written_lists_.reset();
+  lists_.write(host_lists_.data(), sizeof(Layout));
+  written_lists_ = host_lists_;
 }
 
 void AppendLists::count() {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "device/buffer.h"
 #include "pipeline/prediction.h"
@@ -45,6 +46,8 @@ class AppendLists {
   // Before a step: counters at zero, lists as reserved, but none with more room than the step can
   // `most` fill, so that the places of small steps are small numbers.
   void begin(const ArrowCounts& most);
+  // The device lost its contents.
+  void forget() { written_lists_.reset(); }
   // Reads all counters. Waits, for what else is to be read too.
   void count();
   // As of the last count(): what was appended, and how much of it is there.
@@ -83,7 +86,9 @@ class AppendLists {
   ArrowCounts capacities_{};
   ArrowCounts most_used_{};  // in the steps noted so far
   int steps_noted_ = 0;
-  std::array<ox_list, kArrowCount> host_lists_{};
+  using Layout = std::array<ox_list, kArrowCount>;
+  Layout host_lists_{};
+  std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, crossing_links_, gathered_crossings_, crossing_order_, flood_words_, contacts_;

@@ -132,6 +132,8 @@ void Collider::drop(Step& step) {
   }
   take_milliseconds();  // of what ran; the next step starts afresh
   data_.meshes.forget();
+  data_.lists.forget();
+  nothing_.forget_links();
   if (step.memory == nullptr) return;
   step.memory->temporal.reset();
   step.memory->tile_pairs = step.tile_pairs;  // no size failed: that tells nothing

@@ -19,11 +19,19 @@ struct Step {
   StepReport& report;
   Workload workload;
   std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
-  bool deforms = std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                             [](const auto& mesh) { return mesh->deformable; });
+  // What is among its objects: deformable meshes, and solids that the flood knows (cross.cl).
+  bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });
+  bool floods_all = !any_object([](const Mesh& mesh) { return !topology(mesh).embedded; });
 
   bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
   TemporalCache& temporal() const { return remembers() ? *memory->temporal : nothing; }
+
+  template <class Predicate>
+  bool any_object(Predicate is_such) const {
+    return std::any_of(
+        scene.objects.begin(), scene.objects.end(),
+        [&](const Scene::Object& object) { return is_such(*scene.meshes[object.mesh]); });
+  }
 };
 
 }  // namespace ode_ext

@@ -60,11 +60,14 @@ void TemporalCache::begin(const Scene& scene) {
 }
 
 void TemporalCache::begin_without(std::size_t pairs) {
+  if (pairs <= unlinked_) return;
   host_links_.assign(pairs, {OX_NONE, {OX_NONE, OX_NONE}, 0});
   upload();
+  unlinked_ = pairs;
 }
 
 void TemporalCache::upload() {
+  unlinked_ = 0;
   links_.reserve(host_links_.size() * sizeof(ox_link));
   links_.write(host_links_.data(), host_links_.size() * sizeof(ox_link));
 }

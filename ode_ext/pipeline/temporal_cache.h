@@ -31,8 +31,10 @@ class TemporalCache {
   // Begins a step: finds the pairs of the scene again, makes room for new ones and forgets those
   // that have not been seen for a while. Pairs of objects without identity are not kept.
   void begin(const Scene& scene);
-  // The step that began keeps nothing at all.
+  // The step that began keeps nothing at all. Uploads nothing where none has before.
   void begin_without(std::size_t pairs);
+  // The device lost its contents.
+  void forget_links() { unlinked_ = 0; }
   // Room for the temporal data of so many tasks.
   void reserve_blocks(std::uint64_t tasks);
   void clear();
@@ -78,6 +80,7 @@ class TemporalCache {
   std::uint32_t entry_count_ = 0;
   std::uint32_t step_ = 1;  // 0 is in memory that nobody has written to
   std::vector<ox_link> host_links_;
+  std::size_t unlinked_ = 0;  // so many pairs have void links on the device
   Buffer links_, poses_, directory_;
   std::array<Buffer, 2> blocks_;
 };

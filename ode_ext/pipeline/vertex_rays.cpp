@@ -30,7 +30,8 @@ void VertexRays::run(StepData& data, Step& step) {
   }
   step.workload.settle_launches();
   if (step.remembers()) run_vertices(Arrow::kChunksSmall, data, step);
-  run_vertices(Arrow::kChunksHigh, data, step);
+  // Where crossings tell which vertices are inside, the flood has made their rays.
+  if (!(floods(options_) && step.floods_all)) run_vertices(Arrow::kChunksHigh, data, step);
   if (step.deforms) run_vertices(Arrow::kChunksDeformable, data, step);
   step.workload.settle_launches();
   if (step.remembers()) {
