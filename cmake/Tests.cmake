@@ -32,7 +32,7 @@ file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test
      tests/bench/audit/scene_audit.cpp tests/bench/audit/kind*.cpp tests/bench/audit/pair_*.cpp
      tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
      tests/bench/stability/report.cpp tests/bench/stability/shape.cpp
-     tests/bench/stability/stack.cpp)
+     tests/bench/stability/stack.cpp tests/pipeline/*_comparison.cpp)
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
@@ -74,6 +74,14 @@ ode_ext_compile_options(rigid_audit)
 target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 fcl Eigen3::Eigen)
 
+# What the search finds, crossings and vertices inside, beside brute force. Minutes.
+add_executable(search_audit EXCLUDE_FROM_ALL
+  tests/bench/audit/search_audit.cpp tests/bench/audit/kinds.cpp tests/bench/audit/pair_poses.cpp
+  tests/pipeline/crossing_comparison.cpp)
+ode_ext_compile_options(search_audit)
+target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+                      CLI11::CLI11)
+
 # Do bodies rest, slide and stand on the contacts? Minutes; the tests try its parts.
 file(GLOB stability_sources CONFIGURE_DEPENDS tests/bench/stability/*.cpp)
 list(FILTER stability_sources EXCLUDE REGEX "_test\\.cpp$")
@@ -91,7 +99,7 @@ target_link_libraries(contact_accuracy PRIVATE
 
 # Every kind of mesh against every other in random poses, and the same scene.
 file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/bench/audit/*.cpp tests/support/fcl_*.cpp)
-list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit)\\.cpp$")
+list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit|search_audit)\\.cpp$")
 add_executable(missed_pairs EXCLUDE_FROM_ALL ${missed_pairs_sources})
 ode_ext_compile_options(missed_pairs)
 target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts

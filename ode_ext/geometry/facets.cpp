@@ -12,9 +12,9 @@
 namespace ode_ext {
 namespace {
 
-// An edge of less than this is not cast (edges.h). What a ridge of that angle can hide: it rises
-// less than a quarter of the triangles' width times the angle, 1/2300 of the width, above the plane
-// through the far corners.
+// An edge of less than this makes no contact (edges.h). What a ridge of that angle can hide: it
+// rises less than a quarter of the triangles' width times the angle, 1/2300 of the width, above the
+// plane through the far corners.
 constexpr double kFlat = 0.1 * 3.14159265358979 / 180;
 
 // By place, so that the numbering of the triangles does not matter.

@@ -49,25 +49,29 @@ class Rig {
 
   StepRecords run(const Scene& scene, std::uint32_t max_contacts = 16, Launch launch = {8, 64}) {
     upload(scene, max_contacts, false);
+    steps_.pair.run(launch, data_, temporal_, false);
     run_vertices(launch);
     steps_.gather.run(launch, launch, data_);
     steps_.reduce.run(launch, data_);
     return read_back();
   }
 
-  StepRecords run_with_edges(const Scene& scene, Organisation organisation,
-                             Launch launch = {8, 64}) {
+  // `flooded`: rays of the vertices that crossings show to be inside alone, where they do.
+  StepRecords run_with_edges(const Scene& scene, Organisation organisation, Launch launch = {8, 64},
+                             bool flooded = false) {
+    const bool dense = organisation == Organisation::kMonolithic;
     do {
       upload(scene, 16, true);
-      if (organisation == Organisation::kMonolithic) {
-        steps_.pair.run(launch, data_, temporal_, true);
-        monolithic_.run(launch, data_, temporal_, works_);
-      } else {
-        run_vertices(launch);
-      }
+      if (flooded) data_.settings.rays_mode |= OX_RAYS_FLOOD;
+      steps_.pair.run(launch, data_, temporal_, dense);
       steps_.cull.run(launch, data_);
       steps_.match.run(launch, data_);
       steps_.cross.run(launch, data_);
+      if (flooded) steps_.flood.run(launch, data_);
+      if (dense)
+        monolithic_.run(launch, data_, temporal_, works_);
+      else
+        run_vertices(launch);
     } while (grow_for_search());
     steps_.gather.run(launch, launch, data_);
     steps_.edge_contacts.run(launch, launch, data_);
@@ -106,7 +110,6 @@ class Rig {
         data_(program_) {}
 
   void run_vertices(Launch launch) {
-    steps_.pair.run(launch, data_, temporal_, false);
     for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunksHigh, Arrow::kChunksDeformable})
       vertex_.run(category, launch, data_, temporal_, works_);
     for (RayStep* step : {&iterative_, &bvh_, &basic_}) step->run(launch, data_, temporal_, works_);
@@ -116,7 +119,8 @@ class Rig {
   bool grow_for_search() {
     data_.lists.count();
     ArrowCounts needed{};
-    for (const ox_u32 list : {OX_LIST_MESHLETS, OX_LIST_MESHLET_PAIRS, OX_LIST_CROSSINGS})
+    for (const ox_u32 list :
+         {OX_LIST_MESHLETS, OX_LIST_MESHLET_PAIRS, OX_LIST_CROSSINGS, OX_LIST_FLOOD_WORDS})
       needed[list] = data_.lists.counted(std::size_t{list});
     if (!data_.lists.overflowed(needed)) return false;
     data_.lists.reserve(needed);

@@ -6,81 +6,22 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include "pipeline/collider.h"
+#include "pipeline/crossing_comparison.h"
 #include "pipeline/rig.h"
 #include "pipeline/test_scene.h"
-#include "reference/reference_crossings.h"
 
 namespace ode_ext::test {
 namespace {
 
-// Pair, side, the ends of the edge in its own frame, the triangle crossed as in its TestMesh.
-using Key = std::tuple<std::size_t, int, Point, Point, int>;
-
-struct Found {
-  double t;  // from the lesser end
-  bool leaves;
-};
-
-std::map<Key, Found> found_crossings(const TestScene& scene, const StepRecords& records) {
-  std::map<Key, Found> found;
-  for (const ox_edge_crossing& c : records.crossings) {
-    const std::size_t pair = c.pair_side >> 1, side = c.pair_side & 1;
-    const std::uint32_t source = scene.objects[scene.pairs[pair][side]].mesh;
-    const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
-    const auto end = [&](std::size_t k) {
-      const ox_u32 vertex = records.edges.at(c.edge).vertex[k];
-      return point_of(
-          scene.scene.meshes[source]->vertices.at(Rig::shared().local_vertex(source, vertex)));
-    };
-    const Point from = end(0), to = end(1);
-    const bool upward = from < to;
-    const double t =
-        upward ? static_cast<double>(c.t) : distance(from, to) - static_cast<double>(c.t);
-    const std::uint32_t triangle = scene.scene.meshes[target]->source_triangle.at(
-        Rig::shared().local_triangle(target, c.triangle));
-    const Key key{pair, static_cast<int>(side), upward ? from : to, upward ? to : from,
-                  static_cast<int>(triangle)};
-    EXPECT_TRUE(found.emplace(key, Found{t, (c.leaves != 0) == upward}).second)
-        << "two crossings of one edge and one triangle, pair " << pair;
-  }
-  return found;
-}
-
-struct Comparison {
-  std::size_t certain = 0, ambiguous = 0;
-};
-
-Comparison compare(const TestScene& scene, const std::map<Key, Found>& found) {
-  Comparison comparison;
-  std::set<Key> possible;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
-    const double tolerance =
-        rounding_bound(mesh_size(scene.mesh_of(i, 0)) + mesh_size(scene.mesh_of(i, 1)) +
-                       distance(pa.position, pb.position));
-    for (const ReferenceCrossing& expected :
-         reference_crossings(scene.mesh_of(i, 0), pa, scene.mesh_of(i, 1), pb)) {
-      const Key key{i, expected.side, expected.from, expected.to, expected.triangle};
-      possible.insert(key);
-      ++(expected.ambiguous ? comparison.ambiguous : comparison.certain);
-      const auto actual = found.find(key);
-      if (expected.ambiguous) continue;
-      if (actual == found.end()) {
-        ADD_FAILURE() << "pair " << i << " side " << expected.side << " lacks the crossing at t "
-                      << expected.t << " with triangle " << expected.triangle;
-        continue;
-      }
-      EXPECT_EQ(actual->second.leaves, expected.leaves) << "pair " << i;
-      EXPECT_NEAR(actual->second.t, expected.t, expected.blur + tolerance) << "pair " << i;
-    }
-  }
-  for (const auto& [key, crossing] : found)
-    EXPECT_TRUE(possible.contains(key))
-        << "pair " << std::get<0>(key) << " side " << std::get<1>(key) << " crosses nothing at t "
-        << crossing.t;
+Comparison compare(const TestScene& scene, const std::map<CrossingKey, FoundCrossing>& found) {
+  const std::vector<ReferenceSurface> surfaces(scene.meshes.begin(), scene.meshes.end());
+  const Comparison comparison = compare_crossings(scene, surfaces, found);
+  for (const std::string& difference : comparison.differences) ADD_FAILURE() << difference;
   return comparison;
 }
 
@@ -120,13 +61,13 @@ TEST(Search, FindsTheSameWhateverTheNumberOfPairs) {
 TEST(Search, FindsTheSameWhateverTheLaunch) {
   const TestScene scene = random_scene(65, 73);
   const auto keys = [&](Organisation organisation, Launch launch) {
-    std::set<Key> result;
+    std::set<CrossingKey> result;
     for (const auto& [key, crossing] :
          found_crossings(scene, Rig::shared().run_with_edges(scene.scene, organisation, launch)))
       result.insert(key);
     return result;
   };
-  const std::set<Key> expected = keys(kBoth[0], {8, 64});
+  const std::set<CrossingKey> expected = keys(kBoth[0], {8, 64});
   EXPECT_GT(expected.size(), 500u);
   for (const Organisation organisation : kBoth)
     for (const Launch launch : {Launch{1, 1}, Launch{1, 64}, Launch{3, 32}, Launch{64, 256}})

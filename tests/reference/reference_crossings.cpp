@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "reference/reference_hits.h"
 
@@ -90,20 +92,55 @@ void cross_triangle(const Segment& segment, const ReferenceMesh& target, std::si
   found.push_back(crossing);
 }
 
-void cross_side(int side, const ReferenceMesh& source, const TestPose& ps,
-                const ReferenceMesh& target, const TestPose& pt, double epsilon,
+struct Bounds {
+  Point lo{infinity, infinity, infinity}, hi{-infinity, -infinity, -infinity};
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  void add(const Point& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], p[k]);
+      hi[k] = std::max(hi[k], p[k]);
+    }
+  }
+  bool is_within(const Bounds& other, double margin) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (lo[k] > other.hi[k] + margin || hi[k] < other.lo[k] - margin) return false;
+    return true;
+  }
+};
+
+void cross_side(int side, const ReferenceSurface& source, const TestPose& ps,
+                const ReferenceSurface& target, const TestPose& pt, double epsilon,
                 std::vector<ReferenceCrossing>& found) {
-  for (const ReferenceEdge& edge : reference_edges(source)) {
+  const double margin = 0.01 * (source.size + target.size) + 64 * epsilon;
+  Bounds all;
+  std::vector<Point> there;  // the source's vertices in the target's frame
+  for (const Point& vertex : source.mesh.vertices) {
+    there.push_back(between(ps, pt, vertex));
+    all.add(there.back());
+  }
+  std::vector<std::pair<std::size_t, Bounds>> near;  // triangles
+  for (std::size_t t = 0; t < target.mesh.triangles.size(); ++t) {
+    Bounds bounds;
+    for (const std::size_t vertex : target.mesh.triangles[t])
+      bounds.add(target.mesh.vertices[vertex]);
+    if (bounds.is_within(all, margin)) near.emplace_back(t, bounds);
+  }
+  for (const ReferenceEdge& edge : source.edges) {
     ReferenceCrossing crossing{};
     crossing.side = side;
-    crossing.from = source.vertices[edge.vertices[0]];
-    crossing.to = source.vertices[edge.vertices[1]];
+    crossing.from = source.mesh.vertices[edge.vertices[0]];
+    crossing.to = source.mesh.vertices[edge.vertices[1]];
     crossing.ambiguous = edge.doubtful;
-    const Point from = between(ps, pt, crossing.from);
-    const Point along = between(ps, pt, crossing.to) - from;
+    const Point from = there[edge.vertices[0]];
+    const Point along = there[edge.vertices[1]] - from;
     const Segment segment{from, unit(along), length(along)};
-    for (std::size_t t = 0; t < target.triangles.size(); ++t)
-      cross_triangle(segment, target, t, epsilon, crossing, found);
+    Bounds bounds;
+    bounds.add(from);
+    bounds.add(from + along);
+    for (const auto& [triangle, its_bounds] : near)
+      if (its_bounds.is_within(bounds, margin))
+        cross_triangle(segment, target.mesh, triangle, epsilon, crossing, found);
   }
 }
 
@@ -135,14 +172,22 @@ std::vector<ReferenceEdge> reference_edges(const ReferenceMesh& mesh) {
   return edges;
 }
 
+ReferenceSurface::ReferenceSurface(const TestMesh& test_mesh)
+    : mesh(reference_mesh(test_mesh)), edges(reference_edges(mesh)), size(mesh_size(test_mesh)) {}
+
+std::vector<ReferenceCrossing> reference_crossings(const ReferenceSurface& a, const TestPose& pa,
+                                                   const ReferenceSurface& b, const TestPose& pb,
+                                                   double epsilon) {
+  std::vector<ReferenceCrossing> found;
+  cross_side(0, a, pa, b, pb, epsilon, found);
+  cross_side(1, b, pb, a, pa, epsilon, found);
+  return found;
+}
+
 std::vector<ReferenceCrossing> reference_crossings(const TestMesh& a, const TestPose& pa,
                                                    const TestMesh& b, const TestPose& pb) {
-  const ReferenceMesh ra = reference_mesh(a), rb = reference_mesh(b);
-  const double epsilon = comparison_tolerance(a, pa, b, pb);
-  std::vector<ReferenceCrossing> found;
-  cross_side(0, ra, pa, rb, pb, epsilon, found);
-  cross_side(1, rb, pb, ra, pa, epsilon, found);
-  return found;
+  return reference_crossings(ReferenceSurface(a), pa, ReferenceSurface(b), pb,
+                             comparison_tolerance(a, pa, b, pb));
 }
 
 }  // namespace ode_ext::test

@@ -27,7 +27,21 @@ struct ReferenceCrossing {
   bool ambiguous;  // single precision may decide otherwise
 };
 
+// A mesh that is put to many pairs.
+struct ReferenceSurface {
+  explicit ReferenceSurface(const TestMesh& mesh);
+
+  ReferenceMesh mesh;
+  std::vector<ReferenceEdge> edges;
+  double size;  // [m] the largest side of its box
+};
+
 // Of all edges worth casting with all triangles of the other mesh, each a little beyond its ends.
+// `epsilon` [m]: comparison_tolerance (reference_hits.h) of the pair. What is farther apart than a
+// hundredth of both meshes' sizes is passed over.
+std::vector<ReferenceCrossing> reference_crossings(const ReferenceSurface& a, const TestPose& pa,
+                                                   const ReferenceSurface& b, const TestPose& pb,
+                                                   double epsilon);
 std::vector<ReferenceCrossing> reference_crossings(const TestMesh& a, const TestPose& pa,
                                                    const TestMesh& b, const TestPose& pb);
 

@@ -2,6 +2,7 @@
 // How much memory this process has, and whether it grew.
 #pragma once
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,14 +19,26 @@ constexpr bool kResidentMemoryIsOurs = false;
 constexpr bool kResidentMemoryIsOurs = true;
 #endif
 
-// What the process holds in memory now [MiB].
-inline double resident_mib() {
+// [MiB]
+struct Memory {
+  double resident = 0;  // what the process holds
+  double in_use = 0;    // without blocks that were freed and the allocator keeps
+};
+
+// Blocks that were freed are no leak, yet they grow for hours where compilers in the driver's
+// threads ask for tens of MiB and give them back: each thread has blocks of its own, in pieces.
+inline Memory memory_now() {
   long long pages = 0, resident = 0;
   if (FILE* file = std::fopen("/proc/self/statm", "r")) {
     if (std::fscanf(file, "%lld %lld", &pages, &resident) != 2) resident = 0;
     std::fclose(file);
   }
-  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+  constexpr double kMiB = 1 << 20;
+  Memory memory;
+  memory.resident =
+      static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMiB;
+  memory.in_use = memory.resident - static_cast<double>(mallinfo2().fordblks) / kMiB;
+  return memory;
 }
 
 // The largest of the last third of the samples less the largest of the middle third: what comes and

@@ -7,37 +7,16 @@
 #include <set>
 #include <utility>
 
+#include "bench/audit/broad_phase.h"
 #include "bench/audit/pair_audit.h"
+#include "bench/audit/rounding.h"
 #include "support/ode_world.h"
 
 namespace ode_ext::audit {
 namespace {
 
-using Pair = std::pair<dGeomID, dGeomID>;
-using Pairs = std::set<Pair>;
-
-Pair in_order(dGeomID a, dGeomID b) { return std::minmax(a, b); }
-
-// The broad phase is ODE's own: nothing of the collider decides which pairs are looked at.
-Pairs broad_phase(dSpaceID space) {
-  Pairs pairs;
-  dSpaceCollide(space, &pairs, [](void* data, dGeomID a, dGeomID b) {
-    static_cast<Pairs*>(data)->insert(in_order(a, b));
-  });
-  return pairs;
-}
-
 std::unique_ptr<Shape> shape_of(const falling_objects::TriangleMesh& mesh) {
   return std::make_unique<Shape>(test::TestMesh{mesh.vertices, mesh.indices});
-}
-
-// [m] What the collider allows for rounding at this pair's coordinates (pair_step.cl); whatever is
-// less deep than that is on the surface for it.
-double rounding(const oracle::Mesh& a, const test::TestPose& pa, const oracle::Mesh& b,
-                const test::TestPose& pb) {
-  // sqrt(3): it adds up the components of the offset.
-  const double offset = std::sqrt(3.0) * test::distance(pa.position, pb.position);
-  return 0x1p-20 * (offset + std::sqrt(3.0) * (a.radius() + b.radius()));
 }
 
 }  // namespace

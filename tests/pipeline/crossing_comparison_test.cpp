@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/crossing_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iterator>
+#include <string>
+
+namespace ode_ext::test {
+namespace {
+
+// A square rod right through a plate, off the diagonals of its sides: eight crossings.
+struct RodThroughPlate : testing::Test {
+  const TestScene scene =
+      one_pair(make_rod(2, 0.2), turned({0, 1, 0}, std::acos(-1.0) / 2, {0.13, 0.26, 0}),
+               make_box({1, 1, 0.1}), at(0, 0, 0));
+  const std::vector<ReferenceSurface> surfaces{scene.meshes.begin(), scene.meshes.end()};
+  std::map<CrossingKey, FoundCrossing> found =
+      found_crossings(scene, Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined));
+
+  std::vector<std::string> differences() const {
+    return compare_crossings(scene, surfaces, found).differences;
+  }
+};
+
+TEST_F(RodThroughPlate, IsCrossedAsBruteForceSays) {
+  EXPECT_EQ(found.size(), 8u);
+  EXPECT_TRUE(differences().empty()) << differences().front();
+}
+
+TEST_F(RodThroughPlate, LacksWhatIsTakenAway) {
+  found.erase(found.begin());
+  ASSERT_EQ(differences().size(), 1u);
+  EXPECT_NE(differences().front().find("lacks"), std::string::npos) << differences().front();
+}
+
+TEST_F(RodThroughPlate, HasNothingThatIsAdded) {
+  CrossingKey key = found.begin()->first;
+  std::get<4>(key) = (std::get<4>(key) + 5) % 12;
+  ASSERT_TRUE(found.emplace(key, found.begin()->second).second);
+  ASSERT_EQ(differences().size(), 1u);
+  EXPECT_NE(differences().front().find("nothing is crossed"), std::string::npos);
+}
+
+TEST_F(RodThroughPlate, IsNotCrossedElsewhereOrTheOtherWay) {
+  found.begin()->second.t += 1e-4;
+  std::next(found.begin())->second.leaves = !std::next(found.begin())->second.leaves;
+  EXPECT_EQ(differences().size(), 2u);
+}
+
+TEST_F(RodThroughPlate, HasTheSameCrossingsAndHitsWhereCrossingsTellWhatIsInside) {
+  const StepRecords by_rays = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
+  const StepRecords flooded =
+      Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true);
+  EXPECT_EQ(found_crossings(scene, flooded).size(), 8u);
+  EXPECT_EQ(flooded.hits.size(), by_rays.hits.size());
+  EXPECT_EQ(flooded.contacts.size(), by_rays.contacts.size());
+}
+
+}  // namespace
+}  // namespace ode_ext::test
