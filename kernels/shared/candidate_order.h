@@ -11,34 +11,66 @@ static inline bool ox_is_ordered_before(__global const ox_candidate* candidates,
   return i < j && !ox_deeper(candidates + j, candidates + i);
 }
 
-static inline void ox_sift_candidates(__global ox_candidate* candidates, uint root, uint end) {
-  const uint sifted = candidates[root].ordered;
+// What is sorted: a candidate, and its depth beside it, so that few have to be looked up.
+typedef struct {
+  uint candidate;
+  float depth;
+} ox_ordered;
+
+static inline ox_ordered ox_ordered_at(__global const ox_candidate* candidates, uint k) {
+  const ox_ordered at = {candidates[k].ordered, candidates[k].distance2};
+  return at;
+}
+
+static inline void ox_put_ordered(__global ox_candidate* candidates, uint k, ox_ordered at) {
+  candidates[k].ordered = at.candidate;
+  candidates[k].distance2 = at.depth;
+}
+
+static inline bool ox_precedes(__global const ox_candidate* candidates, ox_ordered a,
+                               ox_ordered b) {
+  return a.depth != b.depth ? a.depth > b.depth
+                            : ox_is_ordered_before(candidates, a.candidate, b.candidate);
+}
+
+static inline void ox_sift_candidates(__global ox_candidate* candidates, uint root, uint end,
+                                      ox_ordered sifted) {
   for (;;) {
     uint child = 2u * root + 1u;
     if (child >= end) break;
-    if (child + 1u < end &&
-        ox_is_ordered_before(candidates, candidates[child].ordered, candidates[child + 1u].ordered))
-      ++child;
-    if (!ox_is_ordered_before(candidates, sifted, candidates[child].ordered)) break;
-    candidates[root].ordered = candidates[child].ordered;
+    ox_ordered last = ox_ordered_at(candidates, child);
+    if (child + 1u < end) {
+      const ox_ordered other = ox_ordered_at(candidates, child + 1u);
+      if (ox_precedes(candidates, last, other)) {
+        last = other;
+        ++child;
+      }
+    }
+    if (!ox_precedes(candidates, sifted, last)) break;
+    ox_put_ordered(candidates, root, last);
     root = child;
   }
-  candidates[root].ordered = sifted;
+  ox_put_ordered(candidates, root, sifted);
 }
 
 // Makes candidates[k].ordered the k-th of those of a kind, the deepest first; returns how many they
-// are. Heap sort, as of the crossings.
+// are. Heap sort, as of the crossings. Nothing has been taken yet: `distance2` is infinite before
+// and after, and holds depths meanwhile.
 static inline uint ox_order_by_depth(__global ox_candidate* candidates, uint count, uint kind) {
   uint ordered = 0u;
   for (uint i = 0u; i < count; ++i)
-    if (ox_kind(candidates + i) == kind) candidates[ordered++].ordered = i;
-  for (uint i = ordered / 2u; i-- > 0u;) ox_sift_candidates(candidates, i, ordered);
+    if (ox_kind(candidates + i) == kind) {
+      const ox_ordered next = {i, candidates[i].depth};
+      ox_put_ordered(candidates, ordered++, next);
+    }
+  for (uint i = ordered / 2u; i-- > 0u;)
+    ox_sift_candidates(candidates, i, ordered, ox_ordered_at(candidates, i));
   for (uint end = ordered; end > 1u; --end) {
-    const uint swap = candidates[0].ordered;
-    candidates[0].ordered = candidates[end - 1u].ordered;
-    candidates[end - 1u].ordered = swap;
-    ox_sift_candidates(candidates, 0u, end - 1u);
+    const ox_ordered least = ox_ordered_at(candidates, end - 1u);
+    ox_put_ordered(candidates, end - 1u, ox_ordered_at(candidates, 0u));
+    ox_sift_candidates(candidates, 0u, end - 1u, least);
   }
+  for (uint k = 0u; k < ordered; ++k) candidates[k].distance2 = INFINITY;
   return ordered;
 }
 
