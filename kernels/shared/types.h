@@ -370,7 +370,8 @@ typedef struct {
   ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
   ox_u32 triangle;
   ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
-  ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch
+  ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch; while candidates
+                     // are sorted, the depth of `ordered`
   ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
   ox_u32 marks;      // OX_MARK_...
   ox_u32 ordered;    // of the i-th candidate of a pair: which is the i-th of the order in use

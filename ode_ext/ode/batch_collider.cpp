@@ -2,7 +2,6 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include "ode/pass_stats.h"
 #include "ode/pose_of.h"
 #include "ode/program_callbacks.h"
+#include "ode/rotation.h"
 #include "ode/stock_collider.h"
 #include "ode/trace.h"
 
@@ -48,23 +48,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// R * transpose(R) = 1 and no mirror. Else a mesh is in one place in the frame of the other mesh,
-// in another place in its own, and it depends on the step which of them counts. A thousandth is
-// what a rotation made of numbers with three digits may be off.
-bool is_rotation(const std::array<double, 9>& rotation) {
-  const auto row = [&](std::size_t i) {
-    return Vec3d{rotation[3 * i], rotation[3 * i + 1], rotation[3 * i + 2]};
-  };
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      if (!(std::fabs(dot(row(i), row(j)) - (i == j ? 1 : 0)) <= 1e-3)) return false;
-  return dot(cross(row(0), row(1)), row(2)) > 0;
-}
-
-// And positions a float can hold with room for what is summed of them: differences, turned, over
-// three axes, 36 times as much. Beyond, and for NaN, there is nothing to compute.
+// Rotations, and positions a float can hold with room for what is summed of them: differences,
+// turned, over three axes, 36 times as much. Beyond, and for NaN, there is nothing to compute.
 bool is_usable(const Pose& pose) {
-  if (!is_rotation(pose.rotation)) return false;
+  if (!(off_rotation(pose.rotation) <= kMostOff)) return false;
   for (std::size_t k = 0; k < 3; ++k)
     if (!(std::fabs(pose.position[k]) < 1e36)) return false;
   return true;

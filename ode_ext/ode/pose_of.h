@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include "ode/rotation.h"
 #include "pipeline/scene.h"
 
 namespace ode_ext {
@@ -14,6 +15,7 @@ inline Pose to_pose(const dReal* position, const dReal* rotation) {
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 3; ++column)
       pose.rotation[3 * row + column] = rotation[4 * row + column];
+  pose.rotation = nearest_rotation(pose.rotation);
   return pose;
 }
 

@@ -55,8 +55,10 @@ void Collider::collide_tile(Step& step) {
       report_.work = work;
       run(step);
     } while (!step.workload.is_settled());
+    read_unpredicted(step);
   } catch (const DeviceError& error) {
     report_.work = work;
+    forget_uploads();  // some may not have been made
     if (!step.workload.try_smaller(error.code())) throw;
     return;
   }
@@ -71,6 +73,8 @@ void Collider::run(Step& step) {
   workload.begin_run();
   data_.pairs.upload_pairs(step.scene, workload.tile());
   vertex_rays_.begin_run(data_, step);
+  read_ranges_.reserve(pairs * sizeof(ox_range));
+  read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
 
   steps_.pair.run(workload.launch(pairs), data_, step.temporal(), vertex_rays_.is_dense());
   if (options_.edges) {
@@ -88,7 +92,6 @@ void Collider::run(Step& step) {
     steps_.edge_contacts.run(workload.launch(pairs), workload.launch(Arrow::kCrossings), data_);
   steps_.reduce.run(workload.launch(pairs), data_);
 
-  read_ranges_.reserve(pairs * sizeof(ox_range));
   data_.pairs.ranges.read(read_ranges_.data(), pairs * sizeof(ox_range));
   read_contacts(workload.predicted(Arrow::kContacts));
   data_.lists.count();
@@ -97,30 +100,39 @@ void Collider::run(Step& step) {
 // At most as many as there is room for.
 void Collider::read_contacts(std::uint64_t count) {
   const std::uint64_t room = data_.lists.capacity(Arrow::kContacts);
-  read_contacts_.reserve(room * sizeof(ox_contact));
   data_.lists.contacts().read(read_contacts_.data(), std::min(count, room) * sizeof(ox_contact));
 }
 
-void Collider::deliver(const Step& step) {
+void Collider::read_unpredicted(const Step& step) {
+  const std::uint64_t contacts = data_.lists.length(Arrow::kContacts);
+  if (contacts <= step.workload.predicted(Arrow::kContacts)) return;
+  read_contacts(contacts);
+  device_.finish();
+}
+
+void Collider::deliver(Step& step) {
+  step.workload.report_tile();
   const AppendLists& lists = data_.lists;
   report_.pairs_bounded += lists.counted(OX_COUNTER_BOUNDED);
   report_.unproven += lists.counted(OX_COUNTER_UNPROVEN);
   report_.dropped += lists.counted(OX_COUNTER_DROPPED);
-  const std::uint64_t contacts = lists.length(Arrow::kContacts);
-  if (contacts > step.workload.predicted(Arrow::kContacts)) {
-    read_contacts(contacts);
-    device_.finish();
-  }
   if (report_.backtracked) {
     result_.ranges.clear();
     result_.contacts.clear();
     return;
   }
   const Tile tile = step.workload.tile();
-  append_contacts(step.scene, data_.meshes, tile.first,
-                  {static_cast<const ox_range*>(read_ranges_.data()), tile.count},
-                  {static_cast<const ox_contact*>(read_contacts_.data()), contacts},
-                  options_.max_contacts_deformable == 0, result_);
+  append_contacts(
+      step.scene, data_.meshes, tile.first,
+      {static_cast<const ox_range*>(read_ranges_.data()), tile.count},
+      {static_cast<const ox_contact*>(read_contacts_.data()), lists.length(Arrow::kContacts)},
+      options_.max_contacts_deformable == 0, result_);
+}
+
+// What is uploaded only where it changed.
+void Collider::forget_uploads() {
+  data_.lists.forget();
+  nothing_.forget_links();
 }
 
 // A step that failed. What it has left may be half written: nobody is to start from it.
@@ -132,8 +144,7 @@ void Collider::drop(Step& step) {
   }
   take_milliseconds();  // of what ran; the next step starts afresh
   data_.meshes.forget();
-  data_.lists.forget();
-  nothing_.forget_links();
+  forget_uploads();
   if (step.memory == nullptr) return;
   step.memory->temporal.reset();
   step.memory->tile_pairs = step.tile_pairs;  // no size failed: that tells nothing

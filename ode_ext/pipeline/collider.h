@@ -33,8 +33,10 @@ class Collider {
   void upload(Step& step);
   void collide_tile(Step& step);
   void run(Step& step);
-  void deliver(const Step& step);
   void read_contacts(std::uint64_t count);
+  void read_unpredicted(const Step& step);
+  void deliver(Step& step);
+  void forget_uploads();
   void drop(Step& step);
   void finish(Step& step);
   StageTimes take_milliseconds();

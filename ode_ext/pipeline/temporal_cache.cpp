@@ -37,6 +37,7 @@ TemporalCache::TemporalCache(Device& device)
       poses_(device),
       directory_(device),
       blocks_{Buffer(device), Buffer(device)} {
+  links_.reserve(sizeof(ox_link));
   poses_.extend(kPoseBytes);
   directory_.extend(kEntryBytes);
   reserve_blocks(1);

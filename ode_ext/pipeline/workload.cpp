@@ -93,12 +93,16 @@ bool Workload::is_settled() {
       ++report_.redone;
     return false;
   }
+  return true;
+}
+
+void Workload::report_tile() {
+  const ArrowCounts counts = stored();
   for (std::size_t i = 0; i < kArrowCount; ++i) {
     report_.actual[i] += lists_.counted(i);
     if (may_lose() && counts[i] > lists_.capacities()[i])
       report_.missed += counts[i] - lists_.capacities()[i];
   }
-  return true;
 }
 
 bool Workload::try_smaller(int code) {

@@ -33,6 +33,8 @@ class Workload {
   // After a run, its records counted: whether none was lost. If one was, the tile is to be run
   // again, with more room.
   bool is_settled();
+  // Once it is settled: adds the tile to the report.
+  void report_tile();
   // After a run that failed since the device had no room: whether a smaller one is to be tried, as
   // the next tile.
   bool try_smaller(int code);

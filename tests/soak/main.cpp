@@ -147,9 +147,9 @@ int main(int argc, char** argv) {
       "Now and then a pair is asked of a fresh collider too, and must have the same bytes. Prints "
       "memory and speed over time. Exit code 1 if an answer differs, a pass does not end, or the "
       "largest memory in use of the last third of the run is larger than that of the middle third "
-      "by more than --most-growth. In use is what is resident without the blocks that were freed "
-      "and "
-      "the allocator keeps.",
+      "by more than --most-growth. In use is what was allocated and not freed; resident memory "
+      "holds "
+      "freed blocks as well.",
       "soak");
   app.add_option("--passes", options.passes, "Of all threads together")
       ->check(CLI::Range(1LL, 1000000000LL))

@@ -22,11 +22,12 @@ constexpr bool kResidentMemoryIsOurs = true;
 // [MiB]
 struct Memory {
   double resident = 0;  // what the process holds
-  double in_use = 0;    // without blocks that were freed and the allocator keeps
+  double in_use = 0;    // what was allocated and not freed, by the program and the driver
 };
 
-// Blocks that were freed are no leak, yet they grow for hours where compilers in the driver's
-// threads ask for tens of MiB and give them back: each thread has blocks of its own, in pieces.
+// Blocks that were freed are no leak, yet resident memory grows with them for hours where compilers
+// in the driver's threads ask for tens of MiB and give them back: each thread has blocks of its
+// own, in pieces.
 inline Memory memory_now() {
   long long pages = 0, resident = 0;
   if (FILE* file = std::fopen("/proc/self/statm", "r")) {
@@ -34,11 +35,9 @@ inline Memory memory_now() {
     std::fclose(file);
   }
   constexpr double kMiB = 1 << 20;
-  Memory memory;
-  memory.resident =
-      static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMiB;
-  memory.in_use = memory.resident - static_cast<double>(mallinfo2().fordblks) / kMiB;
-  return memory;
+  const struct mallinfo2 heap = mallinfo2();
+  return {static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / kMiB,
+          static_cast<double>(heap.uordblks + heap.hblkhd) / kMiB};
 }
 
 // The largest of the last third of the samples less the largest of the middle third: what comes and

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/audit/audit_report.h"
+#include "bench/audit/frames.h"
 #include "bench/audit/kind_pair.h"
 #include "bench/audit/scene_audit.h"
 #include "falling_objects/simulation.h"
@@ -28,7 +29,8 @@ constexpr int kLarge = 50000;
 struct Options {
   Trial trial;
   std::string first, second;  // only these kinds, if not empty
-  int frames = 60, objects = 1000, first_step = 400, every = 10;
+  int objects = 1000;
+  Frames frames{.count = 60};
   bool check = false;
   std::string json;
 };
@@ -95,14 +97,14 @@ void audit_scene(const Options& options, Report& report) {
   const SceneAudit auditor(scene, scene_options.max_contacts);
   falling_objects::ContactList batch(scene_options.max_contacts), stock = batch;
   Tally total;
-  for (int frame = 0, step = 0; frame < options.frames; ++step) {
-    if (step >= options.first_step && (step - options.first_step) % options.every == 0) {
+  for (int frame = 0, step = 0; frame < options.frames.count; ++step) {
+    if (options.frames.has(step)) {
       collision.collide(falling_objects::Collider::kBatch, batch);
       collision.collide(falling_objects::Collider::kOde, stock);
       const Findings found = auditor.look(batch.contacts());
       total += {found.pairs,   found.intersecting, found.contained,
                 found.regions, answers_of(found),  answers_of(auditor.look(stock.contacts()))};
-      std::fprintf(stderr, "\rframe %d of %d ", ++frame, options.frames);
+      std::fprintf(stderr, "\rframe %d of %d ", ++frame, options.frames.count);
     }
     simulation.step();
   }
@@ -113,7 +115,7 @@ void audit_scene(const Options& options, Report& report) {
 int run(const Options& options) {
   Report report;
   audit_kinds(options, report);
-  if (options.frames > 0) audit_scene(options, report);
+  if (options.frames.count > 0) audit_scene(options, report);
   report.finish();
   if (!options.json.empty()) {
     std::ofstream file(options.json);
@@ -140,16 +142,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.trial.seed, "Of the poses and the pile")->capture_default_str();
   app.add_option("--first", options.first, "Only this kind as the first of a pair");
   app.add_option("--second", options.second, "Only this kind as the second");
-  app.add_option("--frames", options.frames, "Of the settled pile; 0: no pile")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
+  options.frames.add_options(app, 0);
   app.add_option("--objects", options.objects, "In the pile")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--first-step", options.first_step, "The first frame")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--every", options.every, "Steps from one frame to the next")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   app.add_option("--max-contacts", options.trial.max_contacts, "Contacts per pair at most")

@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "bench/audit/frames.h"
 #include "bench/audit/scene_audit.h"
 #include "falling_objects/simulation.h"
 
 namespace {
 
 using ode_ext::audit::Findings;
+using ode_ext::audit::Frames;
 using ode_ext::audit::SceneAudit;
 
 struct OdeSession {
@@ -37,7 +39,7 @@ void print_row(const char* name, const Findings& f) {
   std::fflush(stdout);
 }
 
-int audit(const falling_objects::Options& options, int first_step, int frames, int every) {
+int audit(const falling_objects::Options& options, const Frames& frames) {
   const OdeSession session;
   std::vector<std::string> warnings;
   falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
@@ -47,8 +49,8 @@ int audit(const falling_objects::Options& options, int first_step, int frames, i
   falling_objects::ContactList contacts(options.max_contacts);
   Findings total;
   print_header();
-  for (int frame = 0, step = 0; frame < frames; ++step) {
-    if (step >= first_step && (step - first_step) % every == 0) {
+  for (int frame = 0, step = 0; frame < frames.count; ++step) {
+    if (frames.has(step)) {
       collision.collide(falling_objects::Collider::kBatch, contacts);
       const Findings found = auditor.look(contacts.contacts());
       print_row(std::to_string(step).c_str(), found);
@@ -66,21 +68,13 @@ int audit(const falling_objects::Options& options, int first_step, int frames, i
 
 int main(int argc, char** argv) {
   falling_objects::Options options;
-  int frames = 20, first_step = 400, every = 10;
+  Frames frames;
   CLI::App app("Compares the batch collider's contacts in a settled pile with FCL's answers.",
                "rigid_audit");
   app.add_option("--objects", options.objects, "How many fall")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  app.add_option("--frames", frames, "How many frames are compared")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--first-step", first_step, "The first of them")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--every", every, "Steps from one to the next")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  frames.add_options(app, 1);
   app.add_option("--seed", options.seed, "Of the placement and the ground")->capture_default_str();
   app.add_option("--max-contacts", options.max_contacts, "Contacts per pair at most")
       ->check(CLI::Range(1, 64))
@@ -88,7 +82,7 @@ int main(int argc, char** argv) {
   app.add_option("--device", options.device, "OpenCL device, as in ODE_EXT_DEVICE");
   CLI11_PARSE(app, argc, argv);
   try {
-    return audit(options, first_step, frames, every);
+    return audit(options, frames);
   } catch (const falling_objects::NoDevice& error) {
     std::fprintf(stderr, "no device: %s\n", error.message.c_str());
     return 3;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
-#include <utility>
 
 #include "bench/audit/broad_phase.h"
 #include "bench/audit/pair_audit.h"

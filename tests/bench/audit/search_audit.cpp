@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Does the search find what is there? Crossings of edges, and the vertices inside closed meshes, of
 // a falling pile and of all kinds of mesh, beside brute force in double precision. What differs by
-// more than rounding is listed. Exit code 1 if anything does.
+// more than rounding is listed, the first 20 of a row. Exit code 1 if anything does.
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <set>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "bench/audit/broad_phase.h"
+#include "bench/audit/frames.h"
 #include "bench/audit/kinds.h"
 #include "bench/audit/pair_poses.h"
 #include "bench/audit/rounding.h"
@@ -156,7 +159,7 @@ struct OdeSession {
   ~OdeSession() { dCloseODE(); }
 };
 
-Counts audit_pile(const falling_objects::Options& options, int first_step, int frames, int every) {
+Counts audit_pile(const falling_objects::Options& options, const Frames& frames) {
   const OdeSession session;
   std::vector<std::string> warnings;
   falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
@@ -174,8 +177,8 @@ Counts audit_pile(const falling_objects::Options& options, int first_step, int f
                                                 : scene.objects()[index].shape);
   };
   Counts total;
-  for (int frame = 0, step = 0; frame < frames; ++step) {
-    if (step >= first_step && (step - first_step) % every == 0) {
+  for (int frame = 0, step = 0; frame < frames.count; ++step) {
+    if (frames.has(step)) {
       for (const auto& [a, b] : broad_phase(scene.space()))
         audit.add(mesh_of(a), pose_of(a), mesh_of(b), pose_of(b));
       const Counts counts = audit.take();
@@ -216,7 +219,8 @@ Counts audit_kinds(int poses, std::uint64_t seed) {
 int main(int argc, char** argv) {
   falling_objects::Options options;
   options.objects = 300;
-  int frames = 20, first_step = 60, every = 10, poses = 10;
+  Frames frames{.first_step = 60};
+  int poses = 10;
   std::uint64_t seed = 1;
   CLI::App app(
       "Compares the crossings and the vertices inside that the search finds with brute force in "
@@ -225,15 +229,7 @@ int main(int argc, char** argv) {
   app.add_option("--objects", options.objects, "In the pile")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  app.add_option("--frames", frames, "Of the pile")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--first-step", first_step, "The first of them")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  app.add_option("--every", every, "Steps from one to the next")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  frames.add_options(app, 0);
   app.add_option("--poses", poses, "Of each ordered pair of kinds")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
@@ -242,7 +238,7 @@ int main(int argc, char** argv) {
   try {
     print_header();
     Counts total;
-    if (frames > 0) total += audit_pile(options, first_step, frames, every);
+    if (frames.count > 0) total += audit_pile(options, frames);
     if (poses > 0) total += audit_kinds(poses, seed);
     print_row("all", total);
     const bool passed = total.differences == 0 && total.certain > 0 && total.inside > 0;
