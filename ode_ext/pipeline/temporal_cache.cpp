@@ -32,11 +32,7 @@ std::uint32_t place_size(std::uint32_t chunks) { return std::bit_ceil(chunks); }
 }  // namespace
 
 TemporalCache::TemporalCache(Device& device)
-    : device_(&device),
-      links_(device),
-      poses_(device),
-      directory_(device),
-      blocks_{Buffer(device), Buffer(device)} {
+    : links_(device), poses_(device), directory_(device), blocks_{Buffer(device), Buffer(device)} {
   links_.reserve(sizeof(ox_link));
   poses_.extend(kPoseBytes);
   directory_.extend(kEntryBytes);

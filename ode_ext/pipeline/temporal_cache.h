@@ -73,7 +73,6 @@ class TemporalCache {
   void evict();
   void upload();
 
-  Device* device_;
   std::unordered_map<Key, Slot, KeyHash> slots_;
   std::unordered_map<std::uint32_t, std::vector<Place>> free_;  // by place_size
   std::uint32_t slot_count_ = 0;
