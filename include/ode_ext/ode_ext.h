@@ -250,7 +250,9 @@ enum {
   dBatchStatusMissed = 1 << 5,        /**< dBatchMispredictionIgnore: something was lost */
   dBatchStatusBacktracked = 1 << 6,   /**< dBatchMispredictionBacktrack: nothing was delivered */
   dBatchStatusPoseRefused = 1 << 7    /**< a mesh's position is not finite, or beyond 1e36 m, or its
-                                           rotation is none; its pairs get no contacts */
+                                           matrix is off a rotation by more than 0.001 (else it
+                                           is taken for the rotation it means); its pairs get no
+                                           contacts */
 };
 
 /** The append buffers, in the order of the pipeline. */
