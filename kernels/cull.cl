@@ -10,7 +10,7 @@
 
 __kernel void cull(__global volatile uint* counters, __global const ox_list* lists,
                    __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                   __global const ox_node* meshlet_nodes, uint pair_count,
+                   __global const ox_meshlet_node* meshlet_nodes, uint pair_count,
                    __global ox_meshlet_task* tasks) {
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
@@ -29,24 +29,30 @@ __kernel void cull(__global volatile uint* counters, __global const ox_list* lis
     ox_box box;
     box.lo = there - reach;
     box.hi = there + reach;
-    __global const ox_node* nodes = meshlet_nodes + source->meshlet_node_first;
-    for (uint n = 0u; n < source->meshlet_node_count;) {
-      __global const ox_node* node = nodes + n;
-      n = node->skip;
-      if (!ox_meets_node(&box, node)) continue;
-      const float3 lo = vload3(0, node->lo);
-      const float3 hi = vload3(0, node->hi);
-      const float3 d = fabs(ox_place(pair, side, 0.5f * (lo + hi)) - middle);
-      const float3 limit = ox_turn_extents(pair, side, 0.5f * (hi - lo)) + half_size + margin;
-      if (d.x > limit.x || d.y > limit.y || d.z > limit.z) continue;
-      if (node->leaf == 0u) {
-        n = (uint)(node - nodes) + 1u;
+    ox_box_walk walk = ox_begin_box_walk(source);
+    while (walk.count != 0u) {
+      const uint child = walk.child[--walk.count];
+      if ((child & OX_CHILD_MESHLET) != 0u) {
+        const uint slot = ox_append(counters, lists, OX_LIST_MESHLETS);
+        if (slot == OX_NONE) continue;
+        tasks[slot].pair_side = p << 1 | side;
+        tasks[slot].meshlet = source->meshlet_first + (child >> 1);
         continue;
       }
-      const uint slot = ox_append(counters, lists, OX_LIST_MESHLETS);
-      if (slot == OX_NONE) continue;
-      tasks[slot].pair_side = p << 1 | side;
-      tasks[slot].meshlet = source->meshlet_first + (node->leaf >> 3);
+      __global const ox_meshlet_node* node =
+          meshlet_nodes + source->meshlet_node_first + (child >> 1);
+      for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
+        uint met = ox_children_in_box(&box, node, first / OX_VECTOR_WIDTH);
+        for (; met != 0u; met &= met - 1u) {
+          const uint k = first + ox_lowest(met);
+          const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
+          const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
+          const float3 d = fabs(ox_place(pair, side, 0.5f * (lo + hi)) - middle);
+          const float3 limit = ox_turn_extents(pair, side, 0.5f * (hi - lo)) + half_size + margin;
+          if (d.x > limit.x || d.y > limit.y || d.z > limit.z) continue;
+          walk.child[walk.count++] = node->child[k];
+        }
+      }
     }
   }
 }

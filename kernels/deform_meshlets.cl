@@ -2,9 +2,9 @@
 // Deform step, the part of meshlets: what they hold of vertices and triangles, and the boxes of the
 // tree over them. Which triangles, vertices and edges a meshlet has stays.
 //
-// in    moves, starts (deform_step.cl), vertices, triangles, edges, nodes, topology
+// in    moves, starts (deform_step.cl), vertices, triangles, edges
 // out   meshlets, meshlet_nodes: those of the meshes that moved, in place
-// item  1 meshlet / node over meshlets (grid-stride)
+// item  1 meshlet / child of a node over meshlets (grid-stride)
 // may overflow: none
 #include "shared/moves.h"
 
@@ -80,20 +80,28 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
 
 __kernel void deform_meshlet_nodes(__global const ox_move* moves, uint move_count,
                                    __global const uint* all_starts, uint starts_first,
-                                   __global const uint* topology, __global const ox_node* nodes,
-                                   __global ox_node* meshlet_nodes) {
+                                   __global const ox_meshlet* meshlets,
+                                   __global ox_meshlet_node* meshlet_nodes) {
   __global const uint* starts = all_starts + starts_first;
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
     const uint m = ox_move_of(starts, move_count, i);
-    __global const ox_move* move = moves + m;
-    const uint n = i - starts[m];
-    __global const ox_node* from =
-        nodes + move->shape.node_first + topology[move->meshlet_node_first + n];
-    __global ox_node* to = meshlet_nodes + move->shape.meshlet_node_first + n;
+    __global const ox_mesh* shape = &moves[m].shape;
+    const uint k = (i - starts[m]) % OX_LANES;
+    __global ox_meshlet_node* node =
+        meshlet_nodes + shape->meshlet_node_first + (i - starts[m]) / OX_LANES;
+    if (k >= node->count) continue;
+    // As on the host: what the rounding of a ray's slabs can do (device_meshes.cpp).
+    const float margin = 0x1p-20f * shape->extent;
     for (uint axis = 0u; axis < 3u; ++axis) {
-      to->lo[axis] = from->lo[axis];
-      to->hi[axis] = from->hi[axis];
+      float lo = INFINITY;
+      float hi = -INFINITY;
+      for (uint n = node->first[k]; n < node->first[k + 1u]; ++n) {
+        lo = ox_min(lo, meshlets[shape->meshlet_first + n].lo[axis]);
+        hi = ox_max(hi, meshlets[shape->meshlet_first + n].hi[axis]);
+      }
+      node->lo[axis][k] = lo - margin;
+      node->hi[axis][k] = hi + margin;
     }
   }
 }

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Deform step: makes everything anew that depends on the vertices of deformable meshes, for all
-// meshes that moved together. In this order: triangles, vertices, nodes (once per height), exits,
-// chunks, meshlets (deform_meshlets.cl), meshes. Meshes that moved before and do not now only have
-// that taken back.
+// meshes that moved together. In this order: triangles, vertices, meshlets and the tree over them
+// (deform_meshlets.cl), exits (deform_exits.cl), chunks, meshes. Meshes that moved before and rest
+// now only have that taken back.
 //
 // in    moves, starts (of all launches; those of this one lie from starts_first on), positions (3
 //       floats a vertex), topology
-// out   triangles, vertices, nodes, chunks, meshes: those of the meshes that moved, in place
+// out   triangles, vertices, chunks, meshes: those of the meshes that moved, in place
 //       measures: from triangles to vertices, 4 floats a triangle: the angles at its corners
 //       and its area
-// item  1 triangle / vertex / node / vertex of a closed mesh / chunk of vertices / mesh
-//       (grid-stride)
+// item  1 triangle / vertex / chunk of vertices / mesh (grid-stride)
 // may overflow: none
 //
 // Nothing here depends on the shape that a mesh had before (but for `moved`), nor on the order of
@@ -176,105 +175,6 @@ __kernel void deform_vertices(__global const ox_move* moves, uint move_count,
     vstore3(position, 0, vertex->position);
     vstore3(-normal, 0, vertex->direction);
     vertex->exit = ox_dot(normal, normal) == 0.0f ? 0.0f : move->thickness;
-  }
-}
-
-// The nodes of one height; the launches before this one made their children. Behind the starts it
-// says where those of each move start in its order.
-__kernel void deform_nodes(__global const ox_move* moves, uint move_count,
-                           __global const uint* all_starts, uint starts_first,
-                           __global const float* positions, __global const uint* topology,
-                           __global ox_node* all_nodes) {
-  __global const uint* starts = all_starts + starts_first;
-  __global const uint* firsts = starts + move_count + 1u;
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
-    const uint m = ox_move_of(starts, move_count, i);
-    __global const ox_move* move = moves + m;
-    __global ox_node* nodes = all_nodes + move->shape.node_first;
-    const uint n = topology[move->node_order_first + firsts[m] + (i - starts[m])];
-    float3 lo = (float3)(INFINITY);
-    float3 hi = (float3)(-INFINITY);
-    const uint first = nodes[n].leaf >> 3;
-    const uint count = nodes[n].leaf & 7u;
-    for (uint k = 3u * first; k < 3u * (first + count); ++k) {
-      const float3 p = ox_position(move, positions, topology[move->corner_first + k]);
-      lo = (float3)(ox_min(p.x, lo.x), ox_min(p.y, lo.y), ox_min(p.z, lo.z));
-      hi = (float3)(ox_max(p.x, hi.x), ox_max(p.y, hi.y), ox_max(p.z, hi.z));
-    }
-    if (count != 0u) {
-      // As on the host: what the rounding of a ray's slabs can do (device_meshes.cpp).
-      const float margin = 0x1p-20f * move->shape.extent;
-      lo -= margin;
-      hi += margin;
-    } else {
-      for (uint child = n + 1u; child < nodes[n].skip; child = nodes[child].skip) {
-        const float3 child_lo = vload3(0, nodes[child].lo);
-        const float3 child_hi = vload3(0, nodes[child].hi);
-        lo = (float3)(ox_min(child_lo.x, lo.x), ox_min(child_lo.y, lo.y), ox_min(child_lo.z, lo.z));
-        hi = (float3)(ox_max(child_hi.x, hi.x), ox_max(child_hi.y, hi.y), ox_max(child_hi.z, hi.z));
-      }
-    }
-    vstore3(lo, 0, nodes[n].lo);
-    vstore3(hi, 0, nodes[n].hi);
-  }
-}
-
-// Where the ray from a vertex leaves its own mesh, as geometry/exit_distance.h: INFINITY if a front
-// face comes first, or nothing. What lies within on_surface is where it starts.
-static float ox_exit(__global const ox_move* move, __global const uint* topology,
-                     __global const ox_node* all_nodes, __global const ox_triangle* triangles,
-                     float3 origin, float3 direction, uint vertex) {
-  const ox_cast cast = ox_cast_from(origin, direction);
-  __global const ox_node* nodes = all_nodes + move->shape.node_first;
-  float front_t = INFINITY;
-  float back_t = INFINITY;
-  float limit = INFINITY;
-  for (uint n = 0u; n < move->shape.node_count;) {
-    __global const ox_node* node = nodes + n;
-    if (!ox_meets_box(&cast, node, 0.0f, limit)) {
-      n = node->skip;
-      continue;
-    }
-    const uint first = node->leaf >> 3;
-    const uint count = node->leaf & 7u;
-    for (uint k = first; k < first + count; ++k) {
-      __global const uint* corners = topology + move->corner_first + 3u * k;
-      if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;
-      __global const ox_triangle* triangle = triangles + move->shape.triangle_first + k;
-      float t;
-      bool back;
-      if (!ox_meets(&cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c),
-                    &t, &back))
-        continue;
-      if (!(t > move->on_surface)) continue;
-      if (back)
-        back_t = ox_min(back_t, t);
-      else
-        front_t = ox_min(front_t, t);
-    }
-    // A little more, for the rounding of t: the nearest is met whatever the order of the nodes.
-    limit = ox_min(front_t, back_t) + move->on_surface;
-    ++n;
-  }
-  return back_t < front_t ? back_t : INFINITY;
-}
-
-__kernel void deform_exits(__global const ox_move* moves, uint move_count,
-                           __global const uint* all_starts, uint starts_first,
-                           __global const uint* topology, __global const ox_node* nodes,
-                           __global const ox_triangle* triangles, __global ox_vertex* vertices) {
-  __global const uint* starts = all_starts + starts_first;
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
-    const uint m = ox_move_of(starts, move_count, i);
-    __global const ox_move* move = moves + m;
-    const uint local_index = i - starts[m];
-    __global ox_vertex* vertex = vertices + move->vertex_first + local_index;
-    const float3 direction = vload3(0, vertex->direction);
-    if (ox_dot(direction, direction) == 0.0f) continue;
-    vertex->exit = ox_exit(move, topology, nodes, triangles, vload3(0, vertex->position), direction,
-                           local_index);
   }
 }
 

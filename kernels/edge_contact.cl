@@ -2,7 +2,8 @@
 // Edge contacts: what the crossings of edges say that vertices do not. Contacts where edges meet
 // edges, one at least in every region of overlap, and the way out for what is wholly inside.
 //
-// in    crossings, candidates of vertices, pairs, meshes, vertices, edges, nodes, triangles, facets
+// in    crossings, candidates of vertices, pairs, meshes, vertices, edges, triangles, meshlets,
+//       meshlet_nodes, facets
 // out   candidates, and per pair their number
 // item  1 crossing; 1 pair (grid-stride)
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
@@ -116,7 +117,7 @@ static void ox_pair_edges(ox_edge_pair* p) {
 // cut target bulges over a long edge, its own edges meet that edge only at the rim, where nothing
 // is deep. Only what is deeper than the contacts of edges there: those know the direction better
 // (of two ridges across one another the middle would slip off to one side).
-static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
+static void ox_cast_middles(ox_edge_pair* p) {
   for (uint k = 0u; k < p->count; ++k) {
     __global ox_edge_crossing* c = p->crossings + p->order[k];
     const uint side = ox_side(c);
@@ -127,7 +128,7 @@ static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
     if (end->other != p->order[k]) continue;
     ox_middle middle;
     // As for vertices, not beyond where it leaves its own mesh.
-    if (!ox_look_from_middle(p, c, nodes, &middle) || middle.on_surface ||
+    if (!ox_look_from_middle(p, c, &middle) || middle.on_surface ||
         middle.exit_t > middle.own_t + p->pair->epsilon)
       continue;
     const ox_way_out way = ox_through(p, side, middle.exit);
@@ -144,8 +145,7 @@ static void ox_cast_middles(ox_edge_pair* p, __global const ox_node* nodes) {
 #define OX_MOST_CHORDS 8u
 
 static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
-                         __global const ox_edge_crossing* c, __global const ox_node* nodes,
-                         ox_way_out* best) {
+                         __global const ox_edge_crossing* c, ox_way_out* best) {
   const uint side = ox_side(c);
   // The faces at its ends are what rays along the chord would meet, were it not too short for them.
   ox_try_way(p, region, vertices, side, c->triangle, best);
@@ -164,13 +164,12 @@ static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
     if ((k & 1u) != 0u) direction = -direction;
     const float length2 = ox_dot(direction, direction);
     if (length2 < 1.0e-12f) continue;  // the faces at the edge are back to back
-    ox_try_way(p, region, vertices, side,
-               ox_exit_face(p, side, middle, direction / sqrt(length2), nodes), best);
+    ox_try_way(p, region, vertices, side, ox_exit_face(p, side, middle, direction / sqrt(length2)),
+               best);
   }
 }
 
-static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool vertices,
-                                  __global const ox_node* nodes) {
+static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool vertices) {
   ox_way_out best = ox_no_way_out();
   uint looked[2] = {0u, 0u};
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
@@ -179,7 +178,7 @@ static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool verti
         (p->mesh[1u - ox_side(c)]->flags & OX_MESH_CLOSED) == 0u)
       continue;
     ++looked[ox_side(c)];
-    ox_try_chord(p, region, vertices, c, nodes, &best);
+    ox_try_chord(p, region, vertices, c, &best);
   }
   return best;
 }
@@ -208,14 +207,13 @@ static void ox_leave_region_by(ox_edge_pair* p, uint region, bool vertices,
   if (vertices) ox_lead_vertices_out(p, best);
 }
 
-static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices,
-                               __global const ox_node* nodes) {
-  const ox_way_out best = ox_find_way_out(p, region, vertices, nodes);
+static void ox_lead_region_out(ox_edge_pair* p, uint region, bool vertices) {
+  const ox_way_out best = ox_find_way_out(p, region, vertices);
   ox_leave_region_by(p, region, vertices, &best);
 }
 
 // No region is left without a contact because its own push the other way.
-static void ox_reconcile_regions(ox_edge_pair* p, __global const ox_node* nodes) {
+static void ox_reconcile_regions(ox_edge_pair* p) {
   if (p->regions < 2u) return;
   ox_link_points(p);
   uint ordered = 0u;  // candidates by depth, and the first of those added since
@@ -235,7 +233,7 @@ static void ox_reconcile_regions(ox_edge_pair* p, __global const ox_node* nodes)
         !ox_are_of_different_parts(p->candidates + own, p->candidates + standing))
       continue;
     const float3 normal = vload3(0, p->candidates[standing].normal);
-    const ox_way_out way = ox_find_way_along(p, region, normal, nodes);
+    const ox_way_out way = ox_find_way_along(p, region, normal);
     const uint end = p->candidate_count;
     if (way.triangle != OX_NONE && way.depth <= OX_FARTHEST_WAY * p->candidates[own].depth)
       ox_leave_region_by(p, region, false, &way);
@@ -296,7 +294,7 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
                vload3(0, c->position), best_normal, best_depth);
 }
 
-static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) {
+static void ox_lead_regions_out(ox_edge_pair* p) {
   // Along a sheet regions cannot be told apart (its flat edges are not cast, yet its triangles are
   // facets each): edges speak only where no vertex does.
   if (((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u &&
@@ -309,7 +307,7 @@ static void ox_lead_regions_out(ox_edge_pair* p, __global const ox_node* nodes) 
     if (covered) continue;
     const uint before = p->candidate_count;
     // Where it is the only one, all vertices beyond their own exit belong to it.
-    ox_lead_region_out(p, region, p->regions == 1u, nodes);
+    ox_lead_region_out(p, region, p->regions == 1u);
     if (p->candidate_count == before) ox_push_region_back(p, region);
   }
 }
@@ -344,21 +342,21 @@ static void ox_admit_touching(const ox_edge_pair* p) {
 // Thin parts deep in the target (a plate in a block): the vertices that know a way out, those near
 // a face that the part cuts, lead the others nowhere. The face below which all of it is least deep
 // does.
-static void ox_lead_deep_out(ox_edge_pair* p, __global const ox_node* nodes) {
+static void ox_lead_deep_out(ox_edge_pair* p) {
   for (uint side = 0u; side < 2u; ++side) {
     // First all are found, then led out: what leads one out may lead out others, and their order is
     // that of the hits.
     ox_mark_deep_vertices(p, side);
-    ox_mark_deep_chords(p, side, nodes);
+    ox_mark_deep_chords(p, side);
     for (uint region = 0u; region < p->regions; ++region)
-      if (ox_take_mark(p, region)) ox_lead_region_out(p, region, true, nodes);
+      if (ox_take_mark(p, region)) ox_lead_region_out(p, region, true);
   }
 }
 
 // Where two convex bodies overlap (in one region, then) and the deepest contact does not part them
 // along its normal, the least way that may becomes one: along the normal of some contact, or the
 // way out of the region.
-static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
+static void ox_deepen(ox_edge_pair* p) {
   if (p->regions != 1u || p->count > OX_MOST_CORNERS ||
       (p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u)
     return;
@@ -373,7 +371,7 @@ static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
   if (narrowest == OX_NONE) return;
   __global const ox_candidate* along = p->candidates + narrowest;
   const float width = extent.high - extent.low;
-  const ox_way_out way = ox_find_way_out(p, 0u, true, nodes);
+  const ox_way_out way = ox_find_way_out(p, 0u, true);
   if (way.triangle != OX_NONE && way.depth < width) {
     ox_leave_region_by(p, 0u, true, &way);
     return;
@@ -392,8 +390,7 @@ static void ox_deepen(ox_edge_pair* p, __global const ox_node* nodes) {
 #define OX_MOST_VERTICES 64u
 
 // Nothing crosses, yet vertices are inside: all of the mesh is, or the two coincide.
-static void ox_lead_mesh_out(ox_edge_pair* p, uint side, uint fallback, uint vertex_first,
-                             __global const ox_node* nodes) {
+static void ox_lead_mesh_out(ox_edge_pair* p, uint side, uint fallback, uint vertex_first) {
   ox_way_out best = ox_no_way_out();
   // By their place in the mesh, which does not depend on the order of the hits.
   const uint every = (fallback + OX_MOST_VERTICES - 1u) / OX_MOST_VERTICES;
@@ -404,7 +401,7 @@ static void ox_lead_mesh_out(ox_edge_pair* p, uint side, uint fallback, uint ver
     if (side == 0u) outward = ox_turn(p->pair, 0u, outward);
     const float3 from = vload3(0, c->position);
     ox_try_way(p, OX_NONE, true, side, c->triangle, &best);
-    ox_try_way(p, OX_NONE, true, side, ox_exit_face(p, side, from, outward, nodes), &best);
+    ox_try_way(p, OX_NONE, true, side, ox_exit_face(p, side, from, outward), &best);
   }
   if (best.triangle != OX_NONE) ox_lead_vertices_out(p, &best);
 }
@@ -424,9 +421,10 @@ static void ox_drop_apart(const ox_edge_pair* p) {
 // item: 1 pair.
 __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mesh* meshes,
                             __global const ox_chunk* chunks, __global const ox_vertex* vertices,
-                            __global const ox_edge* edges, __global const ox_node* nodes,
-                            __global const ox_triangle* triangles, __global const uint* facets,
-                            __global const uint* pair_crossings,
+                            __global const ox_edge* edges, __global const ox_triangle* triangles,
+                            __global const ox_meshlet* meshlets,
+                            __global const ox_meshlet_node* meshlet_nodes,
+                            __global const uint* facets, __global const uint* pair_crossings,
                             __global const uint* crossing_segments, uint pair_count,
                             __global ox_edge_crossing* crossings, __global uint* order,
                             __global uint* pair_hits, __global const uint* pair_segments,
@@ -441,7 +439,9 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.mesh[1] = meshes + pairs[i].mesh[1];
     pair.vertices = vertices;
     pair.edges = edges;
-    pair.triangles = triangles;
+    pair.surfaces.triangles = triangles;
+    pair.surfaces.meshlets = meshlets;
+    pair.surfaces.nodes = meshlet_nodes;
     pair.facets = facets;
     pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
     pair.order =
@@ -465,8 +465,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       for (uint side = 0u; side < 2u; ++side) {
         const ox_hit_count hits = ox_count_hits(&pair, side);
         if (hits.fallback != 0u && hits.inside == 0u)
-          ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first,
-                           nodes);
+          ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first);
       }
     } else {
       ox_sort_crossings(&pair, pair.order, crossed, OX_BY_EDGE);
@@ -480,11 +479,11 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
       // A sheet has no inside that its edges could be wedges of.
       if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)
         ox_pair_edges(&pair);
-      ox_cast_middles(&pair, nodes);
-      ox_lead_regions_out(&pair, nodes);
-      ox_lead_deep_out(&pair, nodes);
-      ox_deepen(&pair, nodes);
-      ox_reconcile_regions(&pair, nodes);
+      ox_cast_middles(&pair);
+      ox_lead_regions_out(&pair);
+      ox_lead_deep_out(&pair);
+      ox_deepen(&pair);
+      ox_reconcile_regions(&pair);
       ox_choose_spokesmen(&pair);
     }
     ox_admit_touching(&pair);

@@ -7,7 +7,7 @@
 // surface, and they decide: an edge misjudged here to within rounding costs rays, no contact.
 //
 // in    pairs, meshes, crossings, the list of them of each side of a pair (heads, links), vertices,
-//       edges, rings, components, nodes, triangles
+//       edges, rings, components, triangles, meshlets, meshlet_nodes
 // out   rays, of targets that are embedded (OX_MESH_EMBEDDED)
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (grid-stride)
@@ -26,6 +26,7 @@ typedef struct {
   __global const ox_edge* edges;
   __global const uint* ring_starts;
   __global const ox_neighbour* rings;
+  ox_surfaces surfaces;
   __global ox_ray* rays;
   __global uint* words;
   ox_flood_table table;
@@ -99,8 +100,7 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
 
 // Whether a vertex that is not near the surface is inside, by a ray of any direction.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint vertex,
-                                __global const ox_mesh* target, __global const ox_node* nodes,
-                                __global const ox_triangle* triangles) {
+                                __global const ox_mesh* target) {
   const uint side = s->pair_side & 1u;
   const float3 p = ox_place(s->pair, side, vload3(0, s->vertices[vertex].position));
   const float3 d = fabs(p - vload3(0, target->box_centre));
@@ -110,12 +110,11 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint vertex,
   query.cast.origin = p;
   query.epsilon = s->pair->epsilon;
   uint work = 0u;
-  return ox_is_inside(false, &query, target, nodes, triangles, &work);
+  return ox_is_inside(false, &query, target, &s->surfaces, &work);
 }
 
 // Neighbours on one side with a vertex near the surface: which side that is, no crossing tells.
 static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_mesh* target,
-                            __global const ox_node* nodes, __global const ox_triangle* triangles,
                             uint* next) {
   for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
     const ox_neighbour neighbour = s->rings[i];
@@ -123,7 +122,7 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_me
     if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX)) || ox_has_key(s, outside) ||
         ox_balance(s, neighbour.edge) != OX_BALANCED)
       continue;
-    const bool inside = ox_is_vertex_inside(s, neighbour.vertex, target, nodes, triangles);
+    const bool inside = ox_is_vertex_inside(s, neighbour.vertex, target);
     if (inside ? !ox_flood_vertex(s, neighbour.vertex, true) || !ox_flood_on(s, next)
                : !ox_add_key(s, outside, 0u))
       return false;
@@ -134,21 +133,19 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_me
 // Parts that no crossing told of: wholly inside, or wholly outside.
 static bool ox_flood_components(ox_flood_state* s, __global const ox_mesh* source,
                                 __global const ox_mesh* target, __global const uint* components,
-                                __global const ox_node* nodes,
-                                __global const ox_triangle* triangles, uint* next) {
+                                uint* next) {
   if (source->component_count == 1u && s->table.queued != 0u) return true;
   for (uint i = 0u; i < source->component_count; ++i) {
     const uint vertex = components[source->component_first + i];
     if (ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX))) continue;
-    if (!ox_is_vertex_inside(s, vertex, target, nodes, triangles)) continue;
+    if (!ox_is_vertex_inside(s, vertex, target)) continue;
     if (!ox_flood_vertex(s, vertex, true) || !ox_flood_on(s, next)) return false;
   }
   return true;
 }
 
 static void ox_flood(ox_flood_state* s, uint head, __global const ox_mesh* source,
-                     __global const ox_mesh* target, __global const uint* components,
-                     __global const ox_node* nodes, __global const ox_triangle* triangles) {
+                     __global const ox_mesh* target, __global const uint* components) {
   uint count = 0u;
   for (uint c = head; c != OX_NONE; c = s->links[c]) ++count;
   uint places = OX_LEAST_PLACES;
@@ -170,9 +167,9 @@ static void ox_flood(ox_flood_state* s, uint head, __global const ox_mesh* sourc
   if (!ox_flood_on(s, &next)) return;
   for (uint c = head; c != OX_NONE; c = s->links[c])
     if (s->crossings[c].edge == OX_NONE &&
-        !ox_flood_around(s, s->crossings[c].triangle, target, nodes, triangles, &next))
+        !ox_flood_around(s, s->crossings[c].triangle, target, &next))
       return;
-  ox_flood_components(s, source, target, components, nodes, triangles, &next);
+  ox_flood_components(s, source, target, components, &next);
 }
 
 __kernel void flood(__global volatile uint* counters, __global const ox_list* lists,
@@ -181,8 +178,9 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
                     __global const uint* links, __global const ox_vertex* vertices,
                     __global const ox_edge* edges, __global const uint* ring_starts,
                     __global const ox_neighbour* rings, __global const uint* components,
-                    __global const ox_node* nodes, __global const ox_triangle* triangles,
-                    uint pair_count, __global ox_ray* rays, __global uint* words) {
+                    __global const ox_triangle* triangles, __global const ox_meshlet* meshlets,
+                    __global const ox_meshlet_node* meshlet_nodes, uint pair_count,
+                    __global ox_ray* rays, __global uint* words) {
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < 2u * pair_count; i += stride) {
     __global const ox_pair* pair = pairs + (i >> 1);
@@ -201,8 +199,11 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
     state.edges = edges;
     state.ring_starts = ring_starts;
     state.rings = rings;
+    state.surfaces.triangles = triangles;
+    state.surfaces.meshlets = meshlets;
+    state.surfaces.nodes = meshlet_nodes;
     state.rays = rays;
     state.words = words;
-    ox_flood(&state, heads[i], source, target, components, nodes, triangles);
+    ox_flood(&state, heads[i], source, target, components);
   }
 }

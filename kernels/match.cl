@@ -12,7 +12,7 @@
 __kernel void match(__global volatile uint* counters, __global const ox_list* lists,
                     __global const ox_meshlet_task* tasks, __global const ox_pair* pairs,
                     __global const ox_mesh* meshes, __global const ox_meshlet* meshlets,
-                    __global const ox_node* meshlet_nodes, uint rays_mode,
+                    __global const ox_meshlet_node* meshlet_nodes, uint rays_mode,
                     __global ox_meshlet_pair* meshlet_pairs, __global volatile uint* pair_crossings,
                     __global ox_edge_crossing* crossings, __global volatile uint* heads,
                     __global uint* links) {
@@ -25,19 +25,23 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
     __global const ox_pair* pair = pairs + (task.pair_side >> 1);
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
-    __global const ox_node* nodes = meshlet_nodes + target->meshlet_node_first;
-    for (uint n = 0u; n < target->meshlet_node_count;) {
-      __global const ox_node* node = nodes + n;
-      if (!ox_meets_node(&box, node)) {
-        n = node->skip;
+    ox_box_walk walk = ox_begin_box_walk(target);
+    while (walk.count != 0u) {
+      const uint child = walk.child[--walk.count];
+      if ((child & OX_CHILD_MESHLET) == 0u) {
+        __global const ox_meshlet_node* node =
+            meshlet_nodes + target->meshlet_node_first + (child >> 1);
+        for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
+          uint met = ox_children_in_box(&box, node, first / OX_VECTOR_WIDTH);
+          for (; met != 0u; met &= met - 1u)
+            walk.child[walk.count++] = node->child[first + ox_lowest(met)];
+        }
         continue;
       }
-      ++n;
-      if (node->leaf == 0u) continue;
       ox_meshlet_pair both;
       both.pair = task.pair_side >> 1;
       both.meshlet[side] = task.meshlet;
-      both.meshlet[1u - side] = target->meshlet_first + (node->leaf >> 3);
+      both.meshlet[1u - side] = target->meshlet_first + (child >> 1);
       both.padding = 0u;
       const uint slot = ox_append(counters, lists, OX_LIST_MESHLET_PAIRS);
       if (slot != OX_NONE)

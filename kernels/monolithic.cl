@@ -4,7 +4,7 @@
 // selects. Same tests, same culls, same data; only the input is sparse and the branches diverge.
 //
 // in    tasks: one for every chunk of every pair, most with nothing to do; pairs, meshes,
-//       chunks, vertices, grids, nodes, triangles, isolations, temporal_before
+//       chunks, vertices, grids, triangles, meshlets, meshlet_nodes, isolations, temporal_before
 // out   hits, and per pair their number; temporal
 // item  1 vertex of 1 chunk of 1 pair, whether it can collide or not (grid-stride)
 // may overflow: OX_LIST_HITS
@@ -15,13 +15,15 @@ __kernel void monolithic(__global volatile uint* counters, __global const ox_lis
                          __global const ox_chunk_task* tasks, uint task_count,
                          __global const ox_pair* pairs, __global const ox_mesh* meshes,
                          __global const ox_chunk* chunks, __global const ox_vertex* vertices,
-                         __global const uint* grids, __global const ox_node* nodes,
-                         __global const ox_triangle* triangles,
+                         __global const uint* grids, __global const ox_triangle* triangles,
+                         __global const ox_meshlet* meshlets,
+                         __global const ox_meshlet_node* meshlet_nodes,
                          __global const ox_isolation* isolations, uint rays_mode,
                          float displacement_limit, uint walk_limit,
                          __global const ox_temporal* temporal_before,
                          __global ox_temporal* temporal, __global volatile uint* pair_hits,
                          __global ox_hit* hits, __global ox_work* works) {
+  const ox_surfaces surfaces = {triangles, meshlets, meshlet_nodes};
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < task_count * OX_CHUNK_VERTICES; i += stride) {
     const uint task = i / OX_CHUNK_VERTICES;
@@ -42,9 +44,8 @@ __kernel void monolithic(__global volatile uint* counters, __global const ox_lis
       while (!done) {
         switch (list) {
           case OX_LIST_RAYS_ITERATIVE:
-            done =
-                ox_cast_ray(OX_LIST_RAYS_ITERATIVE, &ray, pairs, meshes, vertices, nodes, triangles,
-                            isolations, rays_mode, walk_limit, temporal, &outcome, &work);
+            done = ox_cast_ray(OX_LIST_RAYS_ITERATIVE, &ray, pairs, meshes, vertices, &surfaces,
+                               isolations, rays_mode, walk_limit, temporal, &outcome, &work);
             if (!done) {
               ox_count(counters, OX_COUNTER_UNPROVEN);
               list = ox_full_list(pairs, meshes, ray.pair_side, rays_mode);
@@ -52,11 +53,11 @@ __kernel void monolithic(__global volatile uint* counters, __global const ox_lis
             }
             break;
           case OX_LIST_RAYS_BASIC:
-            done = ox_cast_ray(OX_LIST_RAYS_BASIC, &ray, pairs, meshes, vertices, nodes, triangles,
+            done = ox_cast_ray(OX_LIST_RAYS_BASIC, &ray, pairs, meshes, vertices, &surfaces,
                                isolations, rays_mode, walk_limit, temporal, &outcome, &work);
             break;
           default:
-            done = ox_cast_ray(OX_LIST_RAYS_BVH, &ray, pairs, meshes, vertices, nodes, triangles,
+            done = ox_cast_ray(OX_LIST_RAYS_BVH, &ray, pairs, meshes, vertices, &surfaces,
                                isolations, rays_mode, walk_limit, temporal, &outcome, &work);
         }
       }

@@ -10,10 +10,9 @@
 // has to be cast in full; ray->triangle then is the best guess there is.
 static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* pairs,
                                __global const ox_mesh* meshes, __global const ox_vertex* vertices,
-                               __global const ox_node* nodes, __global const ox_triangle* triangles,
-                               __global const ox_isolation* isolations, uint rays_mode,
-                               uint walk_limit, __global ox_temporal* temporal, ox_outcome* outcome,
-                               ox_work* work) {
+                               const ox_surfaces* surfaces, __global const ox_isolation* isolations,
+                               uint rays_mode, uint walk_limit, __global ox_temporal* temporal,
+                               ox_outcome* outcome, ox_work* work) {
   const uint side = ray->pair_side & 1u;
   __global const ox_pair* pair = pairs + (ray->pair_side >> 1);
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
@@ -23,8 +22,9 @@ static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* p
   uint remember = ray->triangle;
   if (list == OX_LIST_RAYS_ITERATIVE) {
     const bool proof = (rays_mode & OX_RAYS_PAPER) == 0u;
-    const bool done = ox_cast_iteratively(&vertex_ray, target, triangles, isolations, walk_limit,
-                                          proof, behind, &remember, outcome, &work->iterative);
+    const bool done =
+        ox_cast_iteratively(&vertex_ray, target, surfaces->triangles, isolations, walk_limit, proof,
+                            behind, &remember, outcome, &work->iterative);
     if (!done) {
       ray->triangle = remember == OX_NONE ? OX_NONE : remember - target->triangle_first;
       return false;
@@ -32,8 +32,8 @@ static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* p
   } else {
     const bool basic = list == OX_LIST_RAYS_BASIC;
     const uint seed = ray->triangle == OX_NONE ? OX_NONE : target->triangle_first + ray->triangle;
-    *outcome = ox_cast_in_full(basic, &vertex_ray, target, nodes, triangles, seed, behind,
-                               &remember, basic ? &work->basic : &work->bvh);
+    *outcome = ox_cast_in_full(basic, &vertex_ray, target, surfaces, seed, behind, &remember,
+                               basic ? &work->basic : &work->bvh);
   }
   if (ray->memory != OX_NONE)
     temporal[ray->memory].triangle =

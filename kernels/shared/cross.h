@@ -4,7 +4,7 @@
 #define ODE_EXT_KERNELS_SHARED_CROSS_H
 
 #include "shared/meshlet.h"
-#include "shared/ray_triangle.h"
+#include "shared/ray_meshlet.h"
 
 // The vertices of a meshlet in the frame of the other one's mesh, and beyond which sides of that
 // one's box and slab each lies, a bit for each side.
@@ -42,46 +42,6 @@ static inline bool ox_find_near(__global const ox_pair* pair, uint side,
     beyond_all &= ox_and_of(&beyond);
   }
   return beyond_all == 0;
-}
-
-// a * b - c * d with the right sign, as ox_det2.
-static inline void ox_det2_lanes(const ox_floats* a, const ox_floats* b, const ox_floats* c,
-                                 const ox_floats* d, ox_floats* result) {
-  const ox_floats p = *a * *b;
-  const ox_floats q = *c * *d;
-  *result = p != q ? p - q : fma(*a, *b, -p) - fma(*c, *d, -q);
-}
-
-// ox_meets for a block of triangles, bit for bit: in which lanes the line of the cast meets one; *t
-// is where [m], *determinant is negative where it leaves by it.
-static inline void ox_meets_lanes(const ox_cast* cast, __global const ox_meshlet* m, uint block,
-                                  ox_ints* met, ox_floats* t, ox_floats* determinant) {
-  const uint kx = cast->kx;
-  const uint ky = cast->ky;
-  const uint kz = cast->kz;
-  const float ox = ox_axis(cast->origin, kx);
-  const float oy = ox_axis(cast->origin, ky);
-  const float oz = ox_axis(cast->origin, kz);
-  const ox_floats az = ox_load(block, m->corner[0][kz]) - oz;
-  const ox_floats bz = ox_load(block, m->corner[1][kz]) - oz;
-  const ox_floats cz = ox_load(block, m->corner[2][kz]) - oz;
-  const ox_floats sx = -cast->sx;
-  const ox_floats sy = -cast->sy;
-  const ox_floats ax = fma(sx, az, ox_load(block, m->corner[0][kx]) - ox);
-  const ox_floats ay = fma(sy, az, ox_load(block, m->corner[0][ky]) - oy);
-  const ox_floats bx = fma(sx, bz, ox_load(block, m->corner[1][kx]) - ox);
-  const ox_floats by = fma(sy, bz, ox_load(block, m->corner[1][ky]) - oy);
-  const ox_floats cx = fma(sx, cz, ox_load(block, m->corner[2][kx]) - ox);
-  const ox_floats cy = fma(sy, cz, ox_load(block, m->corner[2][ky]) - oy);
-  ox_floats u, v, w;
-  ox_det2_lanes(&cx, &by, &cy, &bx, &u);
-  ox_det2_lanes(&ax, &cy, &ay, &cx, &v);
-  ox_det2_lanes(&bx, &ay, &by, &ax, &w);
-  const ox_ints mixed =
-      ((u < 0.0f) | (v < 0.0f) | (w < 0.0f)) & ((u > 0.0f) | (v > 0.0f) | (w > 0.0f));
-  *determinant = u + v + w;
-  *met = (mixed == 0) & (*determinant != 0.0f);
-  *t = (u * az + v * bz + w * cz) * cast->sz / *determinant;
 }
 
 // Where crossings go: into their list and, of sides that are flooded (flood.cl), one linked to the

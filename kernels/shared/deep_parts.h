@@ -106,7 +106,7 @@ typedef struct {
 
 // False: it is not inside, or the edge is concave and has no direction inward.
 static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_edge_crossing* c,
-                                       __global const ox_node* nodes, ox_middle* middle) {
+                                       ox_middle* middle) {
   const uint side = ox_side(c);
   const ox_wedge wedge = ox_wedge_of(p, c);
   if (wedge.faces != 2u) return false;
@@ -115,9 +115,9 @@ static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_
   if (!ox_supports(&wedge, outward) || length2 < 1.0e-6f) return false;  // concave, or back to back
   middle->position = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
   middle->inward = -outward / sqrt(length2);
-  const ox_nearest exit = ox_look(p, 1u - side, middle->position, middle->inward, nodes);
+  const ox_nearest exit = ox_look(p, 1u - side, middle->position, middle->inward);
   if (!(exit.back_t < exit.front_t)) return false;
-  const ox_nearest own = ox_look(p, side, middle->position, middle->inward, nodes);
+  const ox_nearest own = ox_look(p, side, middle->position, middle->inward);
   middle->exit = exit.back;
   middle->on_surface = exit.entered;
   middle->exit_t = exit.back_t;
@@ -128,8 +128,7 @@ static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_
 // A long edge of a thin part runs deep through the target between ends that are not: the rim of a
 // plate that sticks out of the block's far side, say, while its corner is near another. Where the
 // part is cut finely it has deep vertices there.
-static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side,
-                                       __global const ox_node* nodes) {
+static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side) {
   if ((p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u) return;
   uint leader = 0u;
   for (uint k = 0u; k < p->count; ++k) {
@@ -143,7 +142,7 @@ static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side,
         ox_is_led_out(p, side, ox_chord_end(p, c, 1u), INFINITY, &leader))
       continue;
     ox_middle middle;
-    if (ox_look_from_middle(p, c, nodes, &middle) &&
+    if (ox_look_from_middle(p, c, &middle) &&
         middle.exit_t > middle.own_t + 2.0f * p->pair->epsilon)
       *ox_mark_of(p, c->region) |= OX_DEEP;
   }

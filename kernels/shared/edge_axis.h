@@ -25,7 +25,7 @@ static inline ox_wedge ox_wedge_of(const ox_edge_pair* p, __global const ox_edge
   __global const ox_edge* edge = p->edges + c->edge;
   for (uint k = 0u; k < 2u; ++k) {
     if (edge->triangle[k] == OX_NONE) continue;
-    __global const ox_triangle* triangle = p->triangles + edge->triangle[k];
+    __global const ox_triangle* triangle = p->surfaces.triangles + edge->triangle[k];
     const float3 normal = ox_normal_in_b(p, mesh, edge->triangle[k]);
     if (ox_dot(normal, normal) == 0.0f) continue;
     // The corner off the edge is the one farthest from its line.

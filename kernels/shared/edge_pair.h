@@ -16,7 +16,7 @@ typedef struct {
   __global const ox_mesh* mesh[2];
   __global const ox_vertex* vertices;
   __global const ox_edge* edges;
-  __global const ox_triangle* triangles;
+  ox_surfaces surfaces;
   __global const uint* facets;
   __global ox_edge_crossing* crossings;
   __global uint* order;         // of the crossings
@@ -47,7 +47,7 @@ static inline float3 ox_vertex_in_b(const ox_edge_pair* p, uint mesh, uint verte
 }
 
 static inline float3 ox_normal_in_b(const ox_edge_pair* p, uint mesh, uint triangle) {
-  const float3 normal = vload3(0, p->triangles[triangle].normal);
+  const float3 normal = vload3(0, p->surfaces.triangles[triangle].normal);
   return mesh == 0u ? ox_turn(p->pair, 0u, normal) : normal;
 }
 

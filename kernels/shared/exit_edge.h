@@ -12,7 +12,7 @@
 // one across which `from` lies; OX_NONE: there is none. All indices over all meshes.
 static inline uint ox_next_around(const ox_edge_pair* p, uint mesh, uint triangle, uint from,
                                   float3 point) {
-  __global const ox_triangle* t = p->triangles + triangle;
+  __global const ox_triangle* t = p->surfaces.triangles + triangle;
   const float epsilon = p->pair->epsilon;
   for (uint k = 0u; k < 3u; ++k) {
     const uint across = k == 0u ? t->across_ab : k == 1u ? t->across_bc : t->across_ca;

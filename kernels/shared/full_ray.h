@@ -1,67 +1,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The two full ray algorithms (GRAPP section 3.3): stackless traversal of a BVH by skip links, and
-// every triangle in turn. Device only.
+// The two full ray algorithms (GRAPP section 3.3): traversal of a BVH, and every triangle in turn.
+// Device only.
 #ifndef ODE_EXT_KERNELS_SHARED_FULL_RAY_H
 #define ODE_EXT_KERNELS_SHARED_FULL_RAY_H
 
+#include "shared/meshlet_tree.h"
 #include "shared/nearest.h"
+#include "shared/ray_meshlet.h"
 
-#define OX_WORK_NODE 1u
+// In boxes.
 #define OX_WORK_TRIANGLE 2u
 
-// `seed`: a triangle that is likely to be near the first hit; OX_NONE: none is known. It only saves
-// looking at what lies behind it.
+// What rays are cast against: the triangles of all meshes, their meshlets, and the trees of those.
+typedef struct {
+  __global const ox_triangle* triangles;
+  __global const ox_meshlet* meshlets;
+  __global const ox_meshlet_node* nodes;
+} ox_surfaces;
+
+static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces* surfaces,
+                                       __global const ox_meshlet* meshlet, float from,
+                                       ox_nearest* nearest) {
+  for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
+    ox_floats t, determinant;
+    ox_ints met;
+    ox_meets_lanes(&query->cast, meshlet, first / OX_VECTOR_WIDTH, &met, &t, &determinant);
+    met &= (t >= from) & (t <= ox_limit(query, nearest)) & (t < INFINITY);
+    uint left = ox_mask_of(&met);
+    if (left == 0u) continue;
+    float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
+    ox_store(t, 0, t_lane);
+    ox_store(determinant, 0, determinant_lane);
+    for (; left != 0u; left &= left - 1u) {
+      const uint k = ox_lowest(left);
+      ox_consider_met(query, surfaces->triangles, meshlet->triangle_first + first + k, t_lane[k],
+                      determinant_lane[k] < 0.0f, nearest);
+    }
+  }
+}
+
+// The nearer child of each node first: most of what lies behind the first hit is never looked at.
+// `seed`: a triangle that is likely to be near the first hit; OX_NONE: none is known.
 static inline ox_nearest ox_trace_bvh(const ox_query* query, __global const ox_mesh* mesh,
-                                      __global const ox_node* all_nodes,
-                                      __global const ox_triangle* triangles, uint seed,
-                                      uint* work) {
+                                      const ox_surfaces* surfaces, uint seed, uint* work) {
   ox_nearest nearest = ox_nothing();
   const float from = ox_min(-query->epsilon, -query->behind);
-  __global const ox_node* nodes = all_nodes + mesh->node_first;
   if (seed != OX_NONE) {
-    ox_consider(query, triangles, seed, &nearest);
+    ox_consider(query, surfaces->triangles, seed, &nearest);
     *work += OX_WORK_TRIANGLE;
   }
-  float limit = ox_limit(query, &nearest);
-
-  for (uint n = 0u; n < mesh->node_count;) {
-    __global const ox_node* node = nodes + n;
-    *work += OX_WORK_NODE;
-    if (!ox_meets_box(&query->cast, node, from, limit)) {
-      n = node->skip;
-      continue;
-    }
-    const uint first = mesh->triangle_first + (node->leaf >> 3);
-    const uint count = node->leaf & 7u;
-    for (uint k = first; k < first + count; ++k) ox_consider(query, triangles, k, &nearest);
-    *work += count * OX_WORK_TRIANGLE;
-    limit = ox_limit(query, &nearest);
-    ++n;
+  ox_ray_walk walk = ox_begin_ray_walk(mesh);
+  for (;;) {
+    const uint next = ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, from,
+                                     ox_limit(query, &nearest), work);
+    if (next == OX_NONE) return nearest;
+    __global const ox_meshlet* meshlet = surfaces->meshlets + next;
+    ox_consider_meshlet(query, surfaces, meshlet, from, &nearest);
+    *work += meshlet->triangle_count * OX_WORK_TRIANGLE;
   }
-  return nearest;
 }
 
 static inline ox_nearest ox_trace_all(const ox_query* query, __global const ox_mesh* mesh,
-                                      __global const ox_triangle* triangles, uint* work) {
+                                      const ox_surfaces* surfaces, uint* work) {
   ox_nearest nearest = ox_nothing();
   for (uint k = 0u; k < mesh->triangle_count; ++k)
-    ox_consider(query, triangles, mesh->triangle_first + k, &nearest);
+    ox_consider(query, surfaces->triangles, mesh->triangle_first + k, &nearest);
   *work += mesh->triangle_count * OX_WORK_TRIANGLE;
   return nearest;
 }
 
 static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global const ox_mesh* mesh,
-                                  __global const ox_node* nodes,
-                                  __global const ox_triangle* triangles, uint seed, uint* work) {
-  return basic ? ox_trace_all(query, mesh, triangles, work)
-               : ox_trace_bvh(query, mesh, nodes, triangles, seed, work);
+                                  const ox_surfaces* surfaces, uint seed, uint* work) {
+  return basic ? ox_trace_all(query, mesh, surfaces, work)
+               : ox_trace_bvh(query, mesh, surfaces, seed, work);
 }
 
 // Whether a vertex whose ray grazes is inside a closed target, by rays in other directions, no two
 // of which graze but by a coincidence. Undecided after three: outside.
 static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global const ox_mesh* mesh,
-                                __global const ox_node* nodes,
-                                __global const ox_triangle* triangles, uint* work) {
+                                const ox_surfaces* surfaces, uint* work) {
   for (uint k = 0u; k < 3u; ++k) {
     ox_query query;
     query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
@@ -72,7 +89,7 @@ static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global co
     query.t_max = INFINITY;
     query.behind = 0.0f;
     query.two_sided = false;
-    const ox_nearest nearest = ox_trace(basic, &query, mesh, nodes, triangles, OX_NONE, work);
+    const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, OX_NONE, work);
     if (!ox_grazes(&nearest, query.epsilon)) return nearest.back_t < nearest.front_t;
   }
   return false;
@@ -109,10 +126,8 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
 // Casts it in full. *remember becomes the triangle for the next step, over all meshes; `behind`
 // [m]: how far behind the vertex it may be.
 static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
-                                         __global const ox_mesh* mesh,
-                                         __global const ox_node* nodes,
-                                         __global const ox_triangle* triangles, uint seed,
-                                         float behind, uint* remember, uint* work) {
+                                         __global const ox_mesh* mesh, const ox_surfaces* surfaces,
+                                         uint seed, float behind, uint* remember, uint* work) {
   const bool closed = (mesh->flags & OX_MESH_CLOSED) != 0u;
   ox_query query;
   query.epsilon = ray->epsilon;
@@ -125,11 +140,11 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
   for (uint way = 0u; way < (ray->both_ways ? 2u : 1u); ++way) {
     query.direction = way == 0u ? ray->direction : -ray->direction;
     query.cast = ox_cast_from(ray->origin, query.direction);
-    const ox_nearest nearest = ox_trace(basic, &query, mesh, nodes, triangles, seed, work);
+    const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, seed, work);
     bool inside = false;
     if (closed && ox_grazes(&nearest, query.epsilon))
-      inside = ox_is_inside(basic, &query, mesh, nodes, triangles, work);
-    const ox_outcome outcome = ox_judge(&query, &nearest, inside, ray->exit, triangles);
+      inside = ox_is_inside(basic, &query, mesh, surfaces, work);
+    const ox_outcome outcome = ox_judge(&query, &nearest, inside, ray->exit, surfaces->triangles);
     const uint kind = outcome.kind & OX_HIT_KIND;
     const uint best_kind = best.kind & OX_HIT_KIND;
     if (way == 0u || kind < best_kind || (kind == best_kind && outcome.t < best.t)) {

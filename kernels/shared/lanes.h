@@ -57,6 +57,26 @@ typedef int ox_ints;
 #define OX_FOLD(v, op) (v)
 #endif
 
+// The least bit that is set, of one that has any.
+static inline uint ox_lowest(uint bits) { return 31u - clz(bits & (~bits + 1u)); }
+
+// A bit for each lane where a comparison holds.
+#if OX_VECTOR_WIDTH == 16
+#define OX_LANE_BITS \
+  (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_LANE_BITS (int8)(1, 2, 4, 8, 16, 32, 64, 128)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_LANE_BITS (int4)(1, 2, 4, 8)
+#else
+#define OX_LANE_BITS 1
+#endif
+
+static inline uint ox_mask_of(const ox_ints* v) {
+  const ox_ints bits = *v & OX_LANE_BITS;
+  return as_uint(OX_FOLD(bits, OX_OR));
+}
+
 static inline int ox_or_of(const ox_ints* v) { return OX_FOLD(*v, OX_OR); }
 static inline int ox_and_of(const ox_ints* v) { return OX_FOLD(*v, OX_AND); }
 static inline float ox_least_of(const ox_floats* v) { return OX_FOLD(*v, OX_LESSER); }

@@ -4,16 +4,12 @@
 #define ODE_EXT_KERNELS_SHARED_MESHLET_H
 
 #include "shared/append.h"
-#include "shared/lanes.h"
+#include "shared/meshlet_tree.h"
 
 // As many points as a vector has lanes.
 typedef struct {
   ox_floats x, y, z;
 } ox_points;
-
-typedef struct {
-  float3 lo, hi;
-} ox_box;
 
 // A block of the vertices of a meshlet of the source in the frame of the target; lane by lane the
 // bits of ox_place.
@@ -28,11 +24,6 @@ static inline void ox_place_vertices(__global const ox_pair* pair, uint side,
   points->x = r[0] * x + r[1] * y + r[2] * z + o[0];
   points->y = r[3] * x + r[4] * y + r[5] * z + o[1];
   points->z = r[6] * x + r[7] * y + r[8] * z + o[2];
-}
-
-static inline bool ox_meets_node(const ox_box* box, __global const ox_node* node) {
-  return box->lo.x <= node->hi[0] && box->hi.x >= node->lo[0] && box->lo.y <= node->hi[1] &&
-         box->hi.y >= node->lo[1] && box->lo.z <= node->hi[2] && box->hi.z >= node->lo[2];
 }
 
 // The box of a meshlet of the source in the frame of the target.

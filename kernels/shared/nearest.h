@@ -19,8 +19,8 @@ typedef struct {
   bool two_sided;  // the target has no inside: every face is met from behind
 } ox_query;
 
-// A distance is finite exactly where there is a triangle: ox_consider sets both, and ox_meets gives
-// finite ones only. So the lesser of two that are not equal has a triangle.
+// A distance is finite exactly where there is a triangle: ox_consider_met sets both, of finite ones
+// only. So the lesser of two that are not equal has a triangle.
 typedef struct {
   float back_t, front_t;  // nearest beyond epsilon; INFINITY: none
   float behind_t;         // nearest back face before -epsilon; -INFINITY: none
@@ -66,14 +66,9 @@ static inline bool ox_is_nearer(__global const ox_triangle* triangles, uint k, f
   return triangles[k].id < triangles[nearest].id;
 }
 
-static inline void ox_consider(const ox_query* query, __global const ox_triangle* triangles, uint k,
-                               ox_nearest* nearest) {
-  __global const ox_triangle* triangle = triangles + k;
-  float t;
-  bool back;
-  if (!ox_meets(&query->cast, vload3(0, triangle->a), vload3(0, triangle->b),
-                vload3(0, triangle->c), &t, &back))
-    return;
+// Triangle k is met at t; back: the ray leaves through it.
+static inline void ox_consider_met(const ox_query* query, __global const ox_triangle* triangles,
+                                   uint k, float t, bool back, ox_nearest* nearest) {
   back = back || query->two_sided;
   const float epsilon = query->epsilon;
   if (t < -epsilon) {
@@ -104,6 +99,16 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
     nearest->back_t = t;
     nearest->back = k;
   }
+}
+
+static inline void ox_consider(const ox_query* query, __global const ox_triangle* triangles, uint k,
+                               ox_nearest* nearest) {
+  __global const ox_triangle* triangle = triangles + k;
+  float t;
+  bool back;
+  if (ox_meets(&query->cast, vload3(0, triangle->a), vload3(0, triangle->b), vload3(0, triangle->c),
+               &t, &back))
+    ox_consider_met(query, triangles, k, t, back, nearest);
 }
 
 // How far it is worth looking: within epsilon of the nearest hit another may decide what the

@@ -91,16 +91,4 @@ static inline bool ox_meets(const ox_cast* cast, float3 a, float3 b, float3 c, f
   return fabs(*t) < INFINITY;
 }
 
-// Whether the ray passes the node's box between `from` and `limit` [m].
-static inline bool ox_meets_box(const ox_cast* cast, __global const ox_node* node, float from,
-                                float limit) {
-  const float3 t_lo = (vload3(0, node->lo) - cast->origin) * cast->inverse;
-  const float3 t_hi = (vload3(0, node->hi) - cast->origin) * cast->inverse;
-  const float enter = ox_max(ox_max(ox_min(t_lo.x, t_hi.x), ox_min(t_lo.y, t_hi.y)),
-                             ox_max(ox_min(t_lo.z, t_hi.z), from));
-  const float leave = ox_min(ox_min(ox_max(t_lo.x, t_hi.x), ox_max(t_lo.y, t_hi.y)),
-                             ox_min(ox_max(t_lo.z, t_hi.z), limit));
-  return !(enter > leave);
-}
-
 #endif

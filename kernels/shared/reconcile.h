@@ -123,8 +123,7 @@ static inline void ox_try_way_along(const ox_edge_pair* p, uint region, float3 n
 
 // The least deep way out of the region that leads the way of `normal`, within acos 0.9 as for
 // patches: by a face at its crossings, or one that a ray that way from inside leaves by.
-static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, float3 normal,
-                                           __global const ox_node* nodes) {
+static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, float3 normal) {
   ox_way_out best = ox_no_way_out();
   uint looks[2] = {0u, 0u};
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
@@ -137,7 +136,7 @@ static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, f
     ++looks[side];
     const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
     ox_try_way_along(p, region, normal, side,
-                     ox_exit_face(p, side, middle, side == 0u ? normal : -normal, nodes), &best);
+                     ox_exit_face(p, side, middle, side == 0u ? normal : -normal), &best);
   }
   return best;
 }

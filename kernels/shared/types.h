@@ -97,7 +97,6 @@ OX_STATIC_ASSERT(sizeof(ox_object) == 64, ox_object_is_64_bytes);
 // A mesh: where its parts start in the concatenated arrays, and its bounds in its own frame [m].
 typedef struct {
   ox_u32 chunk_first, chunk_count;
-  ox_u32 node_first, node_count;
   ox_u32 triangle_first, triangle_count;
   ox_u32 meshlet_first, meshlet_count;
   ox_u32 meshlet_node_first, meshlet_node_count;
@@ -122,7 +121,7 @@ typedef struct {
   ox_f32 reach;            // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;  // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 172, ox_mesh_is_172_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 164, ox_mesh_is_164_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -201,13 +200,25 @@ typedef struct {
 } ox_meshlet_pair;
 OX_STATIC_ASSERT(sizeof(ox_meshlet_pair) == 16, ox_meshlet_pair_is_16_bytes);
 
+// Children still to be gone through on the way down a tree, at most (geometry/meshlet_tree.h).
+#define OX_TREE_STACK 96u
+
+// A node over meshlets: the boxes of its children, widened by what the rounding of a ray's slabs
+// can do; lanes beyond `count` have boxes that nothing meets. Child k holds the meshlets from
+// first[k] up to first[k + 1]. Nodes and meshlets count from the mesh's first.
 typedef struct {
-  ox_f32 lo[3];
-  ox_u32 skip;
-  ox_f32 hi[3];
-  ox_u32 leaf;  // 0, or first << 3 | count; both links count from the mesh's first node / triangle
-} ox_node;
-OX_STATIC_ASSERT(sizeof(ox_node) == 32, ox_node_is_32_bytes);
+  ox_f32 lo[3][OX_LANES];
+  ox_f32 hi[3][OX_LANES];
+  ox_u32 child[OX_LANES];  // node << 1, or meshlet << 1 | OX_CHILD_MESHLET
+  ox_u32 first[OX_LANES + 1];
+  ox_u32 count;
+  ox_u32 padding[14];
+} ox_meshlet_node;
+OX_STATIC_ASSERT(sizeof(ox_meshlet_node) == 576, ox_meshlet_node_is_576_bytes);
+OX_STATIC_ASSERT(sizeof(ox_meshlet_node) % 64 == 0, ox_meshlet_nodes_are_aligned);
+
+#define OX_CHILD_MESHLET 1u
+#define OX_TREE_ROOT 0u  // as a child
 
 // In the order of the leaves. Triangles of no area have three equal corners here: no ray hits them.
 // A neighbour is the triangle across an edge, in the order of the leaves, counted from the mesh's

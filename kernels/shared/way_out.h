@@ -35,7 +35,7 @@ static inline ox_way_out ox_through(const ox_edge_pair* p, uint side, uint trian
   way.side = side;
   way.triangle = triangle;
   way.normal = ox_normal_in_b(p, 1u - side, triangle);
-  way.corner = vload3(0, p->triangles[triangle].a);
+  way.corner = vload3(0, p->surfaces.triangles[triangle].a);
   if (side != 0u) way.corner = ox_place(p->pair, 0u, way.corner);
   way.depth = 0.0f;
   way.through = false;
@@ -43,8 +43,7 @@ static inline ox_way_out ox_through(const ox_edge_pair* p, uint side, uint trian
 }
 
 // What a ray from a place in the frame of B meets of a mesh.
-static inline ox_nearest ox_look(const ox_edge_pair* p, uint mesh, float3 from, float3 direction,
-                                 __global const ox_node* nodes) {
+static inline ox_nearest ox_look(const ox_edge_pair* p, uint mesh, float3 from, float3 direction) {
   ox_query query;
   query.direction = mesh == 1u ? direction : ox_turn(p->pair, 1u, direction);
   query.cast = ox_cast_from(mesh == 1u ? from : ox_place(p->pair, 1u, from), query.direction);
@@ -53,13 +52,12 @@ static inline ox_nearest ox_look(const ox_edge_pair* p, uint mesh, float3 from, 
   query.behind = 0.0f;
   query.two_sided = false;
   uint work = 0u;
-  return ox_trace_bvh(&query, p->mesh[mesh], nodes, p->triangles, OX_NONE, &work);
+  return ox_trace_bvh(&query, p->mesh[mesh], &p->surfaces, OX_NONE, &work);
 }
 
 // The face of the target through which a ray from a point inside leaves it; OX_NONE: none.
-static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, float3 direction,
-                                __global const ox_node* nodes) {
-  const ox_nearest nearest = ox_look(p, 1u - side, from, direction, nodes);
+static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, float3 direction) {
+  const ox_nearest nearest = ox_look(p, 1u - side, from, direction);
   if (nearest.touching != OX_NONE) return nearest.touching;  // where it starts
   return nearest.back_t < nearest.front_t ? nearest.back : OX_NONE;
 }
@@ -130,7 +128,7 @@ static inline bool ox_is_better(const ox_edge_pair* p, const ox_way_out* a, cons
   if (a->through != b->through) return b->through;
   if (a->depth != b->depth) return a->depth < b->depth;
   if (a->side != b->side) return a->side < b->side;
-  return p->triangles[a->triangle].id < p->triangles[b->triangle].id;
+  return p->surfaces.triangles[a->triangle].id < p->surfaces.triangles[b->triangle].id;
 }
 
 // Keeps the better of two ways out. The order in which they are tried does not matter.

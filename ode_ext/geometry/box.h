@@ -37,6 +37,12 @@ inline Vec3f centre(const Box& box) { return 0.5f * box.lo + 0.5f * box.hi; }
 
 inline Vec3d extent(const Box& box) { return Vec3d(box.hi) - Vec3d(box.lo); }
 
+// Half of the surface [m^2].
+inline double half_area(const Box& box) {
+  const Vec3d size = extent(box);
+  return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
 // By component the largest distance of a corner from the origin.
 inline Vec3f farthest_corner(const Box& box) {
   return max(max(box.hi, Vec3f{} - box.hi), max(box.lo, Vec3f{} - box.lo));

@@ -34,11 +34,6 @@ struct Split {
   std::size_t last_left = 0;
 };
 
-double half_area(const Box& box) {
-  const Vec3d size = extent(box);
-  return size.x * size.y + size.y * size.z + size.z * size.x;
-}
-
 // Which bin of an axis a centroid falls into. In double, so that no finite extent over- or
 // underflows.
 class Binning {

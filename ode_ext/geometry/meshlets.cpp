@@ -42,13 +42,13 @@ class Builder {
     for (std::uint32_t n = 0; n < count;) {
       BvhNode node = bvh_.nodes[n];
       const bool fits = collect(n);
-      result_.node_sources.push_back(n);
       n = fits ? node.skip : n + 1;
       node.leaf = fits ? static_cast<std::uint32_t>(result_.meshlets.size()) << 3 | 1u : 0;
-      result_.nodes.push_back(node);
+      top_.push_back(node);
       if (fits) emit();
     }
     link();
+    result_.tree = build_meshlet_tree(top_);
     return std::move(result_);
   }
 
@@ -102,9 +102,8 @@ class Builder {
 
   // As in build_bvh: backwards all children are known.
   void link() {
-    std::vector<BvhNode>& nodes = result_.nodes;
-    for (auto n = static_cast<std::uint32_t>(nodes.size()); n-- > 0;)
-      nodes[n].skip = nodes[n].leaf != 0 ? n + 1 : nodes[nodes[n + 1].skip].skip;
+    for (auto n = static_cast<std::uint32_t>(top_.size()); n-- > 0;)
+      top_[n].skip = top_[n].leaf != 0 ? n + 1 : top_[top_[n + 1].skip].skip;
   }
 
   const Bvh& bvh_;
@@ -114,6 +113,7 @@ class Builder {
   std::vector<std::array<std::uint32_t, 2>> ranges_;  // of triangles, of each node
   Meshlet current_{};
   std::vector<std::uint32_t> vertices_;
+  std::vector<BvhNode> top_;  // of the BVH; leaf: meshlet << 3 | 1, in their order
   Meshlets result_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/edges.h"
+#include "geometry/meshlet_tree.h"
 
 namespace ode_ext {
 
@@ -34,9 +35,7 @@ struct Meshlets {
   std::vector<Meshlet> meshlets;
   std::vector<std::uint32_t> vertices;  // indices into the mesh's
   std::vector<MeshletEdge> edges;
-  // The top of the BVH; leaf: meshlet << 3 | 1, in their order.
-  std::vector<BvhNode> nodes;
-  std::vector<std::uint32_t> node_sources;  // which node of the BVH each is
+  std::vector<MeshletNode> tree;
 };
 
 // The largest subtrees of the BVH with at most so many triangles, vertices and edges.

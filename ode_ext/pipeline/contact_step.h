@@ -42,10 +42,10 @@ class EdgeContactStep {
                    meshes.facets(), pairs.crossing_segments, lists.gathered_crossings(),
                    lists.crossing_order());
     contacts_.launch(per_pair.groups, per_pair.local, pairs.pairs, meshes.records(),
-                     meshes.chunks(), meshes.vertices(), meshes.edges(), meshes.nodes(),
-                     meshes.triangles(), meshes.facets(), pairs.crossings, pairs.crossing_segments,
-                     pairs.count, lists.gathered_crossings(), lists.crossing_order(), pairs.hits,
-                     pairs.segments, lists.candidates());
+                     meshes.chunks(), meshes.vertices(), meshes.edges(), meshes.triangles(),
+                     meshes.meshlets(), meshes.meshlet_nodes(), meshes.facets(), pairs.crossings,
+                     pairs.crossing_segments, pairs.count, lists.gathered_crossings(),
+                     lists.crossing_order(), pairs.hits, pairs.segments, lists.candidates());
   }
   double take_milliseconds() { return gather_.take_milliseconds() + contacts_.take_milliseconds(); }
 

@@ -14,17 +14,11 @@ void upload(Buffer& buffer, const std::vector<T>& records) {
   buffer.write(records.data(), records.size() * sizeof(T));
 }
 
-std::uint32_t count_of_level(const MeshMove& move, std::size_t height) {
-  const std::vector<std::uint32_t>& starts = *move.level_starts;
-  return move.rests || height + 1 >= starts.size() ? 0 : starts[height + 1] - starts[height];
-}
-
 }  // namespace
 
 DeformStep::DeformStep(Program& program)
     : triangles_(program, "deform_triangles"),
       vertices_(program, "deform_vertices"),
-      nodes_(program, "deform_nodes"),
       exits_(program, "deform_exits"),
       chunks_(program, "deform_chunks"),
       meshlets_(program, "deform_meshlets"),
@@ -62,13 +56,13 @@ void DeformStep::warm_up(Launch wide, const DeviceMeshes& meshes) {
   upload(starts_, host_starts_);
   upload(positions_, std::vector<Vec3f>{});
   const Items none{0, 0};
-  launch({none, none, none, none, none, none, none, {none}}, meshes, &wide);
+  launch({none, none, none, none, none, none, none}, meshes, &wide);
 }
 
 double DeformStep::take_milliseconds() {
   double sum = 0;
-  for (Kernel* kernel : {&triangles_, &vertices_, &nodes_, &exits_, &chunks_, &meshlets_,
-                         &meshlet_nodes_, &meshes_, &rest_})
+  for (Kernel* kernel :
+       {&triangles_, &vertices_, &exits_, &chunks_, &meshlets_, &meshlet_nodes_, &meshes_, &rest_})
     sum += kernel->take_milliseconds();
   return sum;
 }
@@ -102,19 +96,11 @@ DeformStep::Work DeformStep::plan(const std::vector<MeshMove>& moves) {
       moves, unless_resting([](const auto& move) { return move.record.shape.chunk_count; }));
   work.meshlets = append_starts(
       moves, unless_resting([](const auto& move) { return move.record.shape.meshlet_count; }));
-  work.meshlet_nodes = append_starts(
-      moves, unless_resting([](const auto& move) { return move.record.shape.meshlet_node_count; }));
+  work.meshlet_nodes = append_starts(moves, unless_resting([](const auto& move) {
+                                       return OX_LANES * move.record.shape.meshlet_node_count;
+                                     }));
   work.rest = append_starts(
       moves, [](const MeshMove& move) { return move.rests ? move.record.vertex_count : 0; });
-
-  std::size_t heights = 0;
-  for (const MeshMove& move : moves) heights = std::max(heights, move.level_starts->size());
-  for (std::size_t height = 0; height + 1 < heights; ++height) {
-    work.levels.push_back(
-        append_starts(moves, [&](const MeshMove& move) { return count_of_level(move, height); }));
-    for (const MeshMove& move : moves)
-      host_starts_.push_back(count_of_level(move, height) == 0 ? 0 : (*move.level_starts)[height]);
-  }
   return work;
 }
 
@@ -131,18 +117,15 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
       meshes.topologies(), meshes.triangles(), measures_);
   run(vertices_, work.vertices.count, starts_, work.vertices.starts_first, positions_,
       meshes.topologies(), meshes.triangles(), measures_, meshes.vertices());
-  for (const Items& level : work.levels)
-    run(nodes_, level.count, starts_, level.starts_first, positions_, meshes.topologies(),
-        meshes.nodes());
-  run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.topologies(),
-      meshes.nodes(), meshes.triangles(), meshes.vertices());
-  run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
-  run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
-      meshes.chunks());
   run(meshlets_, work.meshlets.count, starts_, work.meshlets.starts_first, meshes.vertices(),
       meshes.triangles(), meshes.edges(), meshes.meshlets());
   run(meshlet_nodes_, work.meshlet_nodes.count, starts_, work.meshlet_nodes.starts_first,
-      meshes.topologies(), meshes.nodes(), meshes.meshlet_nodes());
+      meshes.meshlets(), meshes.meshlet_nodes());
+  run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.topologies(),
+      meshes.meshlets(), meshes.meshlet_nodes(), meshes.vertices());
+  run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
+  run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
+      meshes.chunks());
   run(meshes_, host_moves_.size(), meshes.chunks(), meshes.records());
 }
 

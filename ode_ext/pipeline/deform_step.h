@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// kernels/deform_step.cl, deform_meshlets.cl: new positions -> all that depends on them.
+// kernels/deform_step.cl, deform_meshlets.cl, deform_exits.cl: new positions -> all that depends on
+// them.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,6 @@ class DeviceMeshes;
 struct MeshMove {
   ox_move record{};
   bool rests = false;
-  const std::vector<std::uint32_t>* level_starts = nullptr;  // as in DeformTopology
 };
 
 class DeformStep {
@@ -42,7 +42,6 @@ class DeformStep {
   };
   struct Work {
     Items triangles, vertices, exits, chunks, meshlets, meshlet_nodes, rest;
-    std::vector<Items> levels;  // nodes, by height
   };
 
   Work plan(const std::vector<MeshMove>& moves);
@@ -51,7 +50,7 @@ class DeformStep {
   // `wide` in place of what the items need.
   void launch(const Work& work, const DeviceMeshes& meshes, const Launch* wide = nullptr);
 
-  Kernel triangles_, vertices_, nodes_, exits_, chunks_, meshlets_, meshlet_nodes_, meshes_, rest_;
+  Kernel triangles_, vertices_, exits_, chunks_, meshlets_, meshlet_nodes_, meshes_, rest_;
   Buffer moves_, starts_, positions_, measures_;
   std::size_t local_;  // work-items per group
   std::vector<ox_move> host_moves_;

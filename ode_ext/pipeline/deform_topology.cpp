@@ -32,33 +32,6 @@ void append_incident(const Mesh& mesh, std::vector<ox_u32>& words) {
       words[first + starts[mesh.triangles[t][corner]]++] = place[t] << 2 | corner;
 }
 
-std::vector<std::uint32_t> heights_of(const Bvh& bvh) {
-  const std::vector<BvhNode>& nodes = bvh.nodes;
-  std::vector<std::uint32_t> heights(nodes.size());
-  for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parents
-    if (nodes[n].leaf != 0) continue;
-    for (std::size_t child = n + 1; child < nodes[n].skip; child = nodes[child].skip)
-      heights[n] = std::max(heights[n], heights[child] + 1);
-  }
-  return heights;
-}
-
-// The nodes by height; returns where each height starts.
-std::vector<std::uint32_t> append_node_order(const Bvh& bvh, std::vector<ox_u32>& words) {
-  const std::vector<std::uint32_t> heights = heights_of(bvh);
-  const std::uint32_t levels = heights.empty() ? 0 : heights[0] + 1;  // the root is the highest
-  std::vector<std::uint32_t> starts(levels + 1);
-  for (const std::uint32_t height : heights) ++starts[height + 1];
-  for (std::size_t h = 1; h < starts.size(); ++h) starts[h] += starts[h - 1];
-
-  const std::size_t first = words.size();
-  words.resize(first + heights.size());
-  std::vector<std::uint32_t> next = starts;
-  for (std::size_t n = 0; n < heights.size(); ++n)
-    words[first + next[heights[n]]++] = static_cast<ox_u32>(n);
-  return starts;
-}
-
 }  // namespace
 
 DeformTopology append_topology(const Mesh& mesh, std::vector<ox_u32>& words) {
@@ -67,11 +40,6 @@ DeformTopology append_topology(const Mesh& mesh, std::vector<ox_u32>& words) {
   append_corners(mesh, words);
   topology.incident_first = static_cast<std::uint32_t>(words.size());
   append_incident(mesh, words);
-  topology.node_order_first = static_cast<std::uint32_t>(words.size());
-  topology.level_starts = append_node_order(mesh.bvh, words);
-  topology.meshlet_node_first = static_cast<std::uint32_t>(words.size());
-  const std::vector<std::uint32_t>& sources = mesh.meshlets.node_sources;
-  words.insert(words.end(), sources.begin(), sources.end());
   return topology;
 }
 

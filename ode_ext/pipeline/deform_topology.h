@@ -14,9 +14,6 @@ namespace ode_ext {
 struct DeformTopology {
   std::uint32_t corner_first = 0;
   std::uint32_t incident_first = 0;
-  std::uint32_t node_order_first = 0;
-  std::uint32_t meshlet_node_first = 0;
-  std::vector<std::uint32_t> level_starts;  // into the order of the nodes, by height; then its end
 };
 
 // Appends to `words` what belongs to `mesh` (as it was built, not a shape).

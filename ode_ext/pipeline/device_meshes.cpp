@@ -72,17 +72,23 @@ void append_groups(const std::vector<VertexChunk>& chunks, std::size_t first,
 
 // A ray origin inside the box and the slab distances carry together less than 16 roundings of
 // coordinates up to the extent (ray_step.cl); a box this much larger is never missed for them.
-ox_node to_record(const BvhNode& node, float extent) {
+ox_meshlet_node to_record(const MeshletNode& node, float extent) {
   const float margin = 0x1p-20f * extent;
-  ox_node record{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    record.lo[k] = node.lo[k] - margin;
-    record.hi[k] = node.hi[k] + margin;
+  ox_meshlet_node record{};
+  record.count = node.count;
+  std::copy(node.first.begin(), node.first.end(), record.first);
+  for (std::size_t k = 0; k < kTreeWidth; ++k) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      record.lo[axis][k] = node.boxes[k].lo[axis] - margin;
+      record.hi[axis][k] = node.boxes[k].hi[axis] + margin;
+    }
+    record.child[k] =
+        node.nodes[k] != kNone ? node.nodes[k] << 1 : node.first[k] << 1 | OX_CHILD_MESHLET;
   }
-  record.skip = node.skip;
-  record.leaf = node.leaf;
   return record;
 }
+
+static_assert(kTreeWidth == OX_LANES && kTreeStack == OX_TREE_STACK);
 
 // `places` as places_in_leaves gives them.
 ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
@@ -175,7 +181,6 @@ DeviceMeshes::DeviceMeshes(Program& program)
       records_(program.device()),
       chunks_(program.device()),
       vertices_(program.device()),
-      nodes_(program.device()),
       triangles_(program.device()),
       edges_(program.device()),
       ring_starts_(program.device()),
@@ -222,7 +227,6 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_records_.clear();
   host_chunks_.clear();
   host_vertices_.clear();
-  host_nodes_.clear();
   host_triangles_.clear();
   host_edges_.clear();
   host_ring_starts_ = {0};
@@ -247,14 +251,12 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   ox_mesh record{};
   record.chunk_first = static_cast<ox_u32>(host_chunks_.size());
   record.chunk_count = static_cast<ox_u32>(built.chunks.size());
-  record.node_first = static_cast<ox_u32>(host_nodes_.size());
-  record.node_count = static_cast<ox_u32>(built.bvh.nodes.size());
   record.triangle_first = static_cast<ox_u32>(host_triangles_.size());
   record.triangle_count = static_cast<ox_u32>(built.triangles.size());
   record.meshlet_first = static_cast<ox_u32>(host_meshlets_.size());
   record.meshlet_count = static_cast<ox_u32>(built.meshlets.meshlets.size());
   record.meshlet_node_first = static_cast<ox_u32>(host_meshlet_nodes_.size());
-  record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.nodes.size());
+  record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.tree.size());
   record.component_first = static_cast<ox_u32>(host_components_.size());
   record.component_count = static_cast<ox_u32>(built.rings.components.size());
   record.group_first = record.chunk_first + record.chunk_count;
@@ -296,8 +298,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
-  for (const BvhNode& node : built.bvh.nodes) host_nodes_.push_back(to_record(node, record.extent));
-  for (const BvhNode& node : built.meshlets.nodes)
+  for (const MeshletNode& node : built.meshlets.tree)
     host_meshlet_nodes_.push_back(to_record(node, record.extent));
   const std::vector<std::uint32_t> places = places_in_leaves(built);
   for (const std::uint32_t triangle : built.bvh.order) {
@@ -361,15 +362,12 @@ void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
   move.record.position_first = static_cast<ox_u32>(positions_.size());
   move.record.corner_first = deformable.topology.corner_first;
   move.record.incident_first = deformable.topology.incident_first;
-  move.record.node_order_first = deformable.topology.node_order_first;
-  move.record.meshlet_node_first = deformable.topology.meshlet_node_first;
   move.record.scale = scale_for(move.record.shape.extent);
   move.record.thickness = thickness_of(shape);
   // A vertex may lie on a face that is not its own (geometry/exit_distance.cpp); rounding, here of
   // the ray test too, sees them less than 16 roundings of the size apart (ray_step.cl).
   move.record.on_surface = 0x1p-20f * 2 * shape.radius;
   move.rests = rests;
-  move.level_starts = &deformable.topology.level_starts;
   moves_.push_back(move);
   if (!rests) positions_.insert(positions_.end(), shape.vertices.begin(), shape.vertices.end());
 }
@@ -378,7 +376,6 @@ void DeviceMeshes::upload() {
   upload_all(records_, host_records_);
   upload_all(chunks_, host_chunks_);
   upload_all(vertices_, host_vertices_);
-  upload_all(nodes_, host_nodes_);
   upload_all(triangles_, host_triangles_);
   upload_all(edges_, host_edges_);
   upload_all(ring_starts_, host_ring_starts_);

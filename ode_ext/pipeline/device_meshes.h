@@ -46,7 +46,6 @@ class DeviceMeshes {
   const Buffer& records() const { return records_; }
   const Buffer& chunks() const { return chunks_; }
   const Buffer& vertices() const { return vertices_; }
-  const Buffer& nodes() const { return nodes_; }
   const Buffer& triangles() const { return triangles_; }
   const Buffer& edges() const { return edges_; }
   // Of vertex v: rings()[ring_starts()[v]] to before ring_starts()[v + 1].
@@ -85,14 +84,13 @@ class DeviceMeshes {
   std::vector<ox_mesh> host_records_;
   std::vector<ox_chunk> host_chunks_;
   std::vector<ox_vertex> host_vertices_;
-  std::vector<ox_node> host_nodes_;
   std::vector<ox_triangle> host_triangles_;
   std::vector<ox_edge> host_edges_;
   std::vector<ox_u32> host_ring_starts_;  // one more than there are vertices
   std::vector<ox_neighbour> host_rings_;
   std::vector<ox_u32> host_components_;
   std::vector<ox_meshlet> host_meshlets_;
-  std::vector<ox_node> host_meshlet_nodes_;
+  std::vector<ox_meshlet_node> host_meshlet_nodes_;
   std::vector<ox_u32> host_facets_;
   std::vector<ox_isolation> host_isolations_;
   std::vector<ox_u32> host_grids_;
@@ -100,8 +98,8 @@ class DeviceMeshes {
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
-  Buffer records_, chunks_, vertices_, nodes_, triangles_, edges_, ring_starts_, rings_,
-      components_, meshlets_, meshlet_nodes_, facets_, isolations_, grids_, topologies_;
+  Buffer records_, chunks_, vertices_, triangles_, edges_, ring_starts_, rings_, components_,
+      meshlets_, meshlet_nodes_, facets_, isolations_, grids_, topologies_;
 };
 
 }  // namespace ode_ext

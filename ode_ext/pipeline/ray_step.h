@@ -17,9 +17,10 @@ class RayStep {
            const Buffer& works) {
     const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.rays(),
-                   pairs.pairs, meshes.records(), meshes.vertices(), meshes.nodes(),
-                   meshes.triangles(), meshes.isolations(), settings.rays_mode, settings.walk_limit,
-                   temporal.now(), pairs.hits, lists.hits(), works);
+                   pairs.pairs, meshes.records(), meshes.vertices(), meshes.triangles(),
+                   meshes.meshlets(), meshes.meshlet_nodes(), meshes.isolations(),
+                   settings.rays_mode, settings.walk_limit, temporal.now(), pairs.hits,
+                   lists.hits(), works);
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

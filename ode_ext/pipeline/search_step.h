@@ -67,8 +67,8 @@ class FloodStep {
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.pairs,
                    meshes.records(), pairs.heads, lists.crossings(), lists.crossing_links(),
                    meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
-                   meshes.components(), meshes.nodes(), meshes.triangles(), pairs.count,
-                   lists.rays(), lists.flood_words());
+                   meshes.components(), meshes.triangles(), meshes.meshlets(),
+                   meshes.meshlet_nodes(), pairs.count, lists.rays(), lists.flood_words());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -73,37 +73,6 @@ TEST(Meshlets, OwnEachEdgeOnceWithItsEnds) {
   }
 }
 
-// Whoever walks their tree and enters every box meets every meshlet, and whoever enters none, none.
-TEST(Meshlets, AreTheLeavesOfATreeOfBoxesThatHoldThem) {
-  for (const TriangleSoup& soup : soups()) {
-    const Mesh mesh = build_mesh(soup);
-    const std::vector<BvhNode>& nodes = mesh.meshlets.nodes;
-    ASSERT_EQ(nodes[0].skip, nodes.size());
-    std::uint32_t meshlet = 0;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      if (nodes[n].leaf != 0) {
-        EXPECT_EQ(nodes[n].skip, n + 1);
-        EXPECT_EQ(nodes[n].leaf, meshlet << 3 | 1u);
-        const Meshlet& held = mesh.meshlets.meshlets[meshlet++];
-        for (std::uint32_t k = 0; k < held.vertex_count; ++k) {
-          const Vec3f vertex = mesh.vertices[mesh.meshlets.vertices[held.vertex_first + k]];
-          EXPECT_EQ(min(vertex, nodes[n].lo), nodes[n].lo);
-          EXPECT_EQ(max(vertex, nodes[n].hi), nodes[n].hi);
-        }
-        continue;
-      }
-      // Its children are the next node and the one where that one's link leads; both are within it.
-      const std::uint32_t right = nodes[n + 1].skip;
-      EXPECT_EQ(nodes[right].skip, nodes[n].skip);
-      for (const std::uint32_t child : {n + 1, right}) {
-        EXPECT_EQ(min(nodes[child].lo, nodes[n].lo), nodes[n].lo);
-        EXPECT_EQ(max(nodes[child].hi, nodes[n].hi), nodes[n].hi);
-      }
-    }
-    EXPECT_EQ(meshlet, mesh.meshlets.meshlets.size());
-  }
-}
-
 // Sixteen lanes are for sixteen triangles: where vertices are shared, more than half are in use.
 TEST(Meshlets, AreMoreThanHalfFull) {
   for (const TriangleSoup& soup : {test::soup_of(test::make_icosphere(1, 4)),
@@ -116,7 +85,7 @@ TEST(Meshlets, AreMoreThanHalfFull) {
 TEST(Meshlets, OfNothingAreNone) {
   const Mesh mesh = build_mesh({});
   EXPECT_TRUE(mesh.meshlets.meshlets.empty());
-  EXPECT_TRUE(mesh.meshlets.nodes.empty());
+  EXPECT_TRUE(mesh.meshlets.tree.empty());
 }
 
 }  // namespace

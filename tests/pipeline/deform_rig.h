@@ -21,10 +21,9 @@ struct MeshRecords {
   ox_mesh mesh;
   std::vector<ox_vertex> vertices;
   std::vector<ox_triangle> triangles;
-  std::vector<ox_node> nodes;
   std::vector<ox_chunk> chunks;
   std::vector<ox_meshlet> meshlets;  // their indices count over all meshes
-  std::vector<ox_node> meshlet_nodes;
+  std::vector<ox_meshlet_node> meshlet_nodes;
 };
 
 class DeformRig {
@@ -44,12 +43,11 @@ class DeformRig {
          built.vertices.size());
     read(meshes_.triangles(), records.triangles, records.mesh.triangle_first,
          built.triangles.size());
-    read(meshes_.nodes(), records.nodes, records.mesh.node_first, built.bvh.nodes.size());
     read(meshes_.chunks(), records.chunks, records.mesh.chunk_first, built.chunks.size());
     read(meshes_.meshlets(), records.meshlets, records.mesh.meshlet_first,
          built.meshlets.meshlets.size());
     read(meshes_.meshlet_nodes(), records.meshlet_nodes, records.mesh.meshlet_node_first,
-         built.meshlets.nodes.size());
+         built.meshlets.tree.size());
     device().finish();
     for (ox_chunk& chunk : records.chunks) chunk.first -= meshes_.place(i).vertex_first;
     return records;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Deform step, the part of exits: where the ray from a vertex of a closed mesh leaves that mesh, as
+// geometry/exit_distance.h.
+//
+// in    moves, starts (deform_step.cl), topology, meshlets, meshlet_nodes
+// out   vertices: their exits
+// item  1 vertex (grid-stride)
+// may overflow: none
+#include "shared/meshlet_tree.h"
+#include "shared/moves.h"
+#include "shared/ray_meshlet.h"
+
+// INFINITY: a front face comes first, or nothing. What lies within on_surface is where it starts.
+static float ox_exit(__global const ox_move* move, __global const uint* topology,
+                     __global const ox_meshlet* meshlets,
+                     __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
+                     uint vertex) {
+  const ox_cast cast = ox_cast_from(origin, direction);
+  __global const ox_mesh* shape = &move->shape;
+  float front_t = INFINITY;
+  float back_t = INFINITY;
+  uint work = 0u;
+  ox_ray_walk walk = ox_begin_ray_walk(shape);
+  for (;;) {
+    // A little more, for the rounding of t: the nearest is met whatever the order of the meshlets.
+    const float limit = ox_min(front_t, back_t) + move->on_surface;
+    const uint next = ox_next_on_ray(&walk, &cast, shape, meshlet_nodes, 0.0f, limit, &work);
+    if (next == OX_NONE) return back_t < front_t ? back_t : INFINITY;
+    __global const ox_meshlet* meshlet = meshlets + next;
+    for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
+      ox_floats t, determinant;
+      ox_ints met;
+      ox_meets_lanes(&cast, meshlet, first / OX_VECTOR_WIDTH, &met, &t, &determinant);
+      met &= (t > move->on_surface) & (t < INFINITY);
+      uint left = ox_mask_of(&met);
+      if (left == 0u) continue;
+      float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
+      ox_store(t, 0, t_lane);
+      ox_store(determinant, 0, determinant_lane);
+      for (; left != 0u; left &= left - 1u) {
+        const uint k = ox_lowest(left);
+        const uint triangle = meshlet->triangle_first - shape->triangle_first + first + k;
+        __global const uint* corners = topology + move->corner_first + 3u * triangle;
+        if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;
+        if (determinant_lane[k] < 0.0f)
+          back_t = ox_min(back_t, t_lane[k]);
+        else
+          front_t = ox_min(front_t, t_lane[k]);
+      }
+    }
+  }
+}
+
+__kernel void deform_exits(__global const ox_move* moves, uint move_count,
+                           __global const uint* all_starts, uint starts_first,
+                           __global const uint* topology, __global const ox_meshlet* meshlets,
+                           __global const ox_meshlet_node* meshlet_nodes,
+                           __global ox_vertex* vertices) {
+  __global const uint* starts = all_starts + starts_first;
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
+    const uint m = ox_move_of(starts, move_count, i);
+    __global const ox_move* move = moves + m;
+    const uint local_index = i - starts[m];
+    __global ox_vertex* vertex = vertices + move->vertex_first + local_index;
+    const float3 direction = vload3(0, vertex->direction);
+    if (ox_dot(direction, direction) == 0.0f) continue;
+    vertex->exit = ox_exit(move, topology, meshlets, meshlet_nodes, vload3(0, vertex->position),
+                           direction, local_index);
+  }
+}

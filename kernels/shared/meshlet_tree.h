@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Going through the tree over the meshlets of a mesh (geometry/meshlet_tree.h), all children of a
+// node asked at a time: along a ray, or through a box. Device only.
+#ifndef ODE_EXT_KERNELS_SHARED_MESHLET_TREE_H
+#define ODE_EXT_KERNELS_SHARED_MESHLET_TREE_H
+
+#include "shared/lanes.h"
+#include "shared/ray_triangle.h"
+
+typedef struct {
+  float3 lo, hi;
+} ox_box;
+
+// Children still to be gone through, the next one last; no tree has more that wait.
+typedef struct {
+  uint child[OX_TREE_STACK];
+  uint count;
+} ox_box_walk;
+
+// The nearer to the start of the ray, the later in the list, of one node's.
+typedef struct {
+  uint child[OX_TREE_STACK];
+  float entry[OX_TREE_STACK];  // [m] along the ray, of its box
+  uint count;
+} ox_ray_walk;
+
+static inline bool ox_has_tree(__global const ox_mesh* mesh) {
+  return mesh->meshlet_node_count != 0u;
+}
+
+static inline ox_ray_walk ox_begin_ray_walk(__global const ox_mesh* mesh) {
+  ox_ray_walk walk;
+  walk.count = ox_has_tree(mesh) ? 1u : 0u;
+  walk.child[0] = OX_TREE_ROOT;
+  walk.entry[0] = -INFINITY;
+  return walk;
+}
+
+static inline ox_box_walk ox_begin_box_walk(__global const ox_mesh* mesh) {
+  ox_box_walk walk;
+  walk.count = ox_has_tree(mesh) ? 1u : 0u;
+  walk.child[0] = OX_TREE_ROOT;
+  return walk;
+}
+
+// A block of the children whose boxes a ray passes between `from` and `limit` [m], a bit for each;
+// entry [m]: from where on. A child that is not there has a box turned inside out.
+static inline uint ox_entered_children(const ox_cast* cast, __global const ox_meshlet_node* node,
+                                       uint block, float from, float limit, float* entry) {
+  const float3 inverse = cast->inverse;
+  const float3 origin = cast->origin;
+  const bool turned_x = inverse.x < 0.0f;
+  const bool turned_y = inverse.y < 0.0f;
+  const bool turned_z = inverse.z < 0.0f;
+  const ox_floats near_x =
+      (ox_load(block, turned_x ? node->hi[0] : node->lo[0]) - origin.x) * inverse.x;
+  const ox_floats near_y =
+      (ox_load(block, turned_y ? node->hi[1] : node->lo[1]) - origin.y) * inverse.y;
+  const ox_floats near_z =
+      (ox_load(block, turned_z ? node->hi[2] : node->lo[2]) - origin.z) * inverse.z;
+  const ox_floats far_x =
+      (ox_load(block, turned_x ? node->lo[0] : node->hi[0]) - origin.x) * inverse.x;
+  const ox_floats far_y =
+      (ox_load(block, turned_y ? node->lo[1] : node->hi[1]) - origin.y) * inverse.y;
+  const ox_floats far_z =
+      (ox_load(block, turned_z ? node->lo[2] : node->hi[2]) - origin.z) * inverse.z;
+  const ox_floats first = (ox_floats)(from);
+  const ox_floats last = (ox_floats)(limit);
+  const ox_floats enter_xy = OX_GREATER(near_x, near_y);
+  const ox_floats enter_z = OX_GREATER(near_z, first);
+  const ox_floats enter = OX_GREATER(enter_xy, enter_z);
+  const ox_floats leave_xy = OX_LESSER(far_x, far_y);
+  const ox_floats leave_z = OX_LESSER(far_z, last);
+  const ox_floats leave = OX_LESSER(leave_xy, leave_z);
+  ox_store(enter, 0, entry);
+  const ox_ints met = enter <= leave;
+  return ox_mask_of(&met);
+}
+
+// The next meshlet, over all meshes, whose box the ray passes between `from` and `limit`; OX_NONE:
+// there are no more. *work: boxes asked.
+static inline uint ox_next_on_ray(ox_ray_walk* walk, const ox_cast* cast,
+                                  __global const ox_mesh* mesh,
+                                  __global const ox_meshlet_node* all_nodes, float from,
+                                  float limit, uint* work) {
+  while (walk->count != 0u) {
+    const uint child = walk->child[--walk->count];
+    if (walk->entry[walk->count] > limit) continue;
+    if ((child & OX_CHILD_MESHLET) != 0u) return mesh->meshlet_first + (child >> 1);
+    __global const ox_meshlet_node* node = all_nodes + mesh->meshlet_node_first + (child >> 1);
+    *work += node->count;
+    const uint begin = walk->count;
+    for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
+      float entry[OX_VECTOR_WIDTH];
+      uint met = ox_entered_children(cast, node, first / OX_VECTOR_WIDTH, from, limit, entry);
+      for (; met != 0u; met &= met - 1u) {
+        const uint k = ox_lowest(met);
+        uint place = walk->count++;
+        for (; place > begin && walk->entry[place - 1u] < entry[k]; --place) {
+          walk->child[place] = walk->child[place - 1u];
+          walk->entry[place] = walk->entry[place - 1u];
+        }
+        walk->child[place] = node->child[first + k];
+        walk->entry[place] = entry[k];
+      }
+    }
+  }
+  return OX_NONE;
+}
+
+// A block of the children whose boxes meet a box, a bit for each.
+static inline uint ox_children_in_box(const ox_box* box, __global const ox_meshlet_node* node,
+                                      uint block) {
+  const ox_ints met =
+      (ox_load(block, node->lo[0]) <= box->hi.x) & (ox_load(block, node->hi[0]) >= box->lo.x) &
+      (ox_load(block, node->lo[1]) <= box->hi.y) & (ox_load(block, node->hi[1]) >= box->lo.y) &
+      (ox_load(block, node->lo[2]) <= box->hi.z) & (ox_load(block, node->hi[2]) >= box->lo.z);
+  return ox_mask_of(&met);
+}
+
+#endif
