@@ -11,9 +11,10 @@ namespace paper {
 namespace {
 
 constexpr std::array<const char*, dBatchStageCount> kStages{
-    "gather",   "meshes",        "deform_step",  "pair_step", "vertex_step", "iterative_rays",
-    "bvh_rays", "basic_rays",    "monolithic",   "cull",      "match",       "cross",
-    "flood",    "edge_contacts", "contact_step", "device",    "export",      "pass"};
+    "gather",         "meshes",   "deform_step", "pair_step",     "vertex_step",
+    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic",    "cull",
+    "match",          "cross",    "flood",       "edge_contacts", "contact_step",
+    "whole_step",     "device",   "export",      "pass"};
 
 constexpr std::array<const char*, dBatchBufferCount> kBuffers{
     "chunks_small", "chunks_high", "chunks_deformable", "rays_iterative",

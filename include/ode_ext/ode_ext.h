@@ -296,10 +296,11 @@ enum {
   dBatchStageFlood = 12,     /**< which vertices are inside, by where edges cross */
   dBatchStageEdgeContacts = 13, /**< what crossings say that vertices do not */
   dBatchStageContactStep = 14,
-  dBatchStageDevice = 15, /**< first upload to last read-back, host clock */
-  dBatchStageExport = 16, /**< storing the answers, host */
-  dBatchStagePass = 17,   /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 18
+  dBatchStageWholeStep = 15, /**< all of the above from the pair step on in one launch: few pairs */
+  dBatchStageDevice = 16,    /**< first upload to last read-back, host clock */
+  dBatchStageExport = 17,    /**< storing the answers, host */
+  dBatchStagePass = 18,      /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageCount = 19
 };
 
 /** The kernels whose work is counted on demand. */

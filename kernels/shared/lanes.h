@@ -72,6 +72,8 @@ static inline uint ox_lowest(uint bits) { return 31u - clz(bits & (~bits + 1u));
 #define OX_LANE_BITS 1
 #endif
 
+#define OX_ALL_LANES ((1u << OX_VECTOR_WIDTH) - 1u)
+
 static inline uint ox_mask_of(const ox_ints* v) {
   const ox_ints bits = *v & OX_LANE_BITS;
   return as_uint(OX_FOLD(bits, OX_OR));

@@ -43,8 +43,15 @@ static inline ox_box_walk ox_begin_box_walk(__global const ox_mesh* mesh) {
   return walk;
 }
 
+// A bit for each child of a block that has one at least. Their boxes are turned inside out where
+// there is none, but what is not finite would meet those too.
+static inline uint ox_present_children(__global const ox_meshlet_node* node, uint block) {
+  const uint count = node->count - OX_VECTOR_WIDTH * block;
+  return count < OX_VECTOR_WIDTH ? (1u << count) - 1u : OX_ALL_LANES;
+}
+
 // A block of the children whose boxes a ray passes between `from` and `limit` [m], a bit for each;
-// entry [m]: from where on. A child that is not there has a box turned inside out.
+// entry [m]: from where on.
 static inline uint ox_entered_children(const ox_cast* cast, __global const ox_meshlet_node* node,
                                        uint block, float from, float limit, float* entry) {
   const float3 inverse = cast->inverse;
@@ -74,7 +81,7 @@ static inline uint ox_entered_children(const ox_cast* cast, __global const ox_me
   const ox_floats leave = OX_LESSER(leave_xy, leave_z);
   ox_store(enter, 0, entry);
   const ox_ints met = enter <= leave;
-  return ox_mask_of(&met);
+  return ox_mask_of(&met) & ox_present_children(node, block);
 }
 
 // The next meshlet, over all meshes, whose box the ray passes between `from` and `limit`; OX_NONE:
@@ -115,7 +122,7 @@ static inline uint ox_children_in_box(const ox_box* box, __global const ox_meshl
       (ox_load(block, node->lo[0]) <= box->hi.x) & (ox_load(block, node->hi[0]) >= box->lo.x) &
       (ox_load(block, node->lo[1]) <= box->hi.y) & (ox_load(block, node->hi[1]) >= box->lo.y) &
       (ox_load(block, node->lo[2]) <= box->hi.z) & (ox_load(block, node->hi[2]) >= box->lo.z);
-  return ox_mask_of(&met);
+  return ox_mask_of(&met) & ox_present_children(node, block);
 }
 
 #endif

@@ -44,7 +44,8 @@ constexpr Stage kKernels[] = {{"deform_step", dBatchStageDeformStep},
                               {"cross", dBatchStageCross},
                               {"flood", dBatchStageFlood},
                               {"edge_contacts", dBatchStageEdgeContacts},
-                              {"contact_step", dBatchStageContactStep}};
+                              {"contact_step", dBatchStageContactStep},
+                              {"whole_step", dBatchStageWholeStep}};
 
 void write_event(const char* name, int track, double start_us, double duration_us,
                  const std::string& arguments) {

@@ -76,6 +76,19 @@ void Collider::run(Step& step) {
   read_ranges_.reserve(pairs * sizeof(ox_range));
   read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
 
+  if (workload.is_few())
+    steps_.whole.run(data_, step.temporal());
+  else
+    launch_steps(step);
+
+  data_.pairs.ranges.read(read_ranges_.data(), pairs * sizeof(ox_range));
+  read_contacts(workload.predicted(Arrow::kContacts));
+  data_.lists.count();
+}
+
+void Collider::launch_steps(Step& step) {
+  Workload& workload = step.workload;
+  const std::size_t pairs = workload.tile().count;
   steps_.pair.run(workload.launch(pairs), data_, step.temporal(), vertex_rays_.is_dense());
   if (options_.edges) {
     steps_.cull.run(workload.launch(pairs), data_);
@@ -91,10 +104,6 @@ void Collider::run(Step& step) {
   if (options_.edges)
     steps_.edge_contacts.run(workload.launch(pairs), workload.launch(Arrow::kCrossings), data_);
   steps_.reduce.run(workload.launch(pairs), data_);
-
-  data_.pairs.ranges.read(read_ranges_.data(), pairs * sizeof(ox_range));
-  read_contacts(workload.predicted(Arrow::kContacts));
-  data_.lists.count();
 }
 
 // At most as many as there is room for.

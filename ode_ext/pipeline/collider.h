@@ -33,6 +33,7 @@ class Collider {
   void upload(Step& step);
   void collide_tile(Step& step);
   void run(Step& step);
+  void launch_steps(Step& step);
   void read_contacts(std::uint64_t count);
   void read_unpredicted(const Step& step);
   void deliver(Step& step);

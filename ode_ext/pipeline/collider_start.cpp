@@ -79,6 +79,7 @@ void Collider::warm_up() {
   steps_.gather.run(wide, wide, data_);
   steps_.edge_contacts.run(wide, wide, data_);
   steps_.reduce.run(wide, data_);
+  if (step.workload.is_few()) steps_.whole.run(data_, nothing_);
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

@@ -32,6 +32,9 @@ struct ColliderOptions {
   bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
   bool count_work = false;
+  // On a processor no more than so many pairs of small meshes are collided by one launch
+  // (kernels/whole_step.cl). The same bytes.
+  std::size_t few_pairs = 4;
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that none
   // of their counters and indices passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;

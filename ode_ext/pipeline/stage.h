@@ -22,9 +22,10 @@ enum class Stage : std::size_t {
   kCross,
   kFlood,
   kEdgeContacts,
-  kContactStep
+  kContactStep,
+  kWholeStep
 };
-inline constexpr std::size_t kStageCount = 13;
+inline constexpr std::size_t kStageCount = 14;
 using StageTimes = std::array<double, kStageCount>;  // [ms]
 
 // Adds what a step took on the device since the last time. A clock that cannot be read is no reason

@@ -7,6 +7,7 @@
 #include "pipeline/pair_step.h"
 #include "pipeline/search_step.h"
 #include "pipeline/stage.h"
+#include "pipeline/whole_step.h"
 
 namespace ode_ext {
 
@@ -19,7 +20,8 @@ struct Steps {
         flood(program),
         gather(program),
         edge_contacts(program),
-        reduce(program) {}
+        reduce(program),
+        whole(program) {}
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms) {
@@ -31,6 +33,7 @@ struct Steps {
     add_time(ms, Stage::kEdgeContacts, edge_contacts);
     add_time(ms, Stage::kContactStep, gather);
     add_time(ms, Stage::kContactStep, reduce);
+    add_time(ms, Stage::kWholeStep, whole);
   }
 
   PairStep pair;
@@ -41,6 +44,7 @@ struct Steps {
   GatherStep gather;
   EdgeContactStep edge_contacts;
   ReduceStep reduce;
+  WholeStep whole;
 };
 
 }  // namespace ode_ext

@@ -43,6 +43,9 @@ class Workload {
   Launch launch(std::uint64_t items) const;
   // Of one that takes a list.
   Launch launch(Arrow list) const;
+  // Whether the tile is so small that one work-item does all of it sooner than its kernels are
+  // launched (kernels/whole_step.cl).
+  bool is_few() const;
   // Where launches go by what there is: waits until it is known of all lists.
   void settle_launches();
 

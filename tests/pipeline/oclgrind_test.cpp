@@ -19,6 +19,7 @@ ColliderOptions small_options() {
   ColliderOptions options;
   options.work_group_size = 16;
   options.initial_capacity = 256;
+  options.few_pairs = 0;  // every kernel by itself
   return options;
 }
 
@@ -60,6 +61,22 @@ TEST(OclgrindPipeline, CollidesTheSameByVectors) {
   const auto expected = contacts(1);
   EXPECT_FALSE(expected[0].empty());
   EXPECT_EQ(contacts(8), expected);
+}
+
+TEST(OclgrindPipeline, CollidesTheSameInOneLaunch) {
+  TestScene scene;
+  const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.6, 1));
+  const std::uint32_t sheet = scene.add_mesh(make_sheet(1, 2));
+  scene.add_pair(sphere, at(0.1, 0.05, 0.9), sphere, at(0, 0, 0));
+  scene.add_pair(sphere, at(0.1, 0.05, 0.5), sheet, at(0, 0, 0));
+  Collider stepwise(small_options());
+  const auto expected = bits_of(stepwise.collide(scene.scene, nullptr));
+  EXPECT_FALSE(expected[0].empty());
+  ColliderOptions options = small_options();
+  options.few_pairs = 2;
+  Collider collider(options);
+  EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+  EXPECT_GT(collider.report().ms[static_cast<std::size_t>(Stage::kWholeStep)], 0);
 }
 
 TEST(OclgrindPipeline, RedoesWhatOverflows) {
