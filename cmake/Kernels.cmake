@@ -17,7 +17,8 @@ foreach(header types transform append near_surface cull lanes ray_triangle ray_m
     list(REMOVE_ITEM headers ${header})
   endif()
 endforeach()
-list(APPEND ODE_EXT_KERNEL_FILES ${headers} ${kernels})
+list(REMOVE_ITEM kernels whole_step.cl)  # it calls the others
+list(APPEND ODE_EXT_KERNEL_FILES ${headers} ${kernels} whole_step.cl)
 
 set(ODE_EXT_EMBEDDED_KERNELS ${PROJECT_BINARY_DIR}/generated/embedded_kernels.cpp)
 list(TRANSFORM ODE_EXT_KERNEL_FILES PREPEND ${kernels_dir}/ OUTPUT_VARIABLE kernel_paths)

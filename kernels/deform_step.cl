@@ -15,7 +15,6 @@
 // Nothing here depends on the shape that a mesh had before (but for `moved`), nor on the order of
 // its vertices: a mesh gives the same bits however it came to its shape.
 #include "shared/moves.h"
-#include "shared/ray_triangle.h"
 
 // a * b - c * d to 1.5 roundings of the result (Kahan; Jeannerod, Louvet, Muller 2013).
 static float ox_minor(float a, float b, float c, float d) {

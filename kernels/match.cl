@@ -25,6 +25,7 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
     __global const ox_pair* pair = pairs + (task.pair_side >> 1);
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
+    const ox_slab slab = ox_slab_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
     ox_box_walk walk = ox_begin_box_walk(target);
     while (walk.count != 0u) {
       const uint child = walk.child[--walk.count];
@@ -32,7 +33,9 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
         __global const ox_meshlet_node* node =
             meshlet_nodes + target->meshlet_node_first + (child >> 1);
         for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
-          uint met = ox_children_in_box(&box, node, first / OX_VECTOR_WIDTH);
+          const uint block = first / OX_VECTOR_WIDTH;
+          uint met = ox_children_in_box(&box, node, block);
+          if (met != 0u) met &= ox_children_in_slab(&slab, node, block);
           for (; met != 0u; met &= met - 1u)
             walk.child[walk.count++] = node->child[first + ox_lowest(met)];
         }

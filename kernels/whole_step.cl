@@ -5,6 +5,10 @@
 //
 // in, out, and what may overflow: of the kernels that it calls
 // item  all; there is one
+//
+// Kernels that call kernels are OpenCL C, and yet not every compiler's for GPUs: it is left out
+// where it never runs (OX_WHOLE_STEP, pipeline/collider_start.cpp).
+#ifdef OX_WHOLE_STEP
 #ifndef OX_WHOLE_PROGRAM
 #include "contact_step.cl"
 #include "cross.cl"
@@ -64,3 +68,5 @@ __kernel void whole_step(
   contact_reduce(counters, lists, pairs, meshes, pair_hits, pair_segments, pair_count, candidates,
                  max_contacts, max_deformable, rays_mode, pair_ranges, contacts);
 }
+
+#endif

@@ -283,7 +283,7 @@ enum {
   dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
   dBatchStageMeshes = 1,     /**< comparing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
-                                  next twelve */
+                                  next thirteen */
   dBatchStagePairStep = 3,
   dBatchStageVertexStep = 4,    /**< of all categories */
   dBatchStageIterativeRays = 5, /**< ray step, by algorithm */

@@ -48,6 +48,18 @@ static inline ox_box ox_box_there(__global const ox_pair* pair, uint side,
   return box;
 }
 
+// The slab of a meshlet of the source in the frame of the target. Turned and measured along, a
+// coordinate takes less than 32 roundings, of which epsilon is 16 (pair_step.cl).
+static inline ox_slab ox_slab_there(__global const ox_pair* pair, uint side,
+                                    __global const ox_meshlet* meshlet, float margin) {
+  ox_slab slab;
+  slab.normal = ox_turn(pair, side, vload3(0, meshlet->slab_normal));
+  const float moved = ox_dot(slab.normal, vload3(0, pair->offset[side]));
+  slab.lo = meshlet->slab_lo + moved - margin - 2.0f * pair->epsilon;
+  slab.hi = meshlet->slab_hi + moved + margin + 2.0f * pair->epsilon;
+  return slab;
+}
+
 // What crosses where is decided within epsilon of either end of an edge, by coordinates that carry
 // as much rounding (pair_step.cl): so far apart nothing does.
 static inline float ox_search_margin(__global const ox_pair* pair) { return 2.0f * pair->epsilon; }

@@ -125,4 +125,24 @@ static inline uint ox_children_in_box(const ox_box* box, __global const ox_meshl
   return ox_mask_of(&met) & ox_present_children(node, block);
 }
 
+// Two planes, and what lies between them.
+typedef struct {
+  float3 normal;
+  float lo, hi;  // [m] along it
+} ox_slab;
+
+// A block of the children whose boxes meet a slab, a bit for each.
+static inline uint ox_children_in_slab(const ox_slab* slab, __global const ox_meshlet_node* node,
+                                       uint block) {
+  const float3 n = 0.5f * slab->normal;
+  const float3 size = fabs(n);
+  const ox_floats lo_x = ox_load(block, node->lo[0]), hi_x = ox_load(block, node->hi[0]);
+  const ox_floats lo_y = ox_load(block, node->lo[1]), hi_y = ox_load(block, node->hi[1]);
+  const ox_floats lo_z = ox_load(block, node->lo[2]), hi_z = ox_load(block, node->hi[2]);
+  const ox_floats middle = n.x * (lo_x + hi_x) + n.y * (lo_y + hi_y) + n.z * (lo_z + hi_z);
+  const ox_floats reach = size.x * (hi_x - lo_x) + size.y * (hi_y - lo_y) + size.z * (hi_z - lo_z);
+  const ox_ints met = (middle - reach <= slab->hi) & (middle + reach >= slab->lo);
+  return ox_mask_of(&met) & ox_present_children(node, block);
+}
+
 #endif

@@ -204,8 +204,8 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet_pair) == 16, ox_meshlet_pair_is_16_bytes);
 #define OX_TREE_STACK 96u
 
 // A node over meshlets: the boxes of its children, widened by what the rounding of a ray's slabs
-// can do; lanes beyond `count` have boxes that nothing meets. Child k holds the meshlets from
-// first[k] up to first[k + 1]. Nodes and meshlets count from the mesh's first.
+// can do; lanes beyond `count` have boxes that nothing finite meets. Child k holds the meshlets
+// from first[k] up to first[k + 1]. Nodes and meshlets count from the mesh's first.
 typedef struct {
   ox_f32 lo[3][OX_LANES];
   ox_f32 hi[3][OX_LANES];

@@ -77,7 +77,7 @@ void Collider::run(Step& step) {
   read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
 
   if (workload.is_few())
-    steps_.whole.run(data_, step.temporal());
+    steps_.whole->run(data_, step.temporal());
   else
     launch_steps(step);
 

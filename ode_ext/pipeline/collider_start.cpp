@@ -21,10 +21,11 @@ StepSettings settings_of(const ColliderOptions& options) {
   return settings;
 }
 
-std::string program_options(const ColliderOptions& options) {
+std::string program_options(const ColliderOptions& options, const DeviceInfo& device) {
   std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
   if (options.vector_width != 0)
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   return text;
 }
 
@@ -33,8 +34,8 @@ std::string program_options(const ColliderOptions& options) {
 Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer),
-      program_(device_, program_options(options)),
-      steps_(program_),
+      program_(device_, program_options(options, device_.info())),
+      steps_(program_, may_run_whole(options_, device_.info())),
       vertex_rays_(program_, options_),
       data_(program_),
       nothing_(device_),
@@ -79,7 +80,7 @@ void Collider::warm_up() {
   steps_.gather.run(wide, wide, data_);
   steps_.edge_contacts.run(wide, wide, data_);
   steps_.reduce.run(wide, data_);
-  if (step.workload.is_few()) steps_.whole.run(data_, nothing_);
+  if (step.workload.is_few()) steps_.whole->run(data_, nothing_);
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <unordered_map>
 #include <utility>
 
@@ -89,6 +90,8 @@ ox_meshlet_node to_record(const MeshletNode& node, float extent) {
 }
 
 static_assert(kTreeWidth == OX_LANES && kTreeStack == OX_TREE_STACK);
+static_assert(offsetof(ox_meshlet_node, lo) % 64 == 0 && offsetof(ox_meshlet_node, hi) % 64 == 0,
+              "shared/lanes.h loads them whole");
 
 // `places` as places_in_leaves gives them.
 ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,

@@ -2,6 +2,8 @@
 // The kernels of the pipeline by step, but for those of rays of vertices (vertex_rays.h).
 #pragma once
 
+#include <optional>
+
 #include "device/program.h"
 #include "pipeline/contact_step.h"
 #include "pipeline/pair_step.h"
@@ -12,7 +14,8 @@
 namespace ode_ext {
 
 struct Steps {
-  explicit Steps(Program& program)
+  // has_whole: the program was built for a whole step too.
+  Steps(Program& program, bool has_whole)
       : pair(program),
         cull(program),
         match(program),
@@ -20,8 +23,9 @@ struct Steps {
         flood(program),
         gather(program),
         edge_contacts(program),
-        reduce(program),
-        whole(program) {}
+        reduce(program) {
+    if (has_whole) whole.emplace(program);
+  }
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms) {
@@ -33,7 +37,7 @@ struct Steps {
     add_time(ms, Stage::kEdgeContacts, edge_contacts);
     add_time(ms, Stage::kContactStep, gather);
     add_time(ms, Stage::kContactStep, reduce);
-    add_time(ms, Stage::kWholeStep, whole);
+    if (whole.has_value()) add_time(ms, Stage::kWholeStep, *whole);
   }
 
   PairStep pair;
@@ -44,7 +48,7 @@ struct Steps {
   GatherStep gather;
   EdgeContactStep edge_contacts;
   ReduceStep reduce;
-  WholeStep whole;
+  std::optional<WholeStep> whole;  // on devices that run it
 };
 
 }  // namespace ode_ext

@@ -16,20 +16,26 @@ bool is_out_of_memory(int code) {
          code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
 }
 
-// A launch of PoCL's takes 5 to 10 us, a step has a dozen; a pair of meshes of a thousand triangles
-// takes 20 to 300 us on one core. More or larger ones are worth sharing out (docs/performance.md).
-constexpr std::size_t kFewVertices = 16384;
+// A launch takes about as long as 1,000 triangles do; more than these are worth sharing out among
+// cores (docs/performance.md).
+constexpr std::size_t kFewTriangles = 16384;
 
 bool is_small(const Scene& scene, Tile tile, std::size_t few_pairs) {
   if (tile.count > few_pairs) return false;
-  std::size_t vertices = 0;
+  std::size_t triangles = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
     for (const std::uint32_t object : scene.pairs[i])
-      vertices += scene.meshes[scene.objects[object].mesh]->vertices.size();
-  return vertices <= kFewVertices;
+      triangles += topology(*scene.meshes[scene.objects[object].mesh]).triangles.size();
+  return triangles <= kFewTriangles;
 }
 
 }  // namespace
+
+bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device) {
+  return options.few_pairs != 0 && floods(options) && options.launches == LaunchRule::kPredicted &&
+         !options.count_work && options.deformable_target == DeformableTarget::kRefit &&
+         (device.type & CL_DEVICE_TYPE_CPU) != 0;
+}
 
 Workload::Workload(const ColliderOptions& options, const Device& device, AppendLists& lists,
                    const Scene& scene, PassMemory* memory, StepReport& report)
@@ -166,10 +172,7 @@ Launch Workload::launch(Arrow list) const {
 }
 
 bool Workload::is_few() const {
-  return floods(options_) && options_.launches == LaunchRule::kPredicted && !options_.count_work &&
-         options_.deformable_target == DeformableTarget::kRefit &&
-         (device_.type & CL_DEVICE_TYPE_CPU) != 0 &&
-         is_small(scene_, tile_.tile, options_.few_pairs);
+  return may_run_whole(options_, device_) && is_small(scene_, tile_.tile, options_.few_pairs);
 }
 
 void Workload::settle_launches() {

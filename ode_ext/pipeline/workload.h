@@ -17,6 +17,10 @@
 
 namespace ode_ext {
 
+// Whether few pairs of small meshes are collided by one launch (kernels/whole_step.cl): on a
+// processor, where the lists are what the product's are.
+bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device);
+
 // Of one step. What it finds out is noted in `memory`, if there is one, and in `report`.
 class Workload {
  public:

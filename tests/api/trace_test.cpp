@@ -44,9 +44,10 @@ TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   std::remove(path.c_str());
-  for (const char* name : {"pass", "gather", "meshes", "device", "export", "pair_step",
-                           "vertex_step", "iterative_rays", "bvh_rays", "basic_rays", "monolithic",
-                           "cull", "match", "cross", "edge_contacts", "contact_step"})
+  for (const char* name :
+       {"pass", "gather", "meshes", "device", "export", "pair_step", "vertex_step",
+        "iterative_rays", "bvh_rays", "basic_rays", "monolithic", "cull", "match", "cross", "flood",
+        "edge_contacts", "contact_step", "deform_step", "whole_step"})
     EXPECT_EQ(count(text.str(), std::string("\"name\":\"") + name + "\""), 2) << name;
   EXPECT_EQ(text.str().substr(0, 2), "[\n");
   EXPECT_EQ(text.str().substr(text.str().size() - 3), "\n]\n");

@@ -210,15 +210,17 @@ TEST(Collider, GivesTheSameBytesInManyTiles) {
   const Bits expected = collide(scene);
   Collider whole({});
   whole.collide(scene.scene, nullptr);
-  for (const std::uint64_t vertices : {1, 100, 5000}) {
-    ColliderOptions options;
-    options.tile_vertices = vertices;
-    Collider collider(options);
-    EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected) << vertices;
-    EXPECT_GT(collider.report().synchronizations, 1);
-    EXPECT_EQ(collider.report().actual, whole.report().actual);
-    EXPECT_EQ(collider.report().pairs_bounded, whole.report().pairs_bounded);
-  }
+  for (const std::size_t few_pairs : {0, 4})
+    for (const std::uint64_t vertices : {1, 100, 5000}) {
+      ColliderOptions options;
+      options.few_pairs = few_pairs;
+      options.tile_vertices = vertices;
+      Collider collider(options);
+      EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected) << vertices;
+      EXPECT_GT(collider.report().synchronizations, 1);
+      EXPECT_EQ(collider.report().actual, whole.report().actual);
+      EXPECT_EQ(collider.report().pairs_bounded, whole.report().pairs_bounded);
+    }
 }
 
 // What does not fit the device is cut up, pass after pass, and small steps are as ever.

@@ -54,6 +54,15 @@ TEST_F(DeviceFailure, IsReportedFromEveryCallOfAStepAndThenForgotten) {
   EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);
 }
 
+TEST_F(DeviceFailure, IsReportedFromEveryCallOfAStepOfFewPairs) {
+  const TestScene scene = random_scene(3, 75);
+  ColliderOptions options;
+  options.initial_capacity = 1;  // it is run again too
+  Collider collider(options);
+  const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
+  EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 5);
+}
+
 TEST_F(DeviceFailure, IsReportedWhileMeshesAreUploaded) {
   const TestScene scene = random_scene(20, 72), other = random_scene(5, 73);
   Collider collider({});

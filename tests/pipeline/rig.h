@@ -101,7 +101,7 @@ class Rig {
   Rig()
       : device_(""),
         program_(device_, ""),
-        steps_(program_),
+        steps_(program_, false),
         vertex_(program_),
         iterative_(program_, "ray_iterative"),
         bvh_(program_, "ray_bvh"),

@@ -186,7 +186,10 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
 
 // One by one as on a GPU, or as vectors: lane by lane it is the same arithmetic.
 TEST(Search, FindsTheSameBytesWhateverTheWidthOfVectors) {
-  const TestScene scene = random_scene(100, 81);
+  TestScene scene = random_scene(100, 81);
+  // A tree of several levels.
+  const std::uint32_t fine = scene.add_mesh(make_icosphere(0.6, 4));
+  scene.add_pair(fine, at(30, 0, 0), fine, turned({1, 2, 3}, 0.4, {30.9, 0.1, 0.2}));
   const auto contacts = [&](std::uint32_t width) {
     ColliderOptions options;
     options.vector_width = width;

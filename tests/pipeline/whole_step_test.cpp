@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few pairs are collided by one launch; what that gives is what the steps launched one by one give.
+// On a processor few pairs are collided by one launch; what that gives is what the steps launched
+// one by one give.
 #include <gtest/gtest.h>
 
 #include "pipeline/collider.h"
@@ -39,16 +40,12 @@ class WholeStep : public testing::Test {
       const auto expected = bits_of(stepwise_.collide(few, nullptr));
       EXPECT_EQ(milliseconds(stepwise_, Stage::kWholeStep), 0);
       EXPECT_EQ(bits_of(whole_.collide(few, nullptr)), expected);
-      EXPECT_GT(milliseconds(whole_, Stage::kWholeStep), 0);
-      EXPECT_EQ(milliseconds(whole_, Stage::kPairStep), 0);
+      const bool is_cpu = (whole_.device_info().type & CL_DEVICE_TYPE_CPU) != 0;
+      EXPECT_EQ(milliseconds(whole_, Stage::kWholeStep) > 0, is_cpu);
+      EXPECT_EQ(milliseconds(whole_, Stage::kPairStep) > 0, !is_cpu);
       for (const auto& pair : expected) contacts += pair.size();
     }
     return contacts;
-  }
-
-  void SetUp() override {
-    if ((whole_.device_info().type & CL_DEVICE_TYPE_CPU) == 0)
-      GTEST_FAIL() << "on such a device every step is launched";
   }
 
   Collider whole_{{}}, stepwise_{step_by_step()};
@@ -90,7 +87,7 @@ TEST_F(WholeStep, RunsAgainWhereAListWasTooShort) {
 TEST_F(WholeStep, IsNotForManyPairsNorForLargeMeshes) {
   whole_.collide(random_scene(5, 14).scene, nullptr);
   EXPECT_EQ(milliseconds(whole_, Stage::kWholeStep), 0);
-  const TestMesh large = make_icosphere(1, 5);  // 10,242 vertices
+  const TestMesh large = make_icosphere(1, 5);  // 20,480 triangles
   whole_.collide(one_pair(large, at(0, 0, 0), large, at(1.9, 0, 0)).scene, nullptr);
   EXPECT_EQ(milliseconds(whole_, Stage::kWholeStep), 0);
 }
