@@ -6,11 +6,7 @@
 // Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
 // with (side, position, vertex), so the result is what hits sorted in that order would give.
 #include "shared/append.h"
-#include "shared/candidate_order.h"
-
-#define OX_NO_PATCH 0xffffffffu
-#define OX_TAKEN 0xfffffffeu
-#define OX_DROPPED 0xfffffffdu
+#include "shared/patches.h"
 
 // in: pair_hits, pair_crossings. out: where the candidates and the crossings of each pair start.
 // item: 1 pair. The counters cannot overflow: they end at the number of hits and a multiple of
@@ -62,114 +58,8 @@ __kernel void contact_gather(__global const uint* counters, __global const ox_li
     candidate->patch = OX_NO_PATCH;
     candidate->distance2 = INFINITY;
     candidate->region = OX_NONE;
-    candidate->marks = 0u;
+    candidate->listed = 0u;
   }
-}
-
-static bool ox_is_left(__global const ox_candidate* c) {
-  return c->patch != OX_TAKEN && c->patch != OX_DROPPED;
-}
-
-static bool ox_farther(__global const ox_candidate* a, __global const ox_candidate* b) {
-  return a->distance2 != b->distance2 ? a->distance2 > b->distance2 : ox_deeper(a, b);
-}
-
-static float ox_distance2(__global const ox_candidate* a, __global const ox_candidate* b) {
-  const float3 d = vload3(0, a->position) - vload3(0, b->position);
-  return ox_dot(d, d);
-}
-
-// Takes a candidate: its patch learns how far each of its members is from what was taken of it.
-static void ox_take(__global ox_candidate* candidates, uint count, uint taken) {
-  const uint patch = candidates[taken].patch;
-  for (uint i = 0u; i < count; ++i) {
-    __global ox_candidate* c = candidates + i;
-    if (c->patch == patch) c->distance2 = ox_min(c->distance2, ox_distance2(c, candidates + taken));
-  }
-  candidates[taken].patch = OX_TAKEN;
-}
-
-// A new patch: all that are in none and face the way of `best`, within acos 0.9 = 25.8 degrees.
-static void ox_open_patch(__global ox_candidate* candidates, uint count, uint best, uint patch) {
-  const float3 normal = vload3(0, candidates[best].normal);
-  for (uint i = 0u; i < count; ++i)
-    if (candidates[i].patch == OX_NO_PATCH &&
-        (i == best || ox_dot(vload3(0, candidates[i].normal), normal) > 0.9f))
-      candidates[i].patch = patch;
-}
-
-// The outline of a patch, seen along its normal: what is farthest in each of eight directions, the
-// first of them from the deepest to the farthest from it. A point within bears nothing that these
-// do not, and costs the solver as much.
-static void ox_mark_outline(__global ox_candidate* candidates, uint count, uint kind, uint patch,
-                            uint deepest) {
-  const float3 normal = vload3(0, candidates[deepest].normal);
-  float3 across = (float3)(0.0f);
-  uint far = deepest;
-  float far2 = 0.0f;
-  for (uint i = 0u; i < count; ++i) {
-    __global const ox_candidate* c = candidates + i;
-    if (c->patch != patch || ox_kind(c) != kind) continue;
-    const float distance2 = ox_distance2(c, candidates + deepest);
-    if (distance2 < far2 || (distance2 == far2 && !ox_key_less(c, candidates + far))) continue;
-    const float3 d = vload3(0, c->position) - vload3(0, candidates[deepest].position);
-    across = d - ox_dot(d, normal) * normal;
-    far = i;
-    far2 = distance2;
-  }
-  const float width2 = ox_dot(across, across);
-  if (!(width2 > 0.0f)) return;  // it is the only one, or all lie behind it
-  const float3 u = across / sqrt(width2);
-  const float3 v = ox_plain_cross(normal, u);
-  float3 direction[8];
-  uint best[8];
-  float farthest[8];
-  for (uint k = 0u; k < 8u; ++k) {
-    const float a = k == 0u || k == 4u ? 1.0f : k == 2u || k == 6u ? 0.0f : 0.70710678f;
-    const float b = k == 0u || k == 4u ? 0.0f : k == 2u || k == 6u ? 1.0f : 0.70710678f;
-    direction[k] = (k > 2u && k < 6u ? -a : a) * u + (k > 4u || k == 4u ? -b : b) * v;
-    best[k] = count;
-    farthest[k] = -INFINITY;
-  }
-  for (uint i = 0u; i < count; ++i) {
-    __global const ox_candidate* c = candidates + i;
-    if (c->patch != patch || ox_kind(c) != kind) continue;
-    for (uint k = 0u; k < 8u; ++k) {
-      const float reach = ox_dot(vload3(0, c->position), direction[k]);
-      if (best[k] != count && !(reach > farthest[k]) &&
-          !(reach == farthest[k] && ox_key_less(c, candidates + best[k])))
-        continue;
-      best[k] = i;
-      farthest[k] = reach;
-    }
-  }
-  for (uint k = 0u; k < 8u; ++k)
-    if (best[k] != count) candidates[best[k]].marks |= OX_MARK_OUTLINE;
-}
-
-static bool ox_gives_way(__global const ox_candidate* candidates, float epsilon,
-                         __global const ox_candidate* c, uint to) {
-  __global const ox_candidate* d = candidates + candidates[to].ordered;
-  return d->patch != OX_DROPPED &&
-         ((c->marks & OX_MARK_STANDS) == 0u || (d->marks & OX_MARK_STANDS) != 0u) &&
-         ox_contradicts(c, d, epsilon);
-}
-
-// Whether the candidate at `rank` in the order of depths contradicts a shallower one that is not
-// dropped; it is dropped then. One that does not is taken, and few are; those that do have to be
-// found fast: by what the last one contradicted (`contradictor`, a rank), else among those that are
-// about as deep (in thick parts) and the shallowest (in thin ones) by turns.
-static bool ox_is_contradicted(__global ox_candidate* candidates, uint count, float epsilon,
-                               uint rank, uint* contradictor) {
-  __global ox_candidate* c = candidates + candidates[rank].ordered;
-  bool found = *contradictor > rank && ox_gives_way(candidates, epsilon, c, *contradictor);
-  for (uint k = 0u; k + 1u < count - rank && !found; ++k) {
-    const uint at = (k & 1u) == 0u ? rank + 1u + k / 2u : count - 1u - k / 2u;
-    found = ox_gives_way(candidates, epsilon, c, at);
-    if (found) *contradictor = at;
-  }
-  if (found) c->patch = OX_DROPPED;
-  return found;
 }
 
 static bool ox_is_near(__global const ox_candidate* candidates, uint candidate, const uint* taken,
@@ -187,45 +77,30 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
   uint kind = OX_HIT_TOUCHING;
   for (uint i = 0u; i < count; ++i) kind = min(kind, ox_kind(candidates + i));
 
-  const uint ordered = ox_order_by_depth(candidates, count, kind);
-  uint contradictor = 0u;
+  ox_patches patches;
+  ox_begin_patches(&patches, candidates, count, kind, epsilon);
   uint n = 0u;
-  // the deepest, and of each patch the deepest
-  for (uint rank = 0u; rank < ordered && n < max_contacts; ++rank) {
-    const uint best = candidates[rank].ordered;
-    if (candidates[best].patch != OX_NO_PATCH ||
-        (edges && ox_is_contradicted(candidates, ordered, epsilon, rank, &contradictor)))
-      continue;
-    ox_open_patch(candidates, count, best, n);
-    if (edges) ox_mark_outline(candidates, count, kind, n, best);
-    ox_take(candidates, count, best);
+  while (patches.left != 0u && n < max_contacts) {  // the deepest, and of each patch the deepest
+    const uint best = ox_pop_deepest(&patches);
+    if (edges && ox_drop_contradicted(&patches, best)) continue;
+    ox_open_patch(&patches, best, edges);
     taken[n++] = best;
   }
   // what alone speaks for a region; touches do not, as above
-  for (uint rank = 0u; rank < ordered && n < max_contacts; ++rank) {
-    const uint best = candidates[rank].ordered;
-    if (!ox_is_left(candidates + best) || candidates[best].region == OX_NONE ||
-        ox_is_near(candidates, best, taken, n, merge2) ||
-        ox_is_contradicted(candidates, ordered, epsilon, rank, &contradictor))
+  if (n < max_contacts) ox_begin_regions(&patches, count);
+  while (patches.left != 0u && n < max_contacts) {
+    const uint best = ox_pop_deepest(&patches);
+    if (ox_is_near(candidates, best, taken, n, merge2) || ox_drop_contradicted(&patches, best))
       continue;
-    ox_take(candidates, count, best);
+    ox_take(&patches, best, candidates[best].patch);
     taken[n++] = best;
   }
   while (n < max_contacts) {  // whatever is farthest from what its patch has
-    uint best = count;
-    uint best_rank = ordered;
-    for (uint rank = 0u; rank < ordered; ++rank) {
-      const uint i = candidates[rank].ordered;
-      if (!ox_is_left(candidates + i) || (edges && (candidates[i].marks & OX_MARK_OUTLINE) == 0u) ||
-          (best != count && !ox_farther(candidates + i, candidates + best)))
-        continue;
-      best = i;
-      best_rank = rank;
-    }
-    if (best == count || candidates[best].distance2 <= merge2) break;
-    if (edges && ox_is_contradicted(candidates, ordered, epsilon, best_rank, &contradictor))
-      continue;
-    ox_take(candidates, count, best);
+    uint patch = 0u;
+    const uint best = ox_farthest(&patches, &patch);
+    if (best == OX_NONE || candidates[best].distance2 <= merge2) break;
+    if (edges && ox_drop_contradicted(&patches, best)) continue;
+    ox_take(&patches, best, patch);
     taken[n++] = best;
   }
   while (kind == OX_HIT_INSIDE && !edges &&
@@ -249,10 +124,8 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
   return n;
 }
 
-#define OX_MAX_CONTACTS 64u
-
 static void ox_store_contact(__global const ox_candidate* candidate, __global ox_contact* contact) {
-  contact->side_kind = candidate->side_kind;
+  contact->side_kind = candidate->side_kind & ~OX_HIT_STANDS;
   contact->vertex = candidate->vertex;
   contact->triangle = candidate->triangle;
   contact->depth = candidate->depth;

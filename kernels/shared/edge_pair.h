@@ -191,7 +191,7 @@ static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint ta
   candidate->patch = OX_NONE;
   candidate->distance2 = INFINITY;
   candidate->region = region;
-  candidate->marks = 0u;
+  candidate->listed = 0u;
 }
 
 #endif

@@ -146,7 +146,7 @@ static inline void ox_settle_region(const ox_edge_pair* p, uint region, bool sta
   ox_members members = ox_members_of(p, region);
   for (uint i = ox_next_member(p, &members); i != OX_NONE; i = ox_next_member(p, &members)) {
     if (stands)
-      p->candidates[i].marks |= OX_MARK_STANDS;
+      p->candidates[i].side_kind |= OX_HIT_STANDS;
     else
       p->candidates[i].side_kind |= OX_HIT_NONE;
   }

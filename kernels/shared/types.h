@@ -327,6 +327,7 @@ OX_STATIC_ASSERT(sizeof(ox_work) == 16, ox_work_is_16_bytes);
 #define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side
 #define OX_HIT_SIDE 8u      // of side 1
 #define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own
+#define OX_HIT_STANDS 32u   // of a candidate: without it its region has nothing (reconcile.h)
 
 typedef struct {
   ox_u32 pair_side;
@@ -368,9 +369,6 @@ OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 // region; where each region starts; the points of each region.
 #define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
 
-#define OX_MARK_OUTLINE 1u  // it is farthest of its patch in some direction
-#define OX_MARK_STANDS 2u   // its region would have nothing without it (reconcile.h)
-
 // A hit among those of its pair, in the frame of B.
 typedef struct {
   ox_f32 position[3];
@@ -384,7 +382,7 @@ typedef struct {
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch; while candidates
                      // are sorted, the depth of `ordered`
   ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
-  ox_u32 marks;      // OX_MARK_...
+  ox_u32 listed;     // of the i-th candidate of a pair: which is the i-th listed (patches.h)
   ox_u32 ordered;    // of the i-th candidate of a pair: which is the i-th of the order in use
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);

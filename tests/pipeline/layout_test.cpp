@@ -189,7 +189,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_candidate, patch),
     OFFSET_OF(ox_candidate, distance2),
     OFFSET_OF(ox_candidate, region),
-    OFFSET_OF(ox_candidate, marks),
+    OFFSET_OF(ox_candidate, listed),
     OFFSET_OF(ox_candidate, ordered),
     SIZE_OF(ox_contact),
     OFFSET_OF(ox_contact, side_kind),
