@@ -10,7 +10,7 @@ file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl)
 set(ODE_EXT_KERNEL_FILES)
 foreach(header types transform append near_surface cull lanes ray_triangle ray_meshlet meshlet_tree
                nearest full_ray iterative_ray choose cast contradiction candidate_order patches meshlet
-               cross edge_pair regions pair_hits spokesmen edge_axis way_out deform moves)
+               cross edge_pair crossing_order regions pair_hits spokesmen edge_axis way_out deform moves)
   set(header shared/${header}.h)
   if(header IN_LIST headers)
     list(APPEND ODE_EXT_KERNEL_FILES ${header})

@@ -143,16 +143,16 @@ static uint ox_place_contacts(__global volatile uint* counters, __global const o
   return range->count;
 }
 
-// in: candidates. out: contacts, pair_ranges. item: 1 pair. max_deformable: of a pair with a
-// deformable mesh; 0: all, in no order (the host sorts them). May overflow: OX_LIST_CONTACTS
+// in: candidates. out: contacts, pair_ranges. item: 1 pair, of a queue. max_deformable: of a pair
+// with a deformable mesh; 0: all, in no order (the host sorts them). May overflow: OX_LIST_CONTACTS
 __kernel void contact_reduce(__global volatile uint* counters, __global const ox_list* lists,
                              __global const ox_pair* pairs, __global const ox_mesh* meshes,
                              __global const uint* pair_hits, __global const uint* pair_segments,
                              uint pair_count, __global ox_candidate* candidates, uint max_contacts,
                              uint max_deformable, uint rays_mode, __global ox_range* pair_ranges,
                              __global ox_contact* contacts) {
-  const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
+  for (uint p = ox_next_item(counters, OX_QUEUE_REDUCE); p < pair_count;
+       p = ox_next_item(counters, OX_QUEUE_REDUCE)) {
     const uint count = pair_hits[p];
     if (count == 0u) continue;
     __global const ox_mesh* a = meshes + pairs[p].mesh[0];

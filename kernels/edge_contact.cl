@@ -5,7 +5,7 @@
 // in    crossings, candidates of vertices, pairs, meshes, vertices, edges, triangles, meshlets,
 //       meshlet_nodes, facets
 // out   candidates, and per pair their number
-// item  1 crossing; 1 pair (grid-stride)
+// item  1 crossing (grid-stride); 1 pair (of a queue)
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
 #include "shared/deep_parts.h"
@@ -90,6 +90,8 @@ static void ox_pair_edges(ox_edge_pair* p) {
   for (uint k = 0u; k < p->count; ++k) {
     __global ox_edge_crossing* a = p->crossings + p->order[k];
     if (ox_side(a) != 0u) return;
+    bool met = false;
+    ox_wedge wedge_a;
     for (uint f = 0u; f < 2u; ++f) {
       const uint facet = ox_facet_at(p, a->edge, f);
       if (facet == OX_NONE || (f == 1u && facet == ox_facet_at(p, a->edge, 0u))) continue;
@@ -98,7 +100,8 @@ static void ox_pair_edges(ox_edge_pair* p) {
            n = ox_next_meeting(p, &meetings)) {
         __global ox_edge_crossing* b = p->crossings + n;
         if (ox_was_paired(p, a, b->edge) || ox_was_paired(p, b, a->edge)) continue;
-        const ox_wedge wedge_a = ox_wedge_of(p, a);
+        if (!met) wedge_a = ox_wedge_of(p, a);
+        met = true;
         const ox_wedge wedge_b = ox_wedge_of(p, b);
         ox_point point;
         if (!ox_edge_contact(&wedge_a, &wedge_b, &point)) continue;
@@ -418,10 +421,11 @@ static void ox_drop_apart(const ox_edge_pair* p) {
   }
 }
 
-// item: 1 pair.
-__kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mesh* meshes,
-                            __global const ox_chunk* chunks, __global const ox_vertex* vertices,
-                            __global const ox_edge* edges, __global const ox_triangle* triangles,
+// item: 1 pair, of a queue.
+__kernel void edge_contacts(__global volatile uint* counters, __global const ox_pair* pairs,
+                            __global const ox_mesh* meshes, __global const ox_chunk* chunks,
+                            __global const ox_vertex* vertices, __global const ox_edge* edges,
+                            __global const ox_triangle* triangles,
                             __global const ox_meshlet* meshlets,
                             __global const ox_meshlet_node* meshlet_nodes,
                             __global const uint* facets, __global const uint* pair_crossings,
@@ -429,8 +433,8 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
                             __global ox_edge_crossing* crossings, __global uint* order,
                             __global uint* pair_hits, __global const uint* pair_segments,
                             __global ox_candidate* candidates) {
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < pair_count; i += stride) {
+  for (uint i = ox_next_item(counters, OX_QUEUE_EDGE_CONTACTS); i < pair_count;
+       i = ox_next_item(counters, OX_QUEUE_EDGE_CONTACTS)) {
     const uint crossed = pair_crossings[i];
     if (crossed == 0u && pair_hits[i] == 0u) continue;
     ox_edge_pair pair;
@@ -451,6 +455,7 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
     pair.point_of_region = pair.region_first + crossed;
     pair.next_point = pair.point_of_region + crossed;
     pair.by_facets = pair.next_point;  // not needed at once
+    pair.facet_keys = pair.by_facets + 2u * crossed;
     pair.by_facets_count = 0u;
     pair.count = crossed;
     pair.regions = 0u;
@@ -468,12 +473,12 @@ __kernel void edge_contacts(__global const ox_pair* pairs, __global const ox_mes
           ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first);
       }
     } else {
-      ox_sort_crossings(&pair, pair.order, crossed, OX_BY_EDGE);
+      const ox_order by_edge = {pair.order, pair.by_region, crossed, OX_BY_EDGE};
+      ox_sort_crossings(&pair, &by_edge);
       ox_find_chords(&pair);
       ox_drop_beyond_border(&pair);
       ox_link_hits(&pair, OX_BY_INNER_VERTEX);
       ox_cover_by_vertices(&pair);
-      ox_sort_crossings(&pair, pair.order, crossed, OX_BY_FACET);
       ox_index_facets(&pair);
       ox_find_regions(&pair);
       // A sheet has no inside that its edges could be wedges of.

@@ -10,7 +10,7 @@
 //       edges, rings, components, triangles, meshlets, meshlet_nodes
 // out   rays, of targets that are embedded (OX_MESH_EMBEDDED)
 // room  words: a table for each side (shared/flood_table.h)
-// item  1 side of a pair (grid-stride)
+// item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS_BVH, OX_LIST_FLOOD_WORDS
 #include "shared/flood_table.h"
 #include "shared/full_ray.h"
@@ -181,8 +181,8 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
                     __global const ox_triangle* triangles, __global const ox_meshlet* meshlets,
                     __global const ox_meshlet_node* meshlet_nodes, uint pair_count,
                     __global ox_ray* rays, __global uint* words) {
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < 2u * pair_count; i += stride) {
+  for (uint i = ox_next_item(counters, OX_QUEUE_FLOOD); i < 2u * pair_count;
+       i = ox_next_item(counters, OX_QUEUE_FLOOD)) {
     __global const ox_pair* pair = pairs + (i >> 1);
     if (pair->near == 0u) continue;
     __global const ox_mesh* source = meshes + pair->mesh[i & 1u];

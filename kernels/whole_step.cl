@@ -62,9 +62,9 @@ __kernel void whole_step(
   contact_gather(counters, lists, hits, pairs, vertices, triangles, pair_segments, candidates);
   crossing_gather(counters, lists, crossings, pairs, vertices, edges, facets, crossing_segments,
                   gathered, order);
-  edge_contacts(pairs, meshes, chunks, vertices, edges, triangles, meshlets, meshlet_nodes, facets,
-                pair_crossings, crossing_segments, pair_count, gathered, order, pair_hits,
-                pair_segments, candidates);
+  edge_contacts(counters, pairs, meshes, chunks, vertices, edges, triangles, meshlets,
+                meshlet_nodes, facets, pair_crossings, crossing_segments, pair_count, gathered,
+                order, pair_hits, pair_segments, candidates);
   contact_reduce(counters, lists, pairs, meshes, pair_hits, pair_segments, pair_count, candidates,
                  max_contacts, max_deformable, rays_mode, pair_ranges, contacts);
 }

@@ -26,6 +26,13 @@ static inline void ox_count(__global volatile uint* counters, uint counter) {
   atomic_inc(counters + counter * OX_COUNTER_STRIDE);
 }
 
+// The next of the items that no work-item has taken. For work of which one item may be a thousand
+// times the next: on a processor a work-group is one thread's, whatever is in it, and the others
+// would have nothing left to do.
+static inline uint ox_next_item(__global volatile uint* counters, uint queue) {
+  return atomic_inc(counters + queue * OX_COUNTER_STRIDE);
+}
+
 // Keeps what a work-item did, in programs built to count it.
 static inline void ox_note_work(__global ox_work* works, uint item, const ox_work* work) {
 #ifdef OX_COUNT_WORK

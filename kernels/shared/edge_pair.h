@@ -19,10 +19,11 @@ typedef struct {
   ox_surfaces surfaces;
   __global const uint* facets;
   __global ox_edge_crossing* crossings;
-  __global uint* order;         // of the crossings
+  __global uint* order;         // of the crossings (crossing_order.h)
   __global uint* by_region;     // the same, those of a region together
   __global uint* region_first;  // where they start there
   __global uint* by_facets;     // OX_BY_FACETS; none where no facet is crossed often
+  __global uint* facet_keys;    // of that order, or, where there is none, of that by facet
   uint by_facets_count;
   uint count;
   uint regions;
@@ -73,74 +74,6 @@ static inline uint ox_facet_at(const ox_edge_pair* p, uint edge, uint k) {
 
 static inline bool ox_is_at_facet(const ox_edge_pair* p, uint edge, uint facet) {
   return ox_facet_at(p, edge, 0u) == facet || ox_facet_at(p, edge, 1u) == facet;
-}
-
-// Orders of the crossings, by side first.
-#define OX_BY_EDGE 0u          // and along it
-#define OX_BY_FACET 1u         // that is crossed, and then by edge
-#define OX_BY_FACETS 2u        // that is crossed, that which the edge is at, and then by edge
-#define OX_BY_FIRST_VERTEX 3u  // of the edge
-#define OX_BY_SECOND_VERTEX 4u
-#define OX_BY_INNER_VERTEX 5u  // at the end of the chord
-
-// The vertex inside at the end of the chord; OX_NONE: both ends are crossings.
-static inline uint ox_inner_vertex(const ox_edge_pair* p, __global const ox_edge_crossing* c) {
-  if (c->other != OX_NONE) return OX_NONE;
-  return p->edges[c->edge].vertex[c->leaves != 0u ? 0u : 1u];
-}
-
-static inline uint ox_key_vertex(const ox_edge_pair* p, uint by,
-                                 __global const ox_edge_crossing* c) {
-  return by == OX_BY_INNER_VERTEX ? ox_inner_vertex(p, c)
-                                  : p->edges[c->edge].vertex[by - OX_BY_FIRST_VERTEX];
-}
-
-// The entries of an order are crossings; by facets, crossing << 1 | which facet of the edge.
-static inline bool ox_comes_before(const ox_edge_pair* p, uint by, uint i, uint j) {
-  const uint shift = by == OX_BY_FACETS ? 1u : 0u;
-  __global const ox_edge_crossing* a = p->crossings + (i >> shift);
-  __global const ox_edge_crossing* b = p->crossings + (j >> shift);
-  if (ox_side(a) != ox_side(b)) return ox_side(a) < ox_side(b);
-  if (by >= OX_BY_FIRST_VERTEX) {
-    const uint vertex_a = ox_key_vertex(p, by, a);
-    const uint vertex_b = ox_key_vertex(p, by, b);
-    if (vertex_a != vertex_b) return vertex_a < vertex_b;
-  }
-  if ((by == OX_BY_FACET || by == OX_BY_FACETS) && a->facet != b->facet) return a->facet < b->facet;
-  if (by == OX_BY_FACETS) {
-    const uint at_a = ox_facet_at(p, a->edge, i & 1u);
-    const uint at_b = ox_facet_at(p, b->edge, j & 1u);
-    if (at_a != at_b) return at_a < at_b;
-  }
-  if (a->edge != b->edge) return a->edge < b->edge;
-  if (a->t != b->t) return a->t < b->t;
-  return a->triangle < b->triangle;
-}
-
-// Heap sort: no recursion, no memory.
-static inline void ox_sift(const ox_edge_pair* p, __global uint* order, uint by, uint root,
-                           uint end) {
-  for (;;) {
-    uint child = 2u * root + 1u;
-    if (child >= end) return;
-    if (child + 1u < end && ox_comes_before(p, by, order[child], order[child + 1u])) ++child;
-    if (!ox_comes_before(p, by, order[root], order[child])) return;
-    const uint swap = order[root];
-    order[root] = order[child];
-    order[child] = swap;
-    root = child;
-  }
-}
-
-static inline void ox_sort_crossings(const ox_edge_pair* p, __global uint* order, uint count,
-                                     uint by) {
-  for (uint i = count / 2u; i-- > 0u;) ox_sift(p, order, by, i, count);
-  for (uint end = count; end > 1u; --end) {
-    const uint swap = order[0];
-    order[0] = order[end - 1u];
-    order[end - 1u] = swap;
-    ox_sift(p, order, by, 0u, end - 1u);
-  }
 }
 
 // The stretch of each edge inside the target: from where it enters to where it leaves next, or to

@@ -4,7 +4,7 @@
 #define ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 
 #include "shared/candidate_order.h"
-#include "shared/edge_pair.h"
+#include "shared/crossing_order.h"
 
 // What the hits of the vertices of one mesh say.
 typedef struct {
@@ -29,25 +29,15 @@ static inline bool ox_is_inside_hit(const ox_edge_pair* p, uint hit) {
 // By the vertices at an end of their edges, tells crossings which hits those have; by others than
 // the inner ones, that they are covered. Before there are regions, in the room of their order.
 static inline void ox_link_hits(const ox_edge_pair* p, uint by) {
-  __global uint* order = p->by_region;
-  for (uint i = 0u; i < p->count; ++i) order[i] = i;
-  ox_sort_crossings(p, order, p->count, by);
+  const ox_order order = {p->by_region, p->region_first, p->count, by};
+  for (uint i = 0u; i < p->count; ++i) order.entries[i] = i;
+  ox_sort_crossings(p, &order);
   for (uint i = 0u; i < p->hits; ++i) {
     const uint side = (p->candidates[i].side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
-    const uint vertex = p->candidates[i].vertex;
-    uint low = 0u;
-    uint high = p->count;
-    while (low < high) {
-      const uint middle = (low + high) / 2u;
-      __global const ox_edge_crossing* c = p->crossings + order[middle];
-      if (ox_side(c) < side || (ox_side(c) == side && ox_key_vertex(p, by, c) < vertex))
-        low = middle + 1u;
-      else
-        high = middle;
-    }
-    for (uint k = low; k < p->count; ++k) {
-      __global ox_edge_crossing* c = p->crossings + order[k];
-      if (ox_side(c) != side || ox_key_vertex(p, by, c) != vertex) break;
+    const uint key = ox_key_of(side, p->candidates[i].vertex);
+    for (uint k = ox_first_with(order.keys, p->count, key); k < p->count && order.keys[k] == key;
+         ++k) {
+      __global ox_edge_crossing* c = p->crossings + order.entries[k];
       if (by == OX_BY_INNER_VERTEX)
         c->hit = i;
       else if (ox_is_inside_hit(p, i))

@@ -4,41 +4,20 @@
 #ifndef ODE_EXT_KERNELS_SHARED_REGIONS_H
 #define ODE_EXT_KERNELS_SHARED_REGIONS_H
 
-#include "shared/edge_pair.h"
+#include "shared/crossing_order.h"
 
 // Where a facet is crossed more often than this, looking through all of its crossings for those of
 // one facet takes longer than finding them in an order by both: that is what it costs to sort it.
 #define OX_MOST_OF_FACET 64u
 
-// The first place in the order by facet whose (side, facet) is not less.
-static inline uint ox_find_facet(const ox_edge_pair* p, uint side, uint facet) {
-  uint low = 0u;
-  uint high = p->count;
-  while (low < high) {
-    const uint middle = (low + high) / 2u;
-    __global const ox_edge_crossing* c = p->crossings + p->order[middle];
-    if (ox_side(c) < side || (ox_side(c) == side && c->facet < facet))
-      low = middle + 1u;
-    else
-      high = middle;
-  }
-  return low;
-}
-
-static inline bool ox_crosses(const ox_edge_pair* p, uint place, uint side, uint facet) {
-  if (place >= p->count) return false;
-  __global const ox_edge_crossing* c = p->crossings + p->order[place];
-  return ox_side(c) == side && c->facet == facet;
-}
-
-// The order by both facets, if some facet is crossed often. Needs the order by facet.
+// Orders the crossings by facet, and by both facets if some facet is crossed often.
 static inline void ox_index_facets(ox_edge_pair* p) {
+  const ox_order by_facet = {p->order, p->facet_keys, p->count, OX_BY_FACET};
+  ox_sort_crossings(p, &by_facet);
   p->by_facets_count = 0u;
   bool often = false;
-  for (uint k = OX_MOST_OF_FACET; k < p->count && !often; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    often = ox_crosses(p, k - OX_MOST_OF_FACET, ox_side(c), c->facet);
-  }
+  for (uint k = OX_MOST_OF_FACET; k < p->count && !often; ++k)
+    often = p->facet_keys[k - OX_MOST_OF_FACET] == p->facet_keys[k];
   if (!often) return;
   for (uint i = 0u; i < p->count; ++i) {
     const uint edge = p->crossings[i].edge;
@@ -47,29 +26,30 @@ static inline void ox_index_facets(ox_edge_pair* p) {
     if (facet1 != OX_NONE && facet1 != ox_facet_at(p, edge, 0u))
       p->by_facets[p->by_facets_count++] = i << 1 | 1u;
   }
-  ox_sort_crossings(p, p->by_facets, p->by_facets_count, OX_BY_FACETS);
+  const ox_order by_facets = {p->by_facets, p->facet_keys, p->by_facets_count, OX_BY_FACETS};
+  ox_sort_crossings(p, &by_facets);
 }
 
 // Goes through the crossings of a facet by edges of a side that are at another facet, by edge.
 typedef struct {
-  uint side, facet, at;
+  uint key;  // of the side and the facet
+  uint at;
   uint next;  // in the order by facets, or by facet
 } ox_meetings;
 
 static inline ox_meetings ox_meetings_of(const ox_edge_pair* p, uint side, uint facet, uint at) {
-  ox_meetings meetings = {side, facet, at, 0u};
+  ox_meetings meetings = {ox_key_of(side, facet), at, 0u};
   if (p->by_facets_count == 0u) {
-    meetings.next = ox_find_facet(p, side, facet);
+    meetings.next = ox_first_with(p->facet_keys, p->count, meetings.key);
     return meetings;
   }
   uint high = p->by_facets_count;
   while (meetings.next < high) {
     const uint middle = (meetings.next + high) / 2u;
+    const uint key = p->facet_keys[middle];
     const uint entry = p->by_facets[middle];
-    __global const ox_edge_crossing* c = p->crossings + (entry >> 1);
-    if (ox_side(c) != side
-            ? ox_side(c) < side
-            : (c->facet != facet ? c->facet < facet : ox_facet_at(p, c->edge, entry & 1u) < at))
+    if (key != meetings.key ? key < meetings.key
+                            : ox_facet_at(p, p->crossings[entry >> 1].edge, entry & 1u) < at)
       meetings.next = middle + 1u;
     else
       high = middle;
@@ -80,19 +60,15 @@ static inline ox_meetings ox_meetings_of(const ox_edge_pair* p, uint side, uint 
 // OX_NONE: there are no more.
 static inline uint ox_next_meeting(const ox_edge_pair* p, ox_meetings* m) {
   if (p->by_facets_count == 0u) {
-    while (ox_crosses(p, m->next, m->side, m->facet)) {
+    while (m->next < p->count && p->facet_keys[m->next] == m->key) {
       const uint i = p->order[m->next++];
       if (ox_is_at_facet(p, p->crossings[i].edge, m->at)) return i;
     }
     return OX_NONE;
   }
-  if (m->next == p->by_facets_count) return OX_NONE;
+  if (m->next == p->by_facets_count || p->facet_keys[m->next] != m->key) return OX_NONE;
   const uint entry = p->by_facets[m->next++];
-  __global const ox_edge_crossing* c = p->crossings + (entry >> 1);
-  return ox_side(c) == m->side && c->facet == m->facet &&
-                 ox_facet_at(p, c->edge, entry & 1u) == m->at
-             ? entry >> 1
-             : OX_NONE;
+  return ox_facet_at(p, p->crossings[entry >> 1].edge, entry & 1u) == m->at ? entry >> 1 : OX_NONE;
 }
 
 // Puts a crossing into a region, unless it is in one.

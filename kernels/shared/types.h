@@ -46,7 +46,10 @@ typedef float ox_f32;
 #define OX_COUNTER_CROSSED 14u   // crossings handed out to pairs
 #define OX_COUNTER_UNPROVEN 15u  // iterative rays that had to be cast in full
 #define OX_COUNTER_DROPPED 16u   // vertices dropped for want of temporal data
-#define OX_COUNTER_COUNT 17u
+#define OX_QUEUE_FLOOD 17u       // how many items the work-items have taken (ox_next_item)
+#define OX_QUEUE_EDGE_CONTACTS 18u
+#define OX_QUEUE_REDUCE 19u
+#define OX_COUNTER_COUNT 20u
 
 // Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
 typedef struct {

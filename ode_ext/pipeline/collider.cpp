@@ -97,13 +97,14 @@ void Collider::launch_steps(Step& step) {
     workload.settle_launches();
     steps_.cross.run(workload.launch(Arrow::kMeshletPairs), data_);
   }
-  if (floods(options_)) steps_.flood.run(workload.launch(2 * pairs), data_);
+  if (floods(options_)) steps_.flood.run(workload.launch_queue(2 * pairs), data_);
   vertex_rays_.run(data_, step);
   workload.settle_launches();
   steps_.gather.run(workload.launch(pairs), workload.launch(Arrow::kHits), data_);
   if (options_.edges)
-    steps_.edge_contacts.run(workload.launch(pairs), workload.launch(Arrow::kCrossings), data_);
-  steps_.reduce.run(workload.launch(pairs), data_);
+    steps_.edge_contacts.run(workload.launch_queue(pairs), workload.launch(Arrow::kCrossings),
+                             data_);
+  steps_.reduce.run(workload.launch_queue(pairs), data_);
 }
 
 // At most as many as there is room for.

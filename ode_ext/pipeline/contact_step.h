@@ -41,11 +41,12 @@ class EdgeContactStep {
                    lists.crossings(), pairs.pairs, meshes.vertices(), meshes.edges(),
                    meshes.facets(), pairs.crossing_segments, lists.gathered_crossings(),
                    lists.crossing_order());
-    contacts_.launch(per_pair.groups, per_pair.local, pairs.pairs, meshes.records(),
-                     meshes.chunks(), meshes.vertices(), meshes.edges(), meshes.triangles(),
-                     meshes.meshlets(), meshes.meshlet_nodes(), meshes.facets(), pairs.crossings,
-                     pairs.crossing_segments, pairs.count, lists.gathered_crossings(),
-                     lists.crossing_order(), pairs.hits, pairs.segments, lists.candidates());
+    contacts_.launch(per_pair.groups, per_pair.local, lists.counters(), pairs.pairs,
+                     meshes.records(), meshes.chunks(), meshes.vertices(), meshes.edges(),
+                     meshes.triangles(), meshes.meshlets(), meshes.meshlet_nodes(), meshes.facets(),
+                     pairs.crossings, pairs.crossing_segments, pairs.count,
+                     lists.gathered_crossings(), lists.crossing_order(), pairs.hits, pairs.segments,
+                     lists.candidates());
   }
   double take_milliseconds() { return gather_.take_milliseconds() + contacts_.take_milliseconds(); }
 

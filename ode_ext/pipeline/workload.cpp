@@ -159,6 +159,11 @@ Launch Workload::launch(std::uint64_t items) const {
           options_.work_group_size};
 }
 
+Launch Workload::launch_queue(std::uint64_t items) const {
+  return launch(std::max<std::uint64_t>(
+      items, std::uint64_t{device_.compute_units} * options_.work_group_size));
+}
+
 Launch Workload::launch(Arrow list) const {
   const bool exact = options_.launches == LaunchRule::kExact;
   std::uint64_t items = exact ? lists_.counted(list) : predicted(list);

@@ -45,6 +45,8 @@ class Workload {
 
   // Of a kernel that takes so many items.
   Launch launch(std::uint64_t items) const;
+  // Of one whose work-items take them one by one (shared/append.h): some for every compute unit.
+  Launch launch_queue(std::uint64_t items) const;
   // Of one that takes a list.
   Launch launch(Arrow list) const;
   // Whether the tile is so small that one work-item does all of it sooner than its kernels are
