@@ -6,9 +6,16 @@
 
 #include "shared/contradiction.h"
 
+// Points of one place and one pair of triangles have the same key. They were added in an order that
+// does not depend on that of the hits, so their indices decide.
+static inline bool ox_is_keyed_before(__global const ox_candidate* candidates, uint i, uint j) {
+  if (ox_key_less(candidates + i, candidates + j)) return true;
+  return i < j && !ox_key_less(candidates + j, candidates + i);
+}
+
 static inline bool ox_is_ordered_before(__global const ox_candidate* candidates, uint i, uint j) {
-  if (ox_deeper(candidates + i, candidates + j)) return true;
-  return i < j && !ox_deeper(candidates + j, candidates + i);
+  return candidates[i].depth != candidates[j].depth ? candidates[i].depth > candidates[j].depth
+                                                    : ox_is_keyed_before(candidates, i, j);
 }
 
 // What is sorted: a candidate, and its depth beside it, so that few have to be looked up.

@@ -8,31 +8,17 @@
 // More triangles about a corner are not looked at.
 #define OX_MOST_AROUND 16u
 
-// False only where a line through a and b passes a point by more than twice epsilon: at the price
-// of no root, in the frame of the mesh. Squares and quotients of squares, as below; what rounding
-// takes from their difference is less than 12 half units in the last place of `away`, and a point
-// that came here by a rotation may be off by epsilon once more.
-static inline bool ox_may_pass(float3 a, float3 b, float3 point, float epsilon) {
-  const float3 d = b - a;
-  const float away = ox_dot(point - a, point - a);
-  const float along = ox_dot(point - a, d);
-  const float off = away - along * (along / ox_dot(d, d));
-  return !(off > 9.0f * epsilon * epsilon + 1.0e-6f * away);
-}
-
 // The triangle across an edge that passes within epsilon of a point on `triangle`, other than the
 // one across which `from` lies; OX_NONE: there is none. All indices over all meshes.
 static inline uint ox_next_around(const ox_edge_pair* p, uint mesh, uint triangle, uint from,
                                   float3 point) {
   __global const ox_triangle* t = p->surfaces.triangles + triangle;
   const float epsilon = p->pair->epsilon;
-  const float3 own = mesh == 0u ? ox_place(p->pair, 1u, point) : point;  // in the mesh's frame
   for (uint k = 0u; k < 3u; ++k) {
     const uint across = k == 0u ? t->across_ab : k == 1u ? t->across_bc : t->across_ca;
     if (across == OX_NONE || p->mesh[mesh]->triangle_first + across == from) continue;
     float3 a = vload3(0, k == 0u ? t->a : k == 1u ? t->b : t->c);
     float3 b = vload3(0, k == 0u ? t->b : k == 1u ? t->c : t->a);
-    if (!ox_may_pass(a, b, own, epsilon)) continue;
     if (mesh == 0u) {
       a = ox_place(p->pair, 0u, a);
       b = ox_place(p->pair, 0u, b);

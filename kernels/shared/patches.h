@@ -93,7 +93,7 @@ static inline bool ox_directions_across(const ox_patches* p, uint begin, uint en
   for (uint k = begin; k < end; ++k) {
     const uint i = candidates[k].listed;
     const float distance2 = ox_distance2(candidates + i, candidates + deepest);
-    if (distance2 < far2 || (distance2 == far2 && !ox_key_less(candidates + i, candidates + far)))
+    if (distance2 < far2 || (distance2 == far2 && !ox_is_keyed_before(candidates, i, far)))
       continue;
     far = i;
     far2 = distance2;
@@ -130,7 +130,7 @@ static inline uint ox_find_outline(const ox_patches* p, uint begin, uint end, ui
       const float along = ox_dot(position, directions[j >> 1]);
       const float reach = (j & 1u) != 0u ? -along : along;
       if (best[j] != OX_NONE && !(reach > farthest[j]) &&
-          !(reach == farthest[j] && ox_key_less(candidates + i, candidates + best[j])))
+          !(reach == farthest[j] && ox_is_keyed_before(candidates, i, best[j])))
         continue;
       best[j] = i;
       farthest[j] = reach;
@@ -196,7 +196,7 @@ static inline uint ox_farthest(const ox_patches* p, uint* patch) {
       if (candidates[i].patch != g) continue;  // taken, or dropped
       if (best != OX_NONE && (candidates[i].distance2 != candidates[best].distance2
                                   ? candidates[i].distance2 < candidates[best].distance2
-                                  : !ox_deeper(candidates + i, candidates + best)))
+                                  : !ox_is_ordered_before(candidates, i, best)))
         continue;
       best = i;
       *patch = g;
