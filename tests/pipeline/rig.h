@@ -81,6 +81,24 @@ class Rig {
     return records;
   }
 
+  // The reduction alone, of the first pair, which gets these candidates.
+  StepRecords run_reduction(const Scene& scene, const std::vector<ox_candidate>& candidates) {
+    upload(scene, 16, true);
+    steps_.pair.run({8, 64}, data_, temporal_, false);
+    const auto& [meshes, pairs, lists, settings] = data_;
+    const auto count = static_cast<ox_u32>(candidates.size());
+    data_.pairs.hits.write(&count, sizeof(count));
+    Buffer given(device_);
+    given.reserve(count * sizeof(ox_candidate));
+    given.write(candidates.data(), count * sizeof(ox_candidate));
+    Kernel reduce(program_, "contact_reduce");
+    reduce.launch(8, 64, lists.counters(), lists.lists(), pairs.pairs, meshes.records(), pairs.hits,
+                  pairs.segments, pairs.count, given, settings.max_contacts,
+                  settings.max_contacts_deformable, settings.rays_mode, pairs.ranges,
+                  lists.contacts());
+    return read_back();
+  }
+
   // Its first step alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1, false);
