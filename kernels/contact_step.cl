@@ -3,8 +3,9 @@
 // answer: the deepest, then the deepest of each other patch (facing another way), then those that
 // spread the patches widest.
 //
-// Hits arrive in no particular order. Every choice below is a maximum under a total order that ends
-// with (side, position, vertex), so the result is what hits sorted in that order would give.
+// Hits arrive in no particular order. Every choice (shared/patches.h) is a maximum under a total
+// order that ends with side, position, vertex and, of points, the order in which they were added:
+// the result is what hits sorted in that order would give.
 #include "shared/append.h"
 #include "shared/patches.h"
 
@@ -82,7 +83,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
   uint n = 0u;
   while (patches.left != 0u && n < max_contacts) {  // the deepest, and of each patch the deepest
     const uint best = ox_pop_deepest(&patches);
-    if (edges && ox_drop_contradicted(&patches, best)) continue;
+    if (edges && ox_drop_contradicted(&patches, best, patches.left)) continue;
     ox_open_patch(&patches, best, edges);
     taken[n++] = best;
   }
@@ -90,7 +91,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
   if (n < max_contacts) ox_begin_regions(&patches, count);
   while (patches.left != 0u && n < max_contacts) {
     const uint best = ox_pop_deepest(&patches);
-    if (ox_is_near(candidates, best, taken, n, merge2) || ox_drop_contradicted(&patches, best))
+    if (ox_is_near(candidates, best, taken, n, merge2) || ox_drop_contradicted(&patches, best, 0u))
       continue;
     ox_take(&patches, best, candidates[best].patch);
     taken[n++] = best;
@@ -99,7 +100,7 @@ static uint ox_reduce(__global ox_candidate* candidates, uint count, float merge
     uint patch = 0u;
     const uint best = ox_farthest(&patches, &patch);
     if (best == OX_NONE || candidates[best].distance2 <= merge2) break;
-    if (edges && ox_drop_contradicted(&patches, best)) continue;
+    if (edges && ox_drop_contradicted(&patches, best, 0u)) continue;
     ox_take(&patches, best, patch);
     taken[n++] = best;
   }

@@ -82,7 +82,7 @@ static inline void ox_sift(const ox_edge_pair* p, const ox_order* order, uint ro
   keys[root] = key;
 }
 
-// Heap sort: no recursion, no memory.
+// Heap sort: no recursion, no memory but for the keys.
 static inline void ox_sort_crossings(const ox_edge_pair* p, const ox_order* order) {
   __global uint* entries = order->entries;
   __global uint* keys = order->keys;

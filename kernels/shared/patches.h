@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Patches: the candidates of a kind that face one way, that of the deepest that is in no other,
 // within acos 0.9 = 25.8 degrees. What is looked for is looked for among those in no patch yet, in
-// one patch, or among the few of it that may become contacts: not among all. Device only.
+// one patch, or among the few of it that may become contacts: seldom among all. Device only.
 #ifndef ODE_EXT_KERNELS_SHARED_PATCHES_H
 #define ODE_EXT_KERNELS_SHARED_PATCHES_H
 
@@ -15,7 +15,8 @@
 
 typedef struct {
   __global ox_candidate* candidates;
-  // Those in no patch, in `ordered` of the first of them: a heap by depth.
+  // Those in no patch, or then those that speak for a region, in `ordered` of the first of them: a
+  // heap by depth.
   uint left;
   // Those in patches, in `listed` of the first of them: patch by patch, in each first what may
   // become a contact. Its deepest gave a patch its normal.
@@ -23,7 +24,8 @@ typedef struct {
   uint deepest[OX_MAX_CONTACTS];
   uint begin[OX_MAX_CONTACTS + 1u];
   uint contenders[OX_MAX_CONTACTS];
-  uint contradictor;  // that was found last
+  uint found[OX_MAX_CONTACTS];  // where in each the last contradictor was
+  uint contradictor;            // that was found last
   float epsilon;
 } ox_patches;
 
@@ -181,6 +183,7 @@ static inline void ox_open_patch(ox_patches* p, uint deepest, bool outline) {
   p->left = left;
   ox_make_heap(p);
   p->deepest[patch] = deepest;
+  p->found[patch] = 0u;
   p->begin[patch + 1u] = end;
   p->contenders[patch] = outline ? ox_find_outline(p, begin, end, deepest) : end - begin;
   ox_take(p, deepest, patch);
@@ -217,31 +220,53 @@ static inline bool ox_gives_way(const ox_patches* p, uint i, uint to) {
 // the cosine of 94.0, for rounding.
 #define OX_FACES_AWAY (-0.07f)
 
-// A shallower candidate that contradicts this one and is not dropped; OX_NONE: there is none. One
-// that nothing contradicts is taken, and few are; what contradicts the others has to be found fast:
-// what the last one contradicted, else, of those left, one about as deep (in thick parts: the first
-// of a heap) or one of the shallowest (in thin ones: its last) by turns.
-static inline uint ox_find_shallower_way(const ox_patches* p, uint i) {
-  __global const ox_candidate* candidates = p->candidates;
-  if (p->contradictor != OX_NONE && ox_gives_way(p, i, p->contradictor)) return p->contradictor;
-  for (uint k = 0u; k < p->left; ++k) {
-    const uint other = candidates[(k & 1u) == 0u ? k / 2u : p->left - 1u - k / 2u].ordered;
-    if (ox_gives_way(p, i, other)) return other;
+// The first patch from g on in which something may contradict what faces the way of `normal`.
+static inline uint ox_next_away(const ox_patches* p, float3 normal, uint g) {
+  for (; g < p->patches; ++g) {
+    __global const ox_candidate* deepest = p->candidates + p->deepest[g];
+    if (ox_dot(normal, vload3(0, deepest->normal)) <= OX_FACES_AWAY) break;
   }
-  const float3 normal = vload3(0, candidates[i].normal);
-  for (uint g = 0u; g < p->patches; ++g) {
-    if (ox_dot(normal, vload3(0, candidates[p->deepest[g]].normal)) > OX_FACES_AWAY) continue;
-    for (uint k = p->begin[g]; k < p->begin[g + 1u]; ++k)
-      if (ox_gives_way(p, i, candidates[k].listed)) return candidates[k].listed;
-  }
-  return OX_NONE;
+  return g;
 }
 
-// Drops a candidate that a shallower one contradicts.
-static inline bool ox_drop_contradicted(ox_patches* p, uint i) {
-  const uint contradictor = ox_find_shallower_way(p, i);
-  if (contradictor == OX_NONE) return false;
-  p->contradictor = contradictor;
+// Whether a shallower candidate that is not dropped contradicts this one. One that nothing
+// contradicts is taken, and few are; what contradicts the others has to be found fast. It is what
+// contradicted the last one, else by turns one that is in no patch (`left`: how many those are),
+// about as deep (in thick parts: the first of a heap) or one of the shallowest (in thin ones: its
+// last), and one of a patch, from where the last of that patch was found.
+static inline bool ox_is_contradicted(ox_patches* p, uint i, uint left) {
+  __global const ox_candidate* candidates = p->candidates;
+  const uint last = p->contradictor;
+  if (last != OX_NONE && ox_gives_way(p, i, last)) return true;
+  const float3 normal = vload3(0, candidates[i].normal);
+  uint k = 0u;
+  uint patch = ox_next_away(p, normal, 0u);
+  uint looked = 0u;  // at so many of the patch
+  while (k < left || patch < p->patches) {
+    if (k < left) {
+      p->contradictor = candidates[(k & 1u) == 0u ? k / 2u : left - 1u - k / 2u].ordered;
+      if (ox_gives_way(p, i, p->contradictor)) return true;
+      ++k;
+    }
+    if (patch == p->patches) continue;
+    const uint begin = p->begin[patch];
+    const uint size = p->begin[patch + 1u] - begin;
+    const uint at = p->found[patch] + looked;
+    p->contradictor = candidates[begin + (at < size ? at : at - size)].listed;
+    if (ox_gives_way(p, i, p->contradictor)) {
+      p->found[patch] = at < size ? at : at - size;
+      return true;
+    }
+    if (++looked < size) continue;
+    patch = ox_next_away(p, normal, patch + 1u);
+    looked = 0u;
+  }
+  p->contradictor = last;
+  return false;
+}
+
+static inline bool ox_drop_contradicted(ox_patches* p, uint i, uint left) {
+  if (!ox_is_contradicted(p, i, left)) return false;
   p->candidates[i].patch = OX_DROPPED;
   return true;
 }

@@ -369,7 +369,9 @@ OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
 // Room for what edges add to the candidates of a pair.
 #define OX_POINTS_PER_CROSSING 4u
 // Room for the orders of the crossings of a pair and of those points: by edge and then by facet; by
-// region; where each region starts; the points of each region.
+// region; where each region starts; its first point; the next point of each point, and before there
+// are points the order by both facets and its keys. The keys of the other orders lie in rooms not
+// yet in use (edge_contact.cl).
 #define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
 
 // A hit among those of its pair, in the frame of B.
@@ -381,12 +383,12 @@ typedef struct {
   ox_u32 side_kind;  // OX_HIT_..., with OX_HIT_SIDE
   ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
   ox_u32 triangle;
-  ox_u32 patch;      // OX_NO_PATCH, a patch, or OX_TAKEN
+  ox_u32 patch;      // OX_NO_PATCH, a patch, OX_TAKEN or OX_DROPPED
   ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch; while candidates
                      // are sorted, the depth of `ordered`
   ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
   ox_u32 listed;     // of the i-th candidate of a pair: which is the i-th listed (patches.h)
-  ox_u32 ordered;    // of the i-th candidate of a pair: which is the i-th of the order in use
+  ox_u32 ordered;  // of the i-th candidate of a pair: which is the i-th of the order or heap in use
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
 

@@ -49,7 +49,7 @@ inline bool floods(const ColliderOptions& options) {
          options.misprediction == Misprediction::kRedo;
 }
 
-// The largest max_contacts (OX_MAX_CONTACTS in contact_step.cl).
+// The largest max_contacts (OX_MAX_CONTACTS in kernels/shared/patches.h).
 inline constexpr std::uint32_t kMaxContacts = 64;
 
 }  // namespace ode_ext
