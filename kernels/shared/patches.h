@@ -15,8 +15,8 @@
 
 typedef struct {
   __global ox_candidate* candidates;
-  // Those in no patch, or then those that speak for a region, in `ordered` of the first of them: a
-  // heap by depth.
+  // Those in no patch, and after those the contacts chosen for regions, in `ordered` of the first
+  // of them: a heap by depth.
   uint left;
   // Those in patches, in `listed` of the first of them: patch by patch, in each first what may
   // become a contact. Its deepest gave a patch its normal.
@@ -70,7 +70,7 @@ static inline void ox_begin_patches(ox_patches* p, __global ox_candidate* candid
   ox_make_heap(p);
 }
 
-// When all are in patches or dropped: what speaks for a region is left once more.
+// When all are in patches or dropped: the contacts chosen for regions are left once more.
 static inline void ox_begin_regions(ox_patches* p, uint count) {
   p->left = 0u;
   for (uint i = 0u; i < count; ++i)
