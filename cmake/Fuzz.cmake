@@ -8,12 +8,6 @@ ode_ext_compile_options(ode_ext_fuzz_parts)
 target_link_libraries(ode_ext_fuzz_parts PUBLIC ode_ext_test_support OpenCL::OpenCL)
 
 if(ODE_EXT_FUZZ)
-  # Filling grids is most of what a new mesh costs, and takes four times as long with sanitizers:
-  # those look at the rest here, and at these in the preset asan.
-  foreach(file IN ITEMS clearance_grid occupancy_grid surface_slabs triangle_box triangle_distance)
-    set_source_files_properties(ode_ext/geometry/${file}.cpp PROPERTIES COMPILE_OPTIONS
-      "-fno-sanitize=all;-fno-sanitize-coverage=inline-8bit-counters,pc-table")
-  endforeach()
   add_executable(fuzz_api EXCLUDE_FROM_ALL
     tests/fuzz/fuzz_api.cpp tests/support/fcl_oracle.cpp $<TARGET_OBJECTS:ode_ext_core>)
   ode_ext_compile_options(fuzz_api)

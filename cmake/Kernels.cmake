@@ -8,7 +8,7 @@ file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/share
 file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl)
 
 set(ODE_EXT_KERNEL_FILES)
-foreach(header types transform append near_surface cull lanes ray_triangle ray_meshlet meshlet_tree
+foreach(header types transform append flooded cull lanes ray_triangle ray_meshlet meshlet_tree
                nearest full_ray iterative_ray choose cast contradiction candidate_order patches meshlet
                cross edge_pair crossing_order regions pair_hits spokesmen edge_axis way_out deform moves)
   set(header shared/${header}.h)

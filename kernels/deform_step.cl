@@ -177,7 +177,7 @@ __kernel void deform_vertices(__global const ox_move* moves, uint move_count,
   }
 }
 
-// centre +- half_size holds the box; the radius is rounded up from at most 8 roundings.
+// centre +- half_size holds the box.
 static void ox_store_box(float3 lo, float3 hi, __global ox_chunk* chunk) {
   const float3 centre = 0.5f * lo + 0.5f * hi;
   const float3 above = hi - centre;
@@ -188,7 +188,6 @@ static void ox_store_box(float3 lo, float3 hi, __global ox_chunk* chunk) {
       (float3)(ox_max(above.x, below.x), ox_max(above.y, below.y), ox_max(above.z, below.z));
   vstore3(centre, 0, chunk->centre);
   vstore3(half_size, 0, chunk->half_size);
-  chunk->radius = (1.0f + 0x1p-20f) * ox_norm(half_size);
 }
 
 __kernel void deform_chunks(__global const ox_move* moves, uint move_count,

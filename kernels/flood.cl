@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flood: which vertices of one mesh are inside the other? Of an edge that enters a solid more often
-// than it leaves it the far end is inside, of one that leaves it more often the near end, and else
-// both ends are on one side. So from the inner ends of the former, over the latter, all vertices
-// inside are reached; of a part of the mesh without the former one ray tells where all of it is.
+// Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an edge
+// tells on which side of the surface that end is, and both ends of an edge without crossings are on
+// one side. So from the former ends that are inside, over the latter edges, all vertices inside are
+// reached; of a part of the mesh without crossings one ray tells where all of it is. An open target
+// has no inside, but its faces have a space behind them: there the flood ends where it leads round
+// the border, at the last vertex, and a part without crossings is not behind.
 // The rays of these vertices are cast (ray_step.cl), with those of vertices that may lie on the
 // surface, and they decide: an edge misjudged here to within rounding costs rays, no contact.
 //
 // in    pairs, meshes, crossings, the list of them of each side of a pair (heads, links), vertices,
 //       edges, rings, components, triangles, meshlets, meshlet_nodes
-// out   rays, of targets that are embedded (OX_MESH_EMBEDDED)
+// out   rays, of the sides that are flooded (shared/flooded.h)
+//       crossings: `other`, which strings those of an edge together
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS_BVH, OX_LIST_FLOOD_WORDS
+#include "shared/cull.h"
 #include "shared/flood_table.h"
+#include "shared/flooded.h"
 #include "shared/full_ray.h"
 
 typedef struct {
@@ -20,7 +25,8 @@ typedef struct {
   __global const ox_list* lists;
   __global const ox_pair* pair;
   uint pair_side;
-  __global const ox_edge_crossing* crossings;
+  __global const ox_mesh* meshes;
+  __global ox_edge_crossing* crossings;
   __global const uint* links;
   __global const ox_vertex* vertices;
   __global const ox_edge* edges;
@@ -54,6 +60,7 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, bool inside) {
   if (inside) ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
   const float3 direction = vload3(0, s->vertices[vertex].direction);
   if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return true;
+  if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->meshes, s->vertices + vertex)) return true;
   const uint slot = ox_append(s->counters, s->lists, OX_LIST_RAYS_BVH);
   if (slot == OX_NONE) return true;
   s->rays[slot].pair_side = s->pair_side;
@@ -63,53 +70,94 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, bool inside) {
   return true;
 }
 
-// Counts a crossing of its edge: how often the edge enters more than it leaves.
-static bool ox_count_crossing(ox_flood_state* s, __global const ox_edge_crossing* c) {
+// Strings the crossings of an edge together, from the last to come on.
+static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
+  __global ox_edge_crossing* c = s->crossings + crossing;
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
-  if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_BALANCED)) return false;
-  s->words[ox_find_key(s->words, &s->table, key) + 1u] += c->leaves != 0u ? -1u : 1u;
+  if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
+  const uint word = ox_find_key(s->words, &s->table, key);
+  c->other = s->words[word + 1u];
+  s->words[word + 1u] = crossing;
   return true;
 }
 
-// How often the edge enters more than it leaves, from OX_BALANCED on.
-static uint ox_balance(const ox_flood_state* s, uint edge) {
+#define OX_END_UNPARTED 0  // the edge does not cross
+#define OX_END_INSIDE 1
+#define OX_END_OUTSIDE 2
+
+// On which side of the surface that crosses the edge first, seen from it, an end is. Crossings
+// nearer to one another than they round, at a ridge or in a valley, are passed over where as many
+// enter as leave.
+static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
   const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
-  return s->words[word] != 0u ? s->words[word + 1u] : OX_BALANCED;
+  if (s->words[word] == 0u) return OX_END_UNPARTED;
+  const float sign = end == 0u ? 1.0f : -1.0f;
+  for (float passed = -INFINITY;;) {
+    float first = INFINITY;
+    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].other) {
+      const float t = sign * s->crossings[c].t;
+      if (t > passed) first = ox_min(first, t);
+    }
+    if (first == INFINITY) return OX_END_UNPARTED;
+    const float last = first + 2.0f * s->pair->epsilon;  // each of two is off by less than epsilon
+    int leaving = 0;
+    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].other) {
+      const float t = sign * s->crossings[c].t;
+      if (t > passed && t <= last)
+        leaving += (s->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
+    }
+    if (leaving != 0) return leaving > 0 ? OX_END_INSIDE : OX_END_OUTSIDE;
+    passed = last;
+  }
 }
 
-// The end of the edge that is inside, if one alone is.
-static bool ox_flood_end(ox_flood_state* s, uint edge) {
-  const uint balance = ox_balance(s, edge);
-  return balance == OX_BALANCED ||
-         ox_flood_vertex(s, s->edges[edge].vertex[balance > OX_BALANCED ? 1u : 0u], true);
+static bool ox_is_parted(const ox_flood_state* s, uint edge) {
+  return ox_side_of_end(s, edge, 0u) != OX_END_UNPARTED;
 }
 
-// On over edges whose ends are on one side.
+// The ends of the edge of this crossing that are inside; once for all crossings of it.
+static bool ox_flood_ends(ox_flood_state* s, uint crossing) {
+  const uint edge = s->crossings[crossing].edge;
+  const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
+  if (s->words[word + 1u] != crossing) return true;
+  for (uint end = 0u; end < 2u; ++end)
+    if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
+        !ox_flood_vertex(s, s->edges[edge].vertex[end], true))
+      return false;
+  return true;
+}
+
+// On over edges that do not cross.
 static bool ox_flood_on(ox_flood_state* s, uint* next) {
   for (; *next < s->table.queued; ++*next) {
     const uint vertex = ox_queue(s->words, &s->table)[*next];
     for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
       const ox_neighbour neighbour = s->rings[i];
-      if (ox_balance(s, neighbour.edge) == OX_BALANCED &&
-          !ox_flood_vertex(s, neighbour.vertex, true))
+      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, true))
         return false;
     }
   }
   return true;
 }
 
-// Whether a vertex that is not near the surface is inside, by a ray of any direction.
-static bool ox_is_vertex_inside(const ox_flood_state* s, uint vertex,
+// Whether a vertex that is not near the surface is inside: of a closed target by a ray of any
+// direction, of an open one by its own.
+static bool ox_is_vertex_inside(const ox_flood_state* s, uint index,
                                 __global const ox_mesh* target) {
   const uint side = s->pair_side & 1u;
-  const float3 p = ox_place(s->pair, side, vload3(0, s->vertices[vertex].position));
-  const float3 d = fabs(p - vload3(0, target->box_centre));
-  const float3 limit = vload3(0, target->box_half) + s->pair->epsilon;
-  if (d.x > limit.x || d.y > limit.y || d.z > limit.z) return false;
-  ox_query query;
-  query.cast.origin = p;
-  query.epsilon = s->pair->epsilon;
+  __global const ox_vertex* vertex = s->vertices + index;
+  if (!ox_keep_vertex(s->pair, side, s->meshes, vertex)) return false;
   uint work = 0u;
+  if ((target->flags & OX_MESH_CLOSED) == 0u) {
+    const ox_vertex_ray ray = ox_ray_of(s->pair, side, s->meshes, vertex);
+    uint remember;
+    const ox_outcome outcome =
+        ox_cast_in_full(false, &ray, target, &s->surfaces, OX_NONE, 0.0f, &remember, &work);
+    return (outcome.kind & OX_HIT_KIND) == OX_HIT_INSIDE;
+  }
+  ox_query query;
+  query.cast.origin = ox_place(s->pair, side, vload3(0, vertex->position));
+  query.epsilon = s->pair->epsilon;
   return ox_is_inside(false, &query, target, &s->surfaces, &work);
 }
 
@@ -120,7 +168,7 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_me
     const ox_neighbour neighbour = s->rings[i];
     const uint outside = OX_KEY(neighbour.vertex, OX_KEY_OUTSIDE);
     if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX)) || ox_has_key(s, outside) ||
-        ox_balance(s, neighbour.edge) != OX_BALANCED)
+        ox_is_parted(s, neighbour.edge))
       continue;
     const bool inside = ox_is_vertex_inside(s, neighbour.vertex, target);
     if (inside ? !ox_flood_vertex(s, neighbour.vertex, true) || !ox_flood_on(s, next)
@@ -130,10 +178,12 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_me
   return true;
 }
 
-// Parts that no crossing told of: wholly inside, or wholly outside.
+// Parts that no crossing told of: wholly inside, or wholly outside. Behind an open target they are
+// not: what of it is inside of them is so with all of its vertices.
 static bool ox_flood_components(ox_flood_state* s, __global const ox_mesh* source,
                                 __global const ox_mesh* target, __global const uint* components,
                                 uint* next) {
+  if ((target->flags & OX_MESH_CLOSED) == 0u) return true;
   if (source->component_count == 1u && s->table.queued != 0u) return true;
   for (uint i = 0u; i < source->component_count; ++i) {
     const uint vertex = components[source->component_first + i];
@@ -160,9 +210,9 @@ static void ox_flood(ox_flood_state* s, uint head, __global const ox_mesh* sourc
     if (s->crossings[c].edge == OX_NONE && !ox_flood_vertex(s, s->crossings[c].triangle, false))
       return;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge != OX_NONE && !ox_count_crossing(s, s->crossings + c)) return;
+    if (s->crossings[c].edge != OX_NONE && !ox_string_crossing(s, c)) return;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge != OX_NONE && !ox_flood_end(s, s->crossings[c].edge)) return;
+    if (s->crossings[c].edge != OX_NONE && !ox_flood_ends(s, c)) return;
   uint next = 0u;
   if (!ox_flood_on(s, &next)) return;
   for (uint c = head; c != OX_NONE; c = s->links[c])
@@ -174,12 +224,12 @@ static void ox_flood(ox_flood_state* s, uint head, __global const ox_mesh* sourc
 
 __kernel void flood(__global volatile uint* counters, __global const ox_list* lists,
                     __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                    __global const uint* heads, __global const ox_edge_crossing* crossings,
+                    __global const uint* heads, __global ox_edge_crossing* crossings,
                     __global const uint* links, __global const ox_vertex* vertices,
                     __global const ox_edge* edges, __global const uint* ring_starts,
                     __global const ox_neighbour* rings, __global const uint* components,
                     __global const ox_triangle* triangles, __global const ox_meshlet* meshlets,
-                    __global const ox_meshlet_node* meshlet_nodes, uint pair_count,
+                    __global const ox_meshlet_node* meshlet_nodes, uint pair_count, uint rays_mode,
                     __global ox_ray* rays, __global uint* words) {
   for (uint i = ox_next_item(counters, OX_QUEUE_FLOOD); i < 2u * pair_count;
        i = ox_next_item(counters, OX_QUEUE_FLOOD)) {
@@ -187,12 +237,13 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
     if (pair->near == 0u) continue;
     __global const ox_mesh* source = meshes + pair->mesh[i & 1u];
     __global const ox_mesh* target = meshes + pair->mesh[1u - (i & 1u)];
-    if ((target->flags & OX_MESH_EMBEDDED) == 0u) continue;
+    if (!ox_is_flooded(rays_mode, source, target)) continue;
     ox_flood_state state;
     state.counters = counters;
     state.lists = lists;
     state.pair = pair;
     state.pair_side = i;
+    state.meshes = meshes;
     state.crossings = crossings;
     state.links = links;
     state.vertices = vertices;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pair step (GRAPP section 3.1): is this pair worth looking at, and which vertices of it?
 //
-// in    objects, meshes, chunks, grids, pair_objects (2 object indices per pair), links
+// in    objects, meshes, chunks, pair_objects (2 object indices per pair), links
 // out   pairs: the relative transform and the displacement of every pair whose oriented boxes
 //       overlap
 //       tasks: runs of vertices whose box reaches the target's, in three lists: rigid pairs with
@@ -13,6 +13,7 @@
 // may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE
 #include "shared/append.h"
 #include "shared/cull.h"
+#include "shared/flooded.h"
 
 // Separating axes of two oriented boxes (Gottschalk 1996) in the frame of B. Rounding is covered by
 // epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike
@@ -132,13 +133,12 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
 // Then a task is written for every chunk, at its own place, and those with nothing to do say so.
 __kernel void pair_step(__global volatile uint* counters, __global const ox_list* lists,
                         __global const ox_object* objects, __global const ox_mesh* meshes,
-                        __global const ox_chunk* chunks, __global const uint* grids,
-                        __global const uint* pair_objects, __global const ox_link* links,
-                        uint pair_count, uint step, uint rays_mode, float displacement_limit,
-                        __global ox_relative_pose* poses, __global ox_directory_entry* directory,
-                        __global ox_pair* pairs, __global uint* pair_hits,
-                        __global uint* pair_crossings, __global uint* heads,
-                        __global ox_range* pair_ranges, uint is_dense,
+                        __global const ox_chunk* chunks, __global const uint* pair_objects,
+                        __global const ox_link* links, uint pair_count, uint step, uint rays_mode,
+                        float displacement_limit, __global ox_relative_pose* poses,
+                        __global ox_directory_entry* directory, __global ox_pair* pairs,
+                        __global uint* pair_hits, __global uint* pair_crossings,
+                        __global uint* heads, __global ox_range* pair_ranges, uint is_dense,
                         __global const uint* dense_first, __global ox_chunk_task* tasks) {
   const uint parity = step & 1u;  // what is read and what is written: a step may be run again
   const uint stride = (uint)get_global_size(0);
@@ -209,20 +209,10 @@ __kernel void pair_step(__global volatile uint* counters, __global const ox_list
     for (uint side = 0u; side < 2u; ++side) {
       __global const ox_mesh* source = side == 0u ? mesh_a : mesh_b;
       __global const ox_mesh* target = side == 0u ? mesh_b : mesh_a;
-      if ((rays_mode & OX_RAYS_FLOOD) != 0u && (target->flags & OX_MESH_EMBEDDED) != 0u) continue;
-      const bool grouped = (source->flags & OX_MESH_DEFORMABLE) == 0u;
-      bool near = bounded;
+      if (ox_is_flooded(rays_mode, source, target)) continue;
       for (uint k = 0u; k < source->chunk_count; ++k) {
-        if (grouped && bounded && k % OX_GROUP_CHUNKS == 0u) {
-          __global const ox_chunk* group = chunks + source->group_first + k / OX_GROUP_CHUNKS;
-          near = ox_keep_chunk(pair, side, target, group, grids);
-        }
-        if (!near && is_dense == 0u) {
-          k |= OX_GROUP_CHUNKS - 1u;  // on to the next group
-          continue;
-        }
         const uint chunk = source->chunk_first + k;
-        const bool keep = near && ox_keep_chunk(pair, side, target, chunks + chunk, grids);
+        const bool keep = bounded && ox_keep_chunk(pair, side, target, chunks + chunk);
         uint slot_of_task;
         if (is_dense != 0u) {
           slot_of_task = place++;

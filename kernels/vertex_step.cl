@@ -2,7 +2,7 @@
 // Vertex step (GRAPP section 3.2): can this vertex be in contact with the target? Then it gets a
 // ray, in the list of the algorithm that is to cast it.
 //
-// in    tasks of one category (its list), pairs, meshes, chunks, vertices, grids, temporal_before
+// in    tasks of one category (its list), pairs, meshes, chunks, vertices, temporal_before
 // out   rays
 //       temporal: cleared for every vertex of a task whose pair keeps temporal data
 // item  1 vertex of 1 chunk: item i is vertex i % 16 of task i / 16 of the list (grid-stride)
@@ -13,7 +13,7 @@ static void ox_vertex_step(uint category, __global volatile uint* counters,
                            __global const ox_list* lists, __global const ox_chunk_task* tasks,
                            __global const ox_pair* pairs, __global const ox_mesh* meshes,
                            __global const ox_chunk* chunks, __global const ox_vertex* vertices,
-                           __global const uint* grids, uint rays_mode, float displacement_limit,
+                           uint rays_mode, float displacement_limit,
                            __global const ox_temporal* temporal_before,
                            __global ox_temporal* temporal, __global ox_ray* rays,
                            __global ox_work* works) {
@@ -25,7 +25,7 @@ static void ox_vertex_step(uint category, __global volatile uint* counters,
     ox_work work = {0u, 0u, 0u, 0u};
     const ox_choice choice =
         ox_choose(counters, tasks, task, i % OX_CHUNK_VERTICES, pairs, meshes, chunks, vertices,
-                  grids, rays_mode, displacement_limit, temporal_before, temporal, &work);
+                  rays_mode, displacement_limit, temporal_before, temporal, &work);
     ox_note_work(works, i, &work);
     if (choice.list == OX_NONE) continue;
     const uint slot = ox_append(counters, lists, choice.list);
@@ -41,12 +41,11 @@ static void ox_vertex_step(uint category, __global volatile uint* counters,
 __kernel void vertex_small(__global volatile uint* counters, __global const ox_list* lists,
                            __global const ox_chunk_task* tasks, __global const ox_pair* pairs,
                            __global const ox_mesh* meshes, __global const ox_chunk* chunks,
-                           __global const ox_vertex* vertices, __global const uint* grids,
-                           uint rays_mode, float displacement_limit,
-                           __global const ox_temporal* temporal_before,
+                           __global const ox_vertex* vertices, uint rays_mode,
+                           float displacement_limit, __global const ox_temporal* temporal_before,
                            __global ox_temporal* temporal, __global ox_ray* rays,
                            __global ox_work* works) {
-  ox_vertex_step(OX_CATEGORY_SMALL, counters, lists, tasks, pairs, meshes, chunks, vertices, grids,
+  ox_vertex_step(OX_CATEGORY_SMALL, counters, lists, tasks, pairs, meshes, chunks, vertices,
                  rays_mode, displacement_limit, temporal_before, temporal, rays, works);
 }
 
@@ -54,12 +53,11 @@ __kernel void vertex_small(__global volatile uint* counters, __global const ox_l
 __kernel void vertex_high(__global volatile uint* counters, __global const ox_list* lists,
                           __global const ox_chunk_task* tasks, __global const ox_pair* pairs,
                           __global const ox_mesh* meshes, __global const ox_chunk* chunks,
-                          __global const ox_vertex* vertices, __global const uint* grids,
-                          uint rays_mode, float displacement_limit,
-                          __global const ox_temporal* temporal_before,
+                          __global const ox_vertex* vertices, uint rays_mode,
+                          float displacement_limit, __global const ox_temporal* temporal_before,
                           __global ox_temporal* temporal, __global ox_ray* rays,
                           __global ox_work* works) {
-  ox_vertex_step(OX_CATEGORY_HIGH, counters, lists, tasks, pairs, meshes, chunks, vertices, grids,
+  ox_vertex_step(OX_CATEGORY_HIGH, counters, lists, tasks, pairs, meshes, chunks, vertices,
                  rays_mode, displacement_limit, temporal_before, temporal, rays, works);
 }
 
@@ -67,11 +65,11 @@ __kernel void vertex_high(__global volatile uint* counters, __global const ox_li
 __kernel void vertex_deformable(__global volatile uint* counters, __global const ox_list* lists,
                                 __global const ox_chunk_task* tasks, __global const ox_pair* pairs,
                                 __global const ox_mesh* meshes, __global const ox_chunk* chunks,
-                                __global const ox_vertex* vertices, __global const uint* grids,
-                                uint rays_mode, float displacement_limit,
+                                __global const ox_vertex* vertices, uint rays_mode,
+                                float displacement_limit,
                                 __global const ox_temporal* temporal_before,
                                 __global ox_temporal* temporal, __global ox_ray* rays,
                                 __global ox_work* works) {
   ox_vertex_step(OX_CATEGORY_DEFORMABLE, counters, lists, tasks, pairs, meshes, chunks, vertices,
-                 grids, rays_mode, displacement_limit, temporal_before, temporal, rays, works);
+                 rays_mode, displacement_limit, temporal_before, temporal, rays, works);
 }

@@ -23,7 +23,7 @@
 
 __kernel void whole_step(
     __global uint* counters, __global const ox_list* lists, __global const ox_object* objects,
-    __global const ox_mesh* meshes, __global const ox_chunk* chunks, __global const uint* grids,
+    __global const ox_mesh* meshes, __global const ox_chunk* chunks,
     __global const uint* pair_objects, __global const ox_link* links, uint pair_count, uint step,
     uint rays_mode, float displacement_limit, __global ox_relative_pose* poses,
     __global ox_directory_entry* directory, __global ox_pair* pairs, __global uint* pair_hits,
@@ -35,13 +35,12 @@ __kernel void whole_step(
     __global const ox_edge* edges, __global const uint* ring_starts,
     __global const ox_neighbour* rings, __global const uint* components,
     __global const ox_triangle* triangles, __global ox_ray* rays, __global uint* words,
-    __global const ox_temporal* temporal_before, __global ox_temporal* temporal,
-    __global const ox_isolation* isolations, uint walk_limit, __global ox_hit* hits,
-    __global uint* pair_segments, __global uint* crossing_segments,
+    __global const ox_temporal* temporal_before, __global ox_temporal* temporal, uint walk_limit,
+    __global ox_hit* hits, __global uint* pair_segments, __global uint* crossing_segments,
     __global ox_candidate* candidates, __global const uint* facets,
     __global ox_edge_crossing* gathered, __global uint* order, uint max_contacts,
     uint max_deformable, __global ox_contact* contacts) {
-  pair_step(counters, lists, objects, meshes, chunks, grids, pair_objects, links, pair_count, step,
+  pair_step(counters, lists, objects, meshes, chunks, pair_objects, links, pair_count, step,
             rays_mode, displacement_limit, poses, directory, pairs, pair_hits, pair_crossings,
             heads, pair_ranges, 0u, 0, tasks);
   cull(counters, lists, pairs, meshes, meshlet_nodes, pair_count, meshlet_tasks);
@@ -50,14 +49,14 @@ __kernel void whole_step(
   cross_meshlets(counters, lists, meshlet_pairs, pairs, meshes, meshlets, rays_mode, pair_crossings,
                  crossings, heads, crossing_links);
   flood(counters, lists, pairs, meshes, heads, crossings, crossing_links, vertices, edges,
-        ring_starts, rings, components, triangles, meshlets, meshlet_nodes, pair_count, rays,
-        words);
-  vertex_high(counters, lists, tasks, pairs, meshes, chunks, vertices, grids, rays_mode,
+        ring_starts, rings, components, triangles, meshlets, meshlet_nodes, pair_count, rays_mode,
+        rays, words);
+  vertex_high(counters, lists, tasks, pairs, meshes, chunks, vertices, rays_mode,
               displacement_limit, temporal_before, temporal, rays, 0);
-  vertex_deformable(counters, lists, tasks, pairs, meshes, chunks, vertices, grids, rays_mode,
+  vertex_deformable(counters, lists, tasks, pairs, meshes, chunks, vertices, rays_mode,
                     displacement_limit, temporal_before, temporal, rays, 0);
   ray_bvh(counters, lists, rays, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes,
-          isolations, rays_mode, walk_limit, temporal, pair_hits, hits, 0);
+          rays_mode, walk_limit, temporal, pair_hits, hits, 0);
   contact_place(counters, pair_hits, pair_crossings, pair_count, pair_segments, crossing_segments);
   contact_gather(counters, lists, hits, pairs, vertices, triangles, pair_segments, candidates);
   crossing_gather(counters, lists, crossings, pairs, vertices, edges, facets, crossing_segments,

@@ -18,16 +18,15 @@ TEXT = (
     "(demos/falling_objects/inflate.h), since only vertices inside a mesh are seen: with them every "
     "object is two meshes. Objects meet each other as in the first scene. A pair with a sheet keeps "
     "all of its contacts.",
-    "**Fewer rays per vertex.** The paper dismisses a vertex by a bounding volume. Here chunks of 16 "
-    "vertices are dismissed by boxes and a clearance grid, vertices by an occupancy grid. What "
-    "remains for the ray step is a small part of what the paper's would get, and far less sparse.",
+    "**Culls.** The paper dismisses a vertex by a bounding volume. Here chunks of 16 vertices are "
+    "dismissed by their boxes first, then vertices by the target's box.",
     "**The baseline.** 'Without the pipeline' is one kernel per pair that marks its chunks in a dense "
     "list, then one with a work-item per vertex of every pair and a switch between the algorithms. "
     "It shares culls, data and the contact step with the pipeline. The paper says no more of its "
     "baseline than that it does not have the reorganisation. The list is dense, and therefore most "
     "work-items leave at once; they are counted.",
-    "**Iterative rays are exact.** Where the triangle met by walking cannot be proven to be the "
-    "first one, the ray is cast by the BVH as well. The paper believes it, and drops vertices "
+    "**Iterative rays are exact.** The triangle met by walking need not be the first one: the ray is "
+    "cast by the BVH as well, as far as that triangle. The paper believes it, and drops vertices "
     "without temporal data; that rule is measured beside (`iterative-paper`).",
     "**Temporal data** is kept by pair, on the device; up to commit 1c67fba all of it was void for "
     "one step whenever its memory grew, while the pile formed. Results of that commit have spikes "

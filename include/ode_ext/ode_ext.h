@@ -74,13 +74,15 @@ enum {
   dBatchPredictionPlain = 1       /**< Eq. 2: last count * confidence */
 };
 
-/** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes. */
+/** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes, but where an open
+    mesh pierces a face of a body and none of its edges: there rays of all vertices find some of the
+    body behind it. */
 enum {
   dBatchRaysFull = 0,      /**< every ray in full; with edges, redone mispredictions and in the
                                   pipelined organisation only those of vertices inside, where
                                   crossings of edges tell which these are (default) */
   dBatchRaysIterative = 1, /**< where a pair moved little, from the triangle met in the last pass;
-                                  what cannot be proven that way is cast in full */
+                                  what lies before what that finds is looked at */
   dBatchRaysIterativePaper = 2 /**< as the paper: where a pair moved little, a vertex without
                                   temporal data is dropped and what the walk finds is believed.
                                   Misses contacts */

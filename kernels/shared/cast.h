@@ -7,12 +7,13 @@
 #include "shared/iterative_ray.h"
 
 // Casts a ray by one of the algorithms, and leaves its temporal datum. False: an iterative ray that
-// has to be cast in full; ray->triangle then is the best guess there is.
+// has to be cast in full, since the walk failed, or since what it found need not be the first that
+// the ray meets and is not taken for that as the paper does. No more than what lies before
+// ray->triangle is then looked at.
 static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* pairs,
                                __global const ox_mesh* meshes, __global const ox_vertex* vertices,
-                               const ox_surfaces* surfaces, __global const ox_isolation* isolations,
-                               uint rays_mode, uint walk_limit, __global ox_temporal* temporal,
-                               ox_outcome* outcome, ox_work* work) {
+                               const ox_surfaces* surfaces, uint rays_mode, uint walk_limit,
+                               __global ox_temporal* temporal, ox_outcome* outcome, ox_work* work) {
   const uint side = ray->pair_side & 1u;
   __global const ox_pair* pair = pairs + (ray->pair_side >> 1);
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
@@ -21,11 +22,9 @@ static inline bool ox_cast_ray(uint list, ox_ray* ray, __global const ox_pair* p
   const float behind = ray->memory == OX_NONE ? 0.0f : 0.5f * target->mean_edge;
   uint remember = ray->triangle;
   if (list == OX_LIST_RAYS_ITERATIVE) {
-    const bool proof = (rays_mode & OX_RAYS_PAPER) == 0u;
-    const bool done =
-        ox_cast_iteratively(&vertex_ray, target, surfaces->triangles, isolations, walk_limit, proof,
-                            behind, &remember, outcome, &work->iterative);
-    if (!done) {
+    const bool found = ox_cast_iteratively(&vertex_ray, target, surfaces->triangles, walk_limit,
+                                           behind, &remember, outcome, &work->iterative);
+    if (!found || (rays_mode & OX_RAYS_PAPER) == 0u) {
       ray->triangle = remember == OX_NONE ? OX_NONE : remember - target->triangle_first;
       return false;
     }

@@ -31,8 +31,8 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
                                   __global const ox_chunk_task* tasks, uint task_index, uint lane,
                                   __global const ox_pair* pairs, __global const ox_mesh* meshes,
                                   __global const ox_chunk* chunks,
-                                  __global const ox_vertex* vertices, __global const uint* grids,
-                                  uint rays_mode, float displacement_limit,
+                                  __global const ox_vertex* vertices, uint rays_mode,
+                                  float displacement_limit,
                                   __global const ox_temporal* temporal_before,
                                   __global ox_temporal* temporal, ox_work* work) {
   ox_choice choice;
@@ -77,17 +77,14 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
   const bool iterative = small && choice.triangle != OX_NONE;
   if (!(paper && iterative)) {
     work->vertex += OX_WORK_VERTEX;
-    if (!ox_keep_vertex(pair, side, meshes, vertex, grids)) return choice;
+    if (!ox_keep_vertex(pair, side, meshes, vertex)) return choice;
     if (paper && small) {  // the paper has no ray for it
       ox_count(counters, OX_COUNTER_DROPPED);
       return choice;
     }
   }
-  // Without isolation nothing can be proven; the triangle still tells a full ray how far to look.
-  if (iterative && (paper || (target->flags & OX_MESH_ISOLATED) != 0u))
-    choice.list = OX_LIST_RAYS_ITERATIVE;
-  else
-    choice.list = ox_full_list(pairs, meshes, task->pair_side, rays_mode);
+  choice.list =
+      iterative ? OX_LIST_RAYS_ITERATIVE : ox_full_list(pairs, meshes, task->pair_side, rays_mode);
   return choice;
 }
 

@@ -3,6 +3,7 @@
 #ifndef ODE_EXT_KERNELS_SHARED_CROSS_H
 #define ODE_EXT_KERNELS_SHARED_CROSS_H
 
+#include "shared/flooded.h"
 #include "shared/meshlet.h"
 #include "shared/ray_meshlet.h"
 
@@ -153,8 +154,9 @@ static inline void ox_cross_side(const ox_crossing_lists* to, uint pair_side,
                                  __global const ox_pair* pair, __global const ox_mesh* meshes,
                                  uint rays_mode, __global const ox_meshlet* source,
                                  __global const ox_meshlet* target, const ox_near_points* near) {
-  const bool flooded = (rays_mode & OX_RAYS_FLOOD) != 0u &&
-                       (meshes[pair->mesh[1u - (pair_side & 1u)]].flags & OX_MESH_EMBEDDED) != 0u;
+  const uint side = pair_side & 1u;
+  const bool flooded =
+      ox_is_flooded(rays_mode, meshes + pair->mesh[side], meshes + pair->mesh[1u - side]);
   ox_cross_edges(to, pair_side, flooded, pair, source, target, near);
   if (flooded) ox_touch_vertices(to, pair_side, pair, source, target, near);
 }

@@ -12,10 +12,9 @@
 // of 700 million triangles, and their meshlets one buffer of 45 GiB.
 #define OX_KEY_VERTEX 1u   // has its ray
 #define OX_KEY_OUTSIDE 2u  // a vertex that needs none
-#define OX_KEY_EDGE 3u     // value: how often it enters more than it leaves, from OX_BALANCED on
+#define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
 #define OX_KEY(index, kind) ((index) << 2 | (kind))
 
-#define OX_BALANCED 0x80000000u
 #define OX_LEAST_PLACES 16u
 
 typedef struct {

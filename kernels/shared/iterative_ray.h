@@ -3,10 +3,8 @@
 // line of this vertex met in the last step, walk across edges to the one that it meets now. Device
 // only.
 //
-// A triangle on the line need not be the first. What is found counts only with a proof: a ball
-// about the triangle's middle in which every triangle faces the ray's way (geometry/isolation.h).
-// Through such a ball a line passes the surface once at most, since between two exits there is an
-// entry. So if the vertex and its hit are both in it, nothing else lies between them.
+// A triangle on the line need not be the first. The paper takes it for that; else a full ray looks
+// at what lies before it (shared/cast.h).
 #ifndef ODE_EXT_KERNELS_SHARED_ITERATIVE_RAY_H
 #define ODE_EXT_KERNELS_SHARED_ITERATIVE_RAY_H
 
@@ -16,7 +14,6 @@ typedef struct {
   uint triangle;  // over all meshes; OX_NONE: the walk failed
   float t;        // [m] may be negative
   bool back;
-  bool interior;  // the line passes its edges by more than rounding can move it
 } ox_crossing;
 
 static inline float2 ox_sheared(const ox_cast* cast, float3 corner) {
@@ -25,15 +22,8 @@ static inline float2 ox_sheared(const ox_cast* cast, float3 corner) {
   return (float2)(fma(-cast->sx, z, ox_axis(p, cast->kx)), fma(-cast->sy, z, ox_axis(p, cast->ky)));
 }
 
-// `area` is twice the area between the line and the edge from p to q: does it keep off by `margin`?
-static inline bool ox_keeps_off(float area, float2 p, float2 q, float margin) {
-  const float x = q.x - p.x;
-  const float y = q.y - p.y;
-  return area * area > margin * margin * (x * x + y * y);
-}
-
 static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangle* triangles,
-                                  uint first, uint start, uint limit, float epsilon, uint* work) {
+                                  uint first, uint start, uint limit, uint* work) {
   ox_crossing crossing;
   crossing.triangle = OX_NONE;
   uint k = start;
@@ -60,8 +50,6 @@ static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangl
       if (!ox_meets(cast, corner_a, corner_b, corner_c, &crossing.t, &crossing.back))
         return crossing;
       crossing.triangle = first + k;
-      crossing.interior = ox_keeps_off(u, b, c, epsilon) && ox_keeps_off(v, c, a, epsilon) &&
-                          ox_keeps_off(w, a, b, epsilon);
       return crossing;
     }
     // Across the edge that the line passes farthest outside of.
@@ -72,43 +60,16 @@ static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangl
   return crossing;
 }
 
-static inline float ox_distance(float3 a, float3 b) {
-  const float3 d = a - b;
-  return sqrt(ox_dot(d, d));
-}
-
-// Whether the line meets nothing but `crossing` between its points `from` and `to` (both along
-// +-direction from the vertex).
-static inline bool ox_alone_between(__global const ox_triangle* triangle,
-                                    __global const ox_isolation* isolation, float3 direction,
-                                    float3 from, float3 to, float epsilon) {
-  // cos of the angle between line and normal. A triangle that faces within 30 degrees of this one
-  // faces the line's way if that angle is below 60 degrees, and so on; 1e-5 covers the rounding of
-  // two unit vectors (2^-22) a hundred times.
-  const float slope = fabs(ox_dot(direction, vload3(0, triangle->normal)));
-  const float radius = slope > 0.86604f   ? isolation->within_60
-                       : slope > 0.50001f ? isolation->within_30
-                       : slope > 0.17366f ? isolation->within_10
-                                          : 0.0f;
-  const float3 middle =
-      (vload3(0, triangle->a) + vload3(0, triangle->b) + vload3(0, triangle->c)) / 3.0f;
-  // Within epsilon of either end another face would matter too.
-  const float room = radius - 4.0f * epsilon;
-  return ox_distance(from, middle) < room && ox_distance(to, middle) < room;
-}
-
-// True: *outcome is what the full algorithms would give, or, without `proof`, what the paper takes
-// for it. *triangle: in, over the target's triangles, where to start; out, over all meshes, where
-// the line crosses, or OX_NONE.
+// True: *outcome is what the paper takes for the first hit. *triangle: in, over the target's
+// triangles, where to start; out, over all meshes, where the line crosses, or OX_NONE.
 static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const ox_mesh* mesh,
-                                       __global const ox_triangle* triangles,
-                                       __global const ox_isolation* isolations, uint walk_limit,
-                                       bool proof, float behind, uint* triangle,
-                                       ox_outcome* outcome, uint* work) {
+                                       __global const ox_triangle* triangles, uint walk_limit,
+                                       float behind, uint* triangle, ox_outcome* outcome,
+                                       uint* work) {
   const float epsilon = ray->epsilon;
   const ox_cast cast = ox_cast_from(ray->origin, ray->direction);
   const ox_crossing crossing =
-      ox_walk(&cast, triangles, mesh->triangle_first, *triangle, walk_limit, epsilon, work);
+      ox_walk(&cast, triangles, mesh->triangle_first, *triangle, walk_limit, work);
   *triangle = crossing.triangle;
   *outcome = ox_miss();
   if (crossing.triangle == OX_NONE) return false;
@@ -119,22 +80,6 @@ static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const 
   const float3 direction = turned ? -ray->direction : ray->direction;
   const float t = turned ? -crossing.t : crossing.t;
   const bool back = two_sided || crossing.back != turned;
-  if (proof) {
-    // A crossing at the vertex itself is a matter of touching, one on an edge of which triangle; an
-    // entry behind it proves the vertex inside, but not where it leaves.
-    if (fabs(t) <= epsilon || !crossing.interior || (!back && t < 0.0f)) return false;
-    // Outside, but so close to the surface that rays in other directions might start on it.
-    const float slope = ox_dot(direction, vload3(0, triangles[crossing.triangle].normal));
-    if (t < 0.0f && fabs(t * slope) <= epsilon) return false;
-    const float3 hit = ray->origin + t * direction;
-    if (!ox_alone_between(triangles + crossing.triangle, isolations + crossing.triangle, direction,
-                          ray->origin, hit, epsilon))
-      return false;
-    if (ray->both_ways &&
-        !ox_alone_between(triangles + crossing.triangle, isolations + crossing.triangle, direction,
-                          ray->origin, ray->origin - t * direction, epsilon))
-      return false;
-  }
   if (!back || t < 0.0f) {  // outside; a face that is far behind is no use to the next step
     if (t < -behind) *triangle = OX_NONE;
     return true;
@@ -147,7 +92,7 @@ static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const 
                              ray->exit, epsilon);
   if (reversed) outcome->kind |= OX_HIT_REVERSED;
   // As the paper: a hit beyond the vertex's own exit is not its contact.
-  if (!proof && (outcome->kind & OX_HIT_KIND) != OX_HIT_INSIDE) *outcome = ox_miss();
+  if ((outcome->kind & OX_HIT_KIND) != OX_HIT_INSIDE) *outcome = ox_miss();
   return true;
 }
 

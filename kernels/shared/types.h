@@ -60,32 +60,21 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 
 // What a step does other than usual (options.h). Whether rays are iterative at all is decided by
 // whether pairs keep temporal data.
-#define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, without proof
+#define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, as found
 #define OX_RAYS_BASIC 2u  // deformable targets without their BVH
 #define OX_RAYS_EDGES 4u  // crossings of edges are searched too
-#define OX_RAYS_FLOOD 8u  // and tell which vertices are inside targets that are embedded
+#define OX_RAYS_FLOOD 8u  // and tell which vertices are inside (shared/flooded.h)
 
 #define OX_NONE 0xffffffffu
 
 #define OX_CHUNK_VERTICES 16u
-#define OX_GROUP_CHUNKS 8u  // chunks that are dismissed together
 
 #define OX_LANES 16u          // triangles, and vertices, of a meshlet (geometry/meshlets.h)
 #define OX_MESHLET_EDGES 32u  // edges of one
 
-// A block of the clearance grid is this many cells of the occupancy grid wide.
-#define OX_BLOCK_CELLS 2u
-
-// Of a slab (geometry/surface_slabs.h): the normal, lo, hi, and whether outside is above it.
-#define OX_SLAB_WORDS 6u
-
 #define OX_MESH_CLOSED 1u
-#define OX_MESH_GRID 2u        // its occupancy grid is there
-#define OX_MESH_DEFORMABLE 4u  // its vertices move: what depends on them is made on the device
-#define OX_MESH_TWO_SIDED 8u   // deformable and open: a sheet, with no inside
-#define OX_MESH_ISOLATED 16u   // the isolation of its triangles is known: iterative rays can prove
-#define OX_MESH_CLEARANCE 32u  // its clearance grid is there
-#define OX_MESH_EMBEDDED 64u   // a solid whose surface does not meet itself (geometry/embedded.h)
+#define OX_MESH_DEFORMABLE 2u  // its vertices move: what depends on them is made on the device
+#define OX_MESH_TWO_SIDED 4u   // deformable and open: a sheet, with no inside
 
 // A geom of this step. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin.
@@ -104,27 +93,16 @@ typedef struct {
   ox_u32 meshlet_first, meshlet_count;
   ox_u32 meshlet_node_first, meshlet_node_count;
   ox_u32 component_first, component_count;
-  ox_u32 group_first;      // a deformable mesh has none
-  ox_u32 grid_first;       // word index of the occupancy bits
-  ox_u32 clearance_first;  // word index of the clearance, signed steps, four to a word
-  ox_u32 slab_bits_first;  // word index of which blocks have a slab: bits and their rank by turns
-  ox_u32 slab_first;       // word index of the slabs, OX_SLAB_WORDS each
-  ox_u32 grid_cells[3];
   ox_u32 flags;
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
-  ox_f32 grid_origin[3];
-  ox_f32 grid_scale[3];    // cells per metre
-  ox_f32 grid_side[3];     // of a cell [m]
-  ox_f32 extent;           // largest distance of a box corner from the local origin
-  ox_f32 radius;           // of the vertices about the box's centre
-  ox_f32 steps_per_metre;  // of the clearance
-  ox_f32 slab_reach;       // [m]; 0: there are no slabs
-  ox_f32 mean_edge;        // [m]
-  ox_f32 reach;            // of an open mesh: the longest ray of its vertices; 0: closed [m]
-  ox_f32 moved;  // the farthest a vertex went in its own frame at the last deformation [m]
+  ox_f32 extent;     // largest distance of a box corner from the local origin
+  ox_f32 radius;     // of the vertices about the box's centre
+  ox_f32 mean_edge;  // [m]
+  ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 164, ox_mesh_is_164_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -134,15 +112,14 @@ typedef struct {
 } ox_vertex;
 OX_STATIC_ASSERT(sizeof(ox_vertex) == 32, ox_vertex_is_32_bytes);
 
-// A run of vertices; or OX_GROUP_CHUNKS of them.
+// A run of vertices.
 typedef struct {
   ox_u32 first, count;  // index into all of them
   ox_f32 centre[3];
   ox_f32 half_size[3];
-  ox_f32 radius;  // of the box about its centre
-  ox_f32 reach;   // largest finite exit of its vertices
-  ox_f32 moved;   // the farthest one of them went in its own frame at the last deformation [m]
-  ox_u32 padding;
+  ox_f32 reach;  // largest finite exit of its vertices
+  ox_f32 moved;  // the farthest one of them went in its own frame at the last deformation [m]
+  ox_u32 padding[2];
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 
@@ -237,13 +214,6 @@ typedef struct {
   ox_u32 across_ca;
 } ox_triangle;
 OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
-
-// How far from the middle of a triangle another may be before it is not of the same gently curved
-// piece of surface (geometry/isolation.h), for three meanings of gently [m]; 0: nothing is known.
-typedef struct {
-  ox_f32 within_10, within_30, within_60;
-} ox_isolation;
-OX_STATIC_ASSERT(sizeof(ox_isolation) == 12, ox_isolation_is_12_bytes);
 
 // What the pair step finds for a pair of objects A = object[0], B = object[1]. Side 0 takes points
 // of A into the frame of B, side 1 points of B into the frame of A: target = rotation[side] *

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "geometry/embedded.h"
 #include "geometry/exit_distance.h"
 #include "geometry/facets.h"
 #include "geometry/measures.h"
@@ -16,14 +15,6 @@
 
 namespace ode_ext {
 namespace {
-
-// The grid is asked about the very position whose ray would be cast, so only what may call that
-// position inside a little off the surface matters: a kernel computes it, and decides hits, to
-// within 2^-20 ~ 1e-6 of the extents (a handful of float roundings of 2^-24). Ten times that is
-// still less than 1/100 of the smallest cell (1/512 of a side) and costs nothing. A pair whose
-// other mesh is much larger, or far off, rounds to more and asks for distances instead
-// (shared/cull.h).
-constexpr double kGridMargin = 1e-5;  // of the box's diagonal
 
 float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
   double largest = 0;
@@ -88,25 +79,8 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
   connect(mesh);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
-  mesh.embedded = mesh.closed && is_embedded(mesh.vertices, mesh.triangles, mesh.neighbours,
-                                             mesh.bvh, mesh.face_normals);
-  // Of a mesh that cuts itself, vertices that grids know to be outside may have rays that first
-  // meet a face from behind: without the grids it would have other contacts.
-  const bool wants_grids = options.grids && !(options.flooded && mesh.embedded);
-  if (wants_grids || (mesh.closed && !mesh.embedded)) {
-    const auto margin = static_cast<float>(kGridMargin * length(extent(mesh.box)));
-    mesh.grid = build_occupancy_grid(mesh.vertices, mesh.triangles, mesh.box.lo, mesh.box.hi,
-                                     margin, mesh.closed);
-    mesh.clearance = build_clearance_grid(mesh.grid);
-    mesh.slabs = build_surface_slabs(mesh.vertices, mesh.triangles, mesh.bvh, mesh.grid,
-                                     mesh.clearance, margin);
-  }
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
-    if (options.isolation && mesh.embedded) {
-      mesh.isolation =
-          isolation(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.bvh, mesh.neighbours);
-    }
   } else {
     const float thickness = options.open_thickness > 0 ? options.open_thickness : mesh.mean_edge;
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh, thickness);

@@ -10,15 +10,11 @@
 
 #include "geometry/box.h"
 #include "geometry/bvh.h"
-#include "geometry/clearance_grid.h"
 #include "geometry/edges.h"
-#include "geometry/isolation.h"
 #include "geometry/meshlets.h"
 #include "geometry/neighbours.h"
-#include "geometry/occupancy_grid.h"
 #include "geometry/rings.h"
 #include "geometry/runs.h"
-#include "geometry/surface_slabs.h"
 #include "geometry/vec.h"
 
 namespace ode_ext {
@@ -68,13 +64,8 @@ struct Mesh {
   std::vector<Edge> edges, flat_edges;
   Meshlets meshlets;  // of `bvh`, with these edges
   Rings rings;        // of these edges
-  // Of each triangle, if asked for; empty unless the mesh is embedded.
-  std::vector<Isolation> isolation;
 
   Bvh bvh;                          // over `triangles`
-  OccupancyGrid grid;               // if asked for, or needed (MeshOptions)
-  ClearanceGrid clearance;          // of `grid`
-  SurfaceSlabs slabs;               // of `clearance`
   std::vector<VertexChunk> chunks;  // of `vertices`
 
   Box box{};
@@ -82,7 +73,6 @@ struct Mesh {
   // [m].
   float radius = 0;
   float mean_edge = 0;       // [m]
-  bool embedded = false;     // as in embedded.h; not asked of deformable meshes
   bool closed = false;       // every edge has exactly two triangles, of opposite direction
   bool inverted = false;     // the winding was turned: the closed mesh had a negative volume
   bool reoriented = false;   // the winding was made consistent: each part now faces outward
@@ -104,12 +94,7 @@ Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 
 struct MeshOptions {
   float open_thickness = 0;  // [m] bounds the exits of an open mesh; 0: its mean edge
-  // Worth building for a mesh that lives for more than a step or two; a closed mesh that is not
-  // proven to be embedded has them anyway, since its contacts depend on them.
-  bool grids = true;
-  bool isolation = true;    // likewise, but no contact depends on it
-  bool flooded = false;     // an embedded mesh has no use for grids (kernels/flood.cl)
-  bool deformable = false;  // implies that there is neither
+  bool deformable = false;
 };
 
 // Builds everything above. Throws std::bad_alloc only.

@@ -78,10 +78,7 @@ const ColliderOptions& announced(const ColliderOptions& options) {
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
                              bool trust_meshes, bool triangle_callbacks)
     : collider_(announced(options)),
-      meshes_({.open_thickness = open_thickness,
-               .isolation = options.rays == Rays::kIterative,
-               .flooded = floods(options)},
-              trust_meshes),
+      meshes_({.open_thickness = open_thickness}, trust_meshes),
       triangle_callbacks_(triangle_callbacks) {
   const DeviceInfo& info = collider_.device_info();
   log(LogLevel::kInfo, "the kernels are ready");

@@ -17,10 +17,6 @@ namespace {
 // back.
 constexpr std::uint64_t kPassesKept = 600;
 
-// Grids and isolation take most of the time of building a mesh and pay in later passes only. A mesh
-// that changed in two passes running goes without until it has been the same for so many.
-constexpr std::uint64_t kPassesStill = 10;
-
 }  // namespace
 
 const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::uint64_t look,
@@ -34,10 +30,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) return entry.mesh;
 
   const MeshReader reader(data);
-  const bool same = entry.mesh != nullptr && reader.still_gives(entry.mesh->soup);
-  if (!same || (entry.restless && entry.changed_pass + kPassesStill <= pass)) {
-    entry.restless = !same && entry.mesh != nullptr && entry.changed_pass + 1 >= pass;
-    if (!same) entry.changed_pass = pass;
+  if (entry.mesh == nullptr || !reader.still_gives(entry.mesh->soup)) {
     reader.read(soup_);
     update(entry);
     resident_is_stale_ = true;
@@ -49,7 +42,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
 
 void MeshStore::update(Entry& entry) {
   if (!entry.deformable) {
-    entry.mesh = build(entry.restless);
+    entry.mesh = build();
   } else {
     if (entry.mesh != nullptr) ++deformed_;
     std::shared_ptr<const Mesh> shape;
@@ -66,17 +59,15 @@ void MeshStore::update(Entry& entry) {
   entry.refused = !reason.empty();
 }
 
-std::shared_ptr<const Mesh> MeshStore::build(bool restless) {
+std::shared_ptr<const Mesh> MeshStore::build() {
   const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
   const auto [first, last] = by_content_.equal_range(hash);
   for (auto known = first; known != last; ++known) {
     auto mesh = known->second.lock();
     if (mesh != nullptr && compare_soups(mesh->soup, soup_) == 0) return mesh;
   }
-  MeshOptions options = options_;
-  if (restless) options.grids = options.isolation = false;
-  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, options));
-  if (!restless) by_content_.emplace(hash, mesh);
+  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, options_));
+  by_content_.emplace(hash, mesh);
   return mesh;
 }
 

@@ -64,17 +64,15 @@ class MeshStore {
     std::shared_ptr<const Mesh> base;  // of a deformable mesh: as it was built
     std::uint64_t last_look = 0;
     std::uint64_t last_pass = 0;
-    std::uint64_t changed_pass = 0;  // the last in which it was found to be another
     std::uint64_t order = 0;
     bool changed = false;  // announced
     bool deformable = false;
     bool left_box = false;
     bool refused = false;
-    bool restless = false;  // changed pass after pass: built without what pays in later ones only
   };
 
   void update(Entry& entry);  // from soup_
-  std::shared_ptr<const Mesh> build(bool restless);
+  std::shared_ptr<const Mesh> build();
   static void drop(Entry& entry);
 
   MeshOptions options_;

@@ -30,7 +30,6 @@ Vec3f half_size(const Box& box) {
 void store_box(const Box& box, ox_chunk& record) {
   store(record.centre, centre(box));
   store(record.half_size, half_size(box));
-  record.radius = std::nextafter(length(half_size(box)), INFINITY);
 }
 
 // The deform step makes the rest of the records of deformable meshes.
@@ -52,23 +51,6 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   for (std::uint32_t v = chunk.first; v < chunk.first + chunk.count; ++v)
     if (std::isfinite(mesh.exits[v])) record.reach = std::max(record.reach, mesh.exits[v]);
   return record;
-}
-
-// For every OX_GROUP_CHUNKS of them, the last with fewer, a record that holds them all. `first`: of
-// their own records.
-void append_groups(const std::vector<VertexChunk>& chunks, std::size_t first,
-                   std::vector<ox_chunk>& records) {
-  for (std::size_t i = 0; i < chunks.size();) {
-    Box box = empty_box();
-    ox_chunk group{};
-    const std::size_t end = std::min(chunks.size(), i + OX_GROUP_CHUNKS);
-    for (; i < end; ++i) {
-      box = grown(box, chunks[i].box);
-      group.reach = std::max(group.reach, records[first + i].reach);
-    }
-    store_box(box, group);
-    records.push_back(group);
-  }
 }
 
 // A ray origin inside the box and the slab distances carry together less than 16 roundings of
@@ -122,21 +104,7 @@ std::vector<std::uint32_t> places_in_leaves(const Mesh& mesh) {
   return places;
 }
 
-void append_bytes(std::vector<ox_u32>& words, const std::vector<std::int8_t>& bytes) {
-  const std::size_t first = words.size();
-  words.resize(first + (bytes.size() + 3) / 4);
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    words[first + i / 4] |= ox_u32{static_cast<std::uint8_t>(bytes[i])} << (8 * (i % 4));
-}
-
-void append_slab(std::vector<ox_u32>& words, const SurfaceSlab& slab) {
-  for (const float value : {slab.normal.x, slab.normal.y, slab.normal.z, slab.lo, slab.hi})
-    words.push_back(std::bit_cast<ox_u32>(value));
-  words.push_back(slab.outside);
-}
-
-static_assert(OX_GROUP_CHUNKS == kRunsPerGroup);
-static_assert(OX_BLOCK_CELLS == kBlockCells && OX_CHUNK_VERTICES == kChunkVertices);
+static_assert(OX_CHUNK_VERTICES == kChunkVertices);
 
 template <class T>
 void upload_all(Buffer& buffer, const std::vector<T>& records) {
@@ -192,8 +160,6 @@ DeviceMeshes::DeviceMeshes(Program& program)
       meshlets_(program.device()),
       meshlet_nodes_(program.device()),
       facets_(program.device()),
-      isolations_(program.device()),
-      grids_(program.device()),
       topologies_(program.device()) {}
 
 void DeviceMeshes::set(const MeshList& meshes) {
@@ -238,8 +204,6 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_meshlets_.clear();
   host_meshlet_nodes_.clear();
   host_facets_.clear();
-  host_isolations_.clear();
-  host_grids_.clear();
   host_topologies_.clear();
   deformables_.clear();
   for (const auto& mesh : meshes) {
@@ -262,24 +226,8 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.tree.size());
   record.component_first = static_cast<ox_u32>(host_components_.size());
   record.component_count = static_cast<ox_u32>(built.rings.components.size());
-  record.group_first = record.chunk_first + record.chunk_count;
-  record.grid_first = static_cast<ox_u32>(host_grids_.size());
-  record.clearance_first = static_cast<ox_u32>(host_grids_.size() + built.grid.bits.size());
-  record.slab_bits_first =
-      record.clearance_first + static_cast<ox_u32>((built.clearance.steps.size() + 3) / 4);
-  record.slab_first = record.slab_bits_first + 2 * static_cast<ox_u32>(built.slabs.bits.size());
-  if (!built.clearance.steps.empty()) record.steps_per_metre = 1 / built.clearance.step;
-  record.slab_reach = built.slabs.reach;
-  std::copy(built.grid.cells.begin(), built.grid.cells.end(), record.grid_cells);
-  record.flags =
-      (mesh.closed ? OX_MESH_CLOSED : 0u) | (built.grid.bits.empty() ? 0u : OX_MESH_GRID) |
-      (built.clearance.steps.empty() ? 0u : OX_MESH_CLEARANCE) |
-      (built.isolation.empty() ? 0u : OX_MESH_ISOLATED) | (built.embedded ? OX_MESH_EMBEDDED : 0u) |
-      (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
-      (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
-  store(record.grid_origin, built.grid.origin);
-  store(record.grid_scale, built.grid.cells_per_meter);
-  for (std::size_t k = 0; k < 3; ++k) record.grid_side[k] = 1 / built.grid.cells_per_meter[k];
+  record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) | (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
+                 (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
   measure(mesh, record);
 
   const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
@@ -297,7 +245,6 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   append_edges(built, first);
   append_rings(built.rings, first);
   append_meshlets(built, first, host_meshlets_);
-  if (!mesh.deformable) append_groups(built.chunks, record.chunk_first, host_chunks_);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
@@ -306,9 +253,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   const std::vector<std::uint32_t> places = places_in_leaves(built);
   for (const std::uint32_t triangle : built.bvh.order) {
     host_triangles_.push_back(to_record(built, triangle, places));
-    const Isolation isolation = built.isolation.empty() ? Isolation{} : built.isolation[triangle];
     host_facets_.push_back(built.facets.empty() ? triangle : built.facets[triangle]);
-    host_isolations_.push_back({isolation.within_10, isolation.within_30, isolation.within_60});
   }
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);
   for (std::size_t t = 0; t < built.triangles.size(); ++t)
@@ -316,13 +261,6 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
       std::uint32_t& owner = owner_triangles_[vertex_first + corner];
       owner = std::min(owner, built.source_triangle[t]);
     }
-  host_grids_.insert(host_grids_.end(), built.grid.bits.begin(), built.grid.bits.end());
-  append_bytes(host_grids_, built.clearance.steps);
-  for (std::size_t i = 0; i < built.slabs.bits.size(); ++i) {
-    host_grids_.push_back(built.slabs.bits[i]);
-    host_grids_.push_back(built.slabs.ranks[i]);
-  }
-  for (const SurfaceSlab& slab : built.slabs.slabs) append_slab(host_grids_, slab);
 }
 
 void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first) {
@@ -387,8 +325,6 @@ void DeviceMeshes::upload() {
   upload_all(meshlets_, host_meshlets_);
   upload_all(meshlet_nodes_, host_meshlet_nodes_);
   upload_all(facets_, host_facets_);
-  upload_all(isolations_, host_isolations_);
-  upload_all(grids_, host_grids_);
   upload_all(topologies_, host_topologies_);
 }
 

@@ -56,8 +56,6 @@ class DeviceMeshes {
   const Buffer& meshlet_nodes() const { return meshlet_nodes_; }
   // Of each triangle, over all triangles: the number of its facet within its mesh.
   const Buffer& facets() const { return facets_; }
-  const Buffer& isolations() const { return isolations_; }
-  const Buffer& grids() const { return grids_; }
   const Buffer& topologies() const { return topologies_; }  // see ox_move
 
  private:
@@ -92,14 +90,12 @@ class DeviceMeshes {
   std::vector<ox_meshlet> host_meshlets_;
   std::vector<ox_meshlet_node> host_meshlet_nodes_;
   std::vector<ox_u32> host_facets_;
-  std::vector<ox_isolation> host_isolations_;
-  std::vector<ox_u32> host_grids_;
   std::vector<ox_u32> host_topologies_;
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
   Buffer records_, chunks_, vertices_, triangles_, edges_, ring_starts_, rings_, components_,
-      meshlets_, meshlet_nodes_, facets_, isolations_, grids_, topologies_;
+      meshlets_, meshlet_nodes_, facets_, topologies_;
 };
 
 }  // namespace ode_ext

@@ -19,10 +19,9 @@ class MonolithicStep {
     const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(),
                    pairs.chunks, pairs.pairs, meshes.records(), meshes.chunks(), meshes.vertices(),
-                   meshes.grids(), meshes.triangles(), meshes.meshlets(), meshes.meshlet_nodes(),
-                   meshes.isolations(), settings.rays_mode, settings.displacement_limit,
-                   settings.walk_limit, temporal.before(), temporal.now(), pairs.hits, lists.hits(),
-                   works);
+                   meshes.triangles(), meshes.meshlets(), meshes.meshlet_nodes(),
+                   settings.rays_mode, settings.displacement_limit, settings.walk_limit,
+                   temporal.before(), temporal.now(), pairs.hits, lists.hits(), works);
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

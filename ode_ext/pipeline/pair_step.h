@@ -17,11 +17,10 @@ class PairStep {
   void run(Launch launch, const StepData& data, const TemporalCache& temporal, bool dense) {
     const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.objects,
-                   meshes.records(), meshes.chunks(), meshes.grids(), pairs.members,
-                   temporal.links(), pairs.count, temporal.step(), settings.rays_mode,
-                   settings.displacement_limit, temporal.poses(), temporal.directory(), pairs.pairs,
-                   pairs.hits, pairs.crossings, pairs.heads, pairs.ranges, cl_uint{dense},
-                   pairs.dense_first, lists.tasks());
+                   meshes.records(), meshes.chunks(), pairs.members, temporal.links(), pairs.count,
+                   temporal.step(), settings.rays_mode, settings.displacement_limit,
+                   temporal.poses(), temporal.directory(), pairs.pairs, pairs.hits, pairs.crossings,
+                   pairs.heads, pairs.ranges, cl_uint{dense}, pairs.dense_first, lists.tasks());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -18,9 +18,8 @@ class RayStep {
     const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), lists.rays(),
                    pairs.pairs, meshes.records(), meshes.vertices(), meshes.triangles(),
-                   meshes.meshlets(), meshes.meshlet_nodes(), meshes.isolations(),
-                   settings.rays_mode, settings.walk_limit, temporal.now(), pairs.hits,
-                   lists.hits(), works);
+                   meshes.meshlets(), meshes.meshlet_nodes(), settings.rays_mode,
+                   settings.walk_limit, temporal.now(), pairs.hits, lists.hits(), works);
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

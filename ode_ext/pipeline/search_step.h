@@ -68,7 +68,8 @@ class FloodStep {
                    meshes.records(), pairs.heads, lists.crossings(), lists.crossing_links(),
                    meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
                    meshes.components(), meshes.triangles(), meshes.meshlets(),
-                   meshes.meshlet_nodes(), pairs.count, lists.rays(), lists.flood_words());
+                   meshes.meshlet_nodes(), pairs.count, settings.rays_mode, lists.rays(),
+                   lists.flood_words());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -19,9 +19,9 @@ struct Step {
   StepReport& report;
   Workload workload;
   std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
-  // What is among its objects: deformable meshes, and solids that the flood knows (cross.cl).
+  // What is among its objects: deformable meshes, and none but what is flooded (shared/flooded.h).
   bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });
-  bool floods_all = !any_object([](const Mesh& mesh) { return !topology(mesh).embedded; });
+  bool floods_all = !any_object([](const Mesh& mesh) { return mesh.deformable && !mesh.closed; });
 
   bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
   TemporalCache& temporal() const { return remembers() ? *memory->temporal : nothing; }

@@ -23,7 +23,7 @@ class VertexStep {
     const auto& [meshes, pairs, lists, settings] = data;
     kernels_[static_cast<std::size_t>(category)].launch(
         launch.groups, launch.local, lists.counters(), lists.lists(), lists.tasks(), pairs.pairs,
-        meshes.records(), meshes.chunks(), meshes.vertices(), meshes.grids(), settings.rays_mode,
+        meshes.records(), meshes.chunks(), meshes.vertices(), settings.rays_mode,
         settings.displacement_limit, temporal.before(), temporal.now(), lists.rays(), works);
   }
   double take_milliseconds() {

@@ -26,10 +26,9 @@ void expect_whole(const Mesh& mesh) {
 bool is_empty(const Mesh& mesh) {
   return mesh.vertices.empty() && mesh.normals.empty() && mesh.exits.empty() &&
          mesh.triangles.empty() && mesh.source_triangle.empty() && mesh.face_normals.empty() &&
-         mesh.bvh.nodes.empty() && mesh.bvh.order.empty() && mesh.grid.cells[0] == 0 &&
-         mesh.chunks.empty() && mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} &&
-         mesh.radius == 0 && mesh.mean_edge == 0 && !mesh.closed && !mesh.inverted &&
-         !mesh.reoriented;
+         mesh.bvh.nodes.empty() && mesh.bvh.order.empty() && mesh.chunks.empty() &&
+         mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} && mesh.radius == 0 &&
+         mesh.mean_edge == 0 && !mesh.closed && !mesh.inverted && !mesh.reoriented;
 }
 
 TEST(BuildMesh, RefusesCoordinatesThatAreNotFinite) {
@@ -121,7 +120,6 @@ TEST(BuildMesh, DoesNotDependOnTheOrderOfTheTriangles) {
     EXPECT_EQ(one.normals, two.normals);
     EXPECT_EQ(one.exits, two.exits);
     EXPECT_EQ(one.closed, two.closed);
-    EXPECT_EQ(one.grid.bits, two.grid.bits);
     EXPECT_EQ(one.radius, two.radius);
     EXPECT_EQ(one.face_normals, two.face_normals);
     EXPECT_EQ(one.facets, two.facets);
@@ -138,7 +136,6 @@ TEST(BuildMesh, ScalesWithTheMesh) {
     EXPECT_TRUE(mesh.closed);
     EXPECT_EQ(mesh.normals, unit.normals);
     EXPECT_EQ(mesh.triangles, unit.triangles);
-    EXPECT_EQ(mesh.grid.bits, unit.grid.bits);
     EXPECT_EQ(mesh.radius, scale * unit.radius);
     for (std::size_t i = 0; i < unit.exits.size(); ++i) {
       EXPECT_EQ(mesh.exits[i], scale * unit.exits[i]);

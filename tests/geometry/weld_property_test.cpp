@@ -57,14 +57,12 @@ RC_GTEST_PROP(MeshProperty, IsWholeForAnySoup, ()) {
   RC_ASSERT(mesh.exits.size() == mesh.vertices.size());
   RC_ASSERT(mesh.face_normals.size() == mesh.triangles.size());
   RC_ASSERT(mesh.source_triangle.size() == mesh.triangles.size());
-  RC_ASSERT(mesh.grid.bits.empty() == !mesh.closed);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const float norm = length(mesh.normals[i]);
     RC_ASSERT(norm == 0 || std::fabs(norm - 1) < 1e-6f);
     RC_ASSERT(mesh.exits[i] >= 0);
     RC_ASSERT(norm > 0 || mesh.exits[i] == 0);
     RC_ASSERT(mesh.closed || mesh.exits[i] <= mesh.mean_edge);
-    RC_ASSERT(may_be_inside(mesh.grid, mesh.vertices[i]));
   }
 }
 

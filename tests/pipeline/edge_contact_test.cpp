@@ -276,7 +276,7 @@ TEST(EdgeContacts, OfBoxesThatShareAnEdgeAreNotDeeperThanTheShorterWayThroughIt)
 
 // What decides how long a step takes must not decide what it gives.
 TEST(EdgeContacts, AreTheSameBytesInEveryMode) {
-  std::vector<TestMesh> meshes = small_meshes();
+  std::vector<TestMesh> meshes = small_closed_meshes();
   meshes.push_back(make_plate(1.2, 0.02, 2));
   ColliderOptions exact, monolithic, full, tiles;
   exact.launches = LaunchRule::kExact;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which vertices are inside follows from where edges cross: the contacts are those that rays of all
 // vertices give, for a fraction of the rays. The other way to them, iterative rays, looks at every
-// vertex that grids cannot dismiss.
+// vertex in the other's box.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/collider.h"
 #include "pipeline/moving_scene.h"
@@ -55,7 +56,7 @@ TEST_F(Flood, FindsTheVerticesInsideOfSmoothMeshes) {
 }
 
 TEST_F(Flood, FindsTheVerticesInsideOfMeshesOfAllKinds) {
-  MovingScene moving(small_meshes(), 200, 0.02, 2);
+  MovingScene moving(small_closed_meshes(), 200, 0.02, 2);
   for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
   EXPECT_GT(hits_, 3000u);
 }
@@ -104,16 +105,68 @@ TEST_F(Flood, FindsAMeshWhoseFacesAloneCross) {
   EXPECT_GE(hits_, 8u);
 }
 
-TEST_F(Flood, IsNeededForTargetsThatAreSolidsOnly) {
-  // Of meshes that cut themselves every vertex is looked at, as before.
+TEST_F(Flood, FindsTheVerticesInsideOfSolidsThatCutThemselves) {
   const TestMesh crossed = merged(make_cube(1, 3), moved(make_cube(1, 3), {0.5, 0.2, 0.1}));
-  ASSERT_FALSE(build_mesh(soup_of(crossed)).embedded);
   for (int i = 0; i < 6; ++i) {
     const TestScene scene =
         one_pair(crossed, at(0, 0, 0), make_icosphere(0.6, 3), at(0.2 * i, 0.7, 0.1));
     collide(scene.scene);
   }
   EXPECT_GT(hits_, 300u);
+}
+
+// Hills of large triangles, the top of a closed slab or a sheet alone.
+TestMesh hills(bool closed) {
+  TestMesh mesh = closed ? make_box({8, 8, 1}, 16, 16, 1) : make_sheet(8, 16);
+  const float top = closed ? 0.5f : 0;
+  for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3)
+    if (mesh.vertices[i + 2] == top)
+      mesh.vertices[i + 2] +=
+          0.2f * std::sin(1.5f * mesh.vertices[i]) * std::cos(mesh.vertices[i + 1]);
+  return mesh;
+}
+
+TEST_F(Flood, FindsTheVerticesBehindOpenMeshes) {
+  const TestMesh bodies[] = {jittered(make_icosphere(0.4, 3), 0.002, 1),
+                             jittered(make_torus(0.4, 0.12, 24, 12), 0.002, 2),
+                             make_plate(0.7, 0.02, 8), make_cube(0.5)};
+  Random random(71);
+  for (int i = 0; i < 120; ++i) {
+    TestPose body = random.pose(0.5);
+    body.position = {random.uniform(-3.5, 3.5), random.uniform(-3.5, 3.5),
+                     random.uniform(-0.4, 0.7)};
+    const TestScene scene = one_pair(bodies[i % 4], body, hills(false), TestPose{});
+    collide(scene.scene);
+  }
+  EXPECT_GT(hits_, 1000u);
+  EXPECT_LT(rays_, rays_of_all_ / 2);
+}
+
+// Vertices on either side of what pierces the face between them: rays of all would find some behind
+// it, though nothing parts them from the rest.
+TEST_F(Flood, LeavesToItsOwnVerticesWhatPiercesAFace) {
+  const TestScene scene =
+      one_pair(make_cube(1), at(0, 0, 0), make_triangle(0.2), turned({1, 0, 0}, 1.6, {0, 0, 0.45}));
+  const PairContacts& found = flood_.collide(scene.scene, nullptr);
+  EXPECT_EQ(hits(flood_), 2u);
+  ASSERT_GE(found.contacts.size(), 1u);
+  for (const Contact& contact : found.contacts) EXPECT_LT(std::fabs(contact.depth), 0.2);
+}
+
+// In a valley, within the box of the hills and 12 cm above them.
+TEST_F(Flood, CastsNoRayFromABodyJustAboveHills) {
+  for (const bool closed : {true, false}) {
+    const TestScene scene =
+        one_pair(jittered(make_icosphere(0.1, 3), 0.001, 1),
+                 at(-std::numbers::pi / 3, 0, (closed ? 0.5 : 0) - 0.2 + 0.12 + 0.1), hills(closed),
+                 TestPose{});
+    collide(scene.scene);
+    EXPECT_EQ(flood_.report().pairs_bounded, 1u);
+    EXPECT_EQ(rays_, 0u);
+    EXPECT_GT(rays_of_all_, 0u);
+    // Of the 1,280 triangles of the body, none reaches down as far as the hills below it do up.
+    EXPECT_LT(flood_.report().actual[static_cast<std::size_t>(Arrow::kMeshlets)], 200u);
+  }
 }
 
 TEST_F(Flood, GrowsWhatItNeedsRoomFor) {

@@ -19,7 +19,7 @@ std::uint64_t count(const StepReport& report, Arrow arrow) {
 }
 
 std::vector<TestMesh> all_meshes() {
-  std::vector<TestMesh> meshes = small_meshes();
+  std::vector<TestMesh> meshes = small_closed_meshes();
   for (const TestMesh& mesh : smooth_meshes()) meshes.push_back(mesh);
   return meshes;
 }

@@ -25,8 +25,7 @@ class Places : public testing::Test {
   }
 
   static std::shared_ptr<const Mesh> mesh(const TestMesh& made) {
-    return std::make_shared<const Mesh>(
-        build_mesh(soup_of(made), {.grids = false, .isolation = false}));
+    return std::make_shared<const Mesh>(build_mesh(soup_of(made)));
   }
 
   std::vector<ox_link> step() {

@@ -90,6 +90,15 @@ inline std::vector<TestMesh> small_meshes() {
 inline constexpr int kSmallMeshCount = 10;
 inline constexpr int kSmallClosedMeshCount = 8;
 
+// Those against which rays of all vertices find what crossings lead to. What pierces a face of a
+// mesh and meets none of its edges parts none of its vertices from the others; a solid then has its
+// own inside, an open mesh has not.
+inline std::vector<TestMesh> small_closed_meshes() {
+  std::vector<TestMesh> meshes = small_meshes();
+  meshes.resize(kSmallClosedMeshCount);
+  return meshes;
+}
+
 // `count` pairs of the first `kinds` small meshes, turned at random, most of them overlapping; each
 // pair somewhere else.
 inline TestScene random_scene(int count, std::uint64_t seed, int kinds = kSmallMeshCount) {

@@ -7,12 +7,11 @@
 #include <set>
 #include <tuple>
 
-#include "geometry/triangle_distance.h"
 #include "pipeline/oriented_box.h"
 #include "pipeline/rig.h"
 #include "reference/reference_hits.h"
 #include "support/fcl_oracle.h"
-#include "support/mesh_oracle.h"
+#include "support/triangle_distance.h"
 
 namespace ode_ext::test {
 namespace {
@@ -31,8 +30,6 @@ std::set<Key> rays_of(const TestScene& scene, const StepRecords& records) {
   }
   return rays;
 }
-
-oracle::Mesh oracle_mesh(const TestMesh& mesh) { return {mesh.vertices, mesh.indices}; }
 
 // A point of the source in the frame of the target, not by way of the world, which may be far.
 Point in_target(const TestScene& scene, std::size_t pair, std::size_t side, const Point& p) {
@@ -78,48 +75,6 @@ TEST(VertexStep, GivesARayToEveryVertexInsideAClosedMesh) {
     }
   }
   EXPECT_GT(inside, 1000);
-}
-
-// A cell of the grid that touches the surface holds points that are at most its diagonal away.
-TEST(VertexStep, CastsNoRayFromFartherOutsideAClosedMeshThanACellOfItsGrid) {
-  TestScene scene;
-  const std::uint32_t torus = scene.add_mesh(make_torus(0.5, 0.15, 24, 12));
-  const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.5, 3));
-  Random random(13);
-  for (int i = 0; i < 60; ++i) scene.add_pair(sphere, random.pose(0.5), torus, random.pose(0.5));
-  const StepRecords records = Rig::shared().run(scene.scene);
-  const oracle::Mesh oracles[] = {oracle_mesh(scene.meshes[torus]),
-                                  oracle_mesh(scene.meshes[sphere])};
-  std::size_t in_box = 0;
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Box& box = scene.built_mesh_of(i, 1 - side).box;
-      for (const Vec3f& vertex : scene.built_mesh_of(i, side).vertices) {
-        const Point p = in_target(scene, i, side, point_of(vertex));
-        bool is_in = true;
-        for (std::size_t k = 0; k < 3; ++k)
-          is_in = is_in && p[k] >= static_cast<double>(box.lo[k]) &&
-                  p[k] <= static_cast<double>(box.hi[k]);
-        in_box += is_in;
-      }
-    }
-  }
-  for (const ox_ray& ray : records.rays) {
-    const std::size_t pair = ray.pair_side >> 1, side = ray.pair_side & 1;
-    const std::uint32_t mesh = scene.objects[scene.pairs[pair][side]].mesh;
-    const std::uint32_t local = Rig::shared().local_vertex(mesh, ray.vertex);
-    const Point p =
-        in_target(scene, pair, side, point_of(scene.scene.meshes[mesh]->vertices[local]));
-    const Mesh& target = scene.built_mesh_of(pair, 1 - side);
-    Point cell;
-    for (std::size_t k = 0; k < 3; ++k)
-      cell[k] = 1 / static_cast<double>(target.grid.cells_per_meter[k]);
-    const double outside = oracles[scene.objects[scene.pairs[pair][1 - side]].mesh].signed_distance(
-        {p[0], p[1], p[2]});
-    EXPECT_LT(outside, 1.01 * length(cell));  // 1 %: the grid's margin, and rounding
-  }
-  EXPECT_LT(records.rays.size(), in_box * 3 / 4) << "the grid saves too little to be of use";
-  EXPECT_GE(records.rays.size(), records.hits.size());
 }
 
 // The least distance of the segment from p along d [m] to the box; convex, so a ternary search.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "geometry/triangle_distance.h"
+#include "support/triangle_distance.h"
 
 #include <gtest/gtest.h>
 
