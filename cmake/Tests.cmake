@@ -105,7 +105,7 @@ ode_ext_compile_options(missed_pairs)
 target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
 
-# What a pair and a pass cost, beside ODE's own collider, FCL and Bullet's GImpact. Minutes.
+# What a mesh, a pair and a pass cost, beside ODE's own collider, FCL and Bullet's GImpact. Minutes.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(Bullet REQUIRED IMPORTED_TARGET bullet)
 add_library(ode_ext_bench OBJECT EXCLUDE_FROM_ALL
@@ -113,7 +113,7 @@ add_library(ode_ext_bench OBJECT EXCLUDE_FROM_ALL
 ode_ext_compile_options(ode_ext_bench)
 target_link_libraries(ode_ext_bench PUBLIC
   ode_ext_test_support fcl Eigen3::Eigen PkgConfig::Bullet)
-foreach(bench pair_times pile_times)
+foreach(bench mesh_times pair_times pile_times)
   add_executable(${bench} tests/bench/${bench}.cpp)
   ode_ext_compile_options(${bench})
   target_link_libraries(${bench} PRIVATE

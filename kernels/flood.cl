@@ -3,18 +3,21 @@
 // tells on which side of the surface that end is, and both ends of an edge without crossings are on
 // one side. So from the former ends that are inside, over the latter edges, all vertices inside are
 // reached; of a part of the mesh without crossings one ray tells where all of it is. An open target
-// has no inside, but its faces have a space behind them: there the flood ends where it leads round
-// the border, at the last vertex, and a part without crossings is not behind.
+// has no inside, but its faces have a space behind them. A part without crossings is not there, and
+// where the flood gets round the border, to an end in front, all vertices are looked at
+// (vertex_step.cl).
 // The rays of these vertices are cast (ray_step.cl), with those of vertices that may lie on the
 // surface, and they decide: an edge misjudged here to within rounding costs rays, no contact.
 //
-// in    pairs, meshes, crossings, the list of them of each side of a pair (heads, links), vertices,
-//       edges, rings, components, triangles, meshlets, meshlet_nodes
+// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (heads, links),
+//       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (shared/flooded.h)
+//       tasks: of those sides where the flood got round a border
 //       crossings: `other`, which strings those of an edge together
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
-// may overflow: OX_LIST_RAYS_BVH, OX_LIST_FLOOD_WORDS
+// may overflow: OX_LIST_RAYS_BVH, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE,
+//       OX_LIST_FLOOD_WORDS
 #include "shared/cull.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -26,6 +29,8 @@ typedef struct {
   __global const ox_pair* pair;
   uint pair_side;
   __global const ox_mesh* meshes;
+  __global const ox_mesh* source;
+  __global const ox_mesh* target;
   __global ox_edge_crossing* crossings;
   __global const uint* links;
   __global const ox_vertex* vertices;
@@ -36,7 +41,12 @@ typedef struct {
   __global ox_ray* rays;
   __global uint* words;
   ox_flood_table table;
+  bool leaks;  // the flood got round the border of an open target
 } ox_flood_state;
+
+static bool ox_is_open(const ox_flood_state* s) {
+  return (s->target->flags & OX_MESH_CLOSED) == 0u;
+}
 
 static bool ox_has_key(const ox_flood_state* s, uint key) {
   return s->table.places != 0u && s->words[ox_find_key(s->words, &s->table, key)] != 0u;
@@ -52,22 +62,46 @@ static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
   return true;
 }
 
-// Gives a vertex its ray; `inside`: and those that are on its side theirs. False: there is no room.
-static bool ox_flood_vertex(ox_flood_state* s, uint vertex, bool inside) {
+// Queues a vertex to get a ray. False: there is no room, or it is known to be in front.
+static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
   const uint key = OX_KEY(vertex, OX_KEY_VERTEX);
   if (ox_has_key(s, key)) return true;
-  if (!ox_add_key(s, key, 0u)) return false;
-  if (inside) ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
-  const float3 direction = vload3(0, s->vertices[vertex].direction);
-  if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return true;
-  if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->meshes, s->vertices + vertex)) return true;
-  const uint slot = ox_append(s->counters, s->lists, OX_LIST_RAYS_BVH);
-  if (slot == OX_NONE) return true;
-  s->rays[slot].pair_side = s->pair_side;
-  s->rays[slot].vertex = vertex;
-  s->rays[slot].memory = OX_NONE;
-  s->rays[slot].triangle = OX_NONE;
+  s->leaks = ox_is_open(s) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE));
+  if (s->leaks || !ox_add_key(s, key, 0u)) return false;
+  ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
   return true;
+}
+
+static void ox_cast_queue(const ox_flood_state* s) {
+  for (uint i = 0u; i < s->table.queued; ++i) {
+    const uint vertex = ox_queue(s->words, &s->table)[i];
+    const float3 direction = vload3(0, s->vertices[vertex].direction);
+    if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) continue;
+    if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->meshes, s->vertices + vertex)) continue;
+    const uint slot = ox_append(s->counters, s->lists, OX_LIST_RAYS_BVH);
+    if (slot == OX_NONE) continue;
+    s->rays[slot].pair_side = s->pair_side;
+    s->rays[slot].vertex = vertex;
+    s->rays[slot].memory = OX_NONE;
+    s->rays[slot].triangle = OX_NONE;
+  }
+}
+
+// Every vertex of the source is the vertex step's.
+static void ox_look_at_all(const ox_flood_state* s, __global const ox_chunk* chunks,
+                           __global ox_chunk_task* tasks) {
+  const bool deforms = ((s->source->flags | s->target->flags) & OX_MESH_DEFORMABLE) != 0u;
+  const uint category = deforms ? OX_CATEGORY_DEFORMABLE : OX_CATEGORY_HIGH;
+  for (uint k = 0u; k < s->source->chunk_count; ++k) {
+    const uint chunk = s->source->chunk_first + k;
+    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, chunks + chunk)) continue;
+    const uint slot = ox_append(s->counters, s->lists, category);
+    if (slot == OX_NONE) continue;
+    tasks[slot].pair_side = s->pair_side;
+    tasks[slot].chunk = chunk;
+    tasks[slot].category = category;
+    tasks[slot].previous = OX_NONE;
+  }
 }
 
 // Strings the crossings of an edge together, from the last to come on.
@@ -115,15 +149,30 @@ static bool ox_is_parted(const ox_flood_state* s, uint edge) {
   return ox_side_of_end(s, edge, 0u) != OX_END_UNPARTED;
 }
 
-// The ends of the edge of this crossing that are inside; once for all crossings of it.
-static bool ox_flood_ends(ox_flood_state* s, uint crossing) {
+// Whether it is the crossing by which its edge is looked at, once for all of them.
+static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
   const uint edge = s->crossings[crossing].edge;
+  if (edge == OX_NONE) return false;
   const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
-  if (s->words[word + 1u] != crossing) return true;
+  return s->words[word + 1u] == crossing;
+}
+
+static bool ox_flood_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end)
     if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
-        !ox_flood_vertex(s, s->edges[edge].vertex[end], true))
+        !ox_flood_vertex(s, s->edges[edge].vertex[end]))
       return false;
+  return true;
+}
+
+// The ends in front of an open target: a flood that gets there got round its border.
+static bool ox_mark_ends(ox_flood_state* s, uint edge) {
+  for (uint end = 0u; end < 2u; ++end) {
+    const uint outside = OX_KEY(s->edges[edge].vertex[end], OX_KEY_OUTSIDE);
+    if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
+        !ox_add_key(s, outside, 0u))
+      return false;
+  }
   return true;
 }
 
@@ -133,8 +182,7 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
     const uint vertex = ox_queue(s->words, &s->table)[*next];
     for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
       const ox_neighbour neighbour = s->rings[i];
-      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, true))
-        return false;
+      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
     }
   }
   return true;
@@ -142,36 +190,34 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
 
 // Whether a vertex that is not near the surface is inside: of a closed target by a ray of any
 // direction, of an open one by its own.
-static bool ox_is_vertex_inside(const ox_flood_state* s, uint index,
-                                __global const ox_mesh* target) {
+static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->vertices + index;
   if (!ox_keep_vertex(s->pair, side, s->meshes, vertex)) return false;
   uint work = 0u;
-  if ((target->flags & OX_MESH_CLOSED) == 0u) {
+  if (ox_is_open(s)) {
     const ox_vertex_ray ray = ox_ray_of(s->pair, side, s->meshes, vertex);
     uint remember;
     const ox_outcome outcome =
-        ox_cast_in_full(false, &ray, target, &s->surfaces, OX_NONE, 0.0f, &remember, &work);
+        ox_cast_in_full(false, &ray, s->target, &s->surfaces, OX_NONE, 0.0f, &remember, &work);
     return (outcome.kind & OX_HIT_KIND) == OX_HIT_INSIDE;
   }
   ox_query query;
   query.cast.origin = ox_place(s->pair, side, vload3(0, vertex->position));
   query.epsilon = s->pair->epsilon;
-  return ox_is_inside(false, &query, target, &s->surfaces, &work);
+  return ox_is_inside(false, &query, s->target, &s->surfaces, &work);
 }
 
 // Neighbours on one side with a vertex near the surface: which side that is, no crossing tells.
-static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_mesh* target,
-                            uint* next) {
+static bool ox_flood_around(ox_flood_state* s, uint vertex, uint* next) {
   for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
     const ox_neighbour neighbour = s->rings[i];
     const uint outside = OX_KEY(neighbour.vertex, OX_KEY_OUTSIDE);
     if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX)) || ox_has_key(s, outside) ||
         ox_is_parted(s, neighbour.edge))
       continue;
-    const bool inside = ox_is_vertex_inside(s, neighbour.vertex, target);
-    if (inside ? !ox_flood_vertex(s, neighbour.vertex, true) || !ox_flood_on(s, next)
+    const bool inside = ox_is_vertex_inside(s, neighbour.vertex);
+    if (inside ? !ox_flood_vertex(s, neighbour.vertex) || !ox_flood_on(s, next)
                : !ox_add_key(s, outside, 0u))
       return false;
   }
@@ -180,57 +226,59 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex, __global const ox_me
 
 // Parts that no crossing told of: wholly inside, or wholly outside. Behind an open target they are
 // not: what of it is inside of them is so with all of its vertices.
-static bool ox_flood_components(ox_flood_state* s, __global const ox_mesh* source,
-                                __global const ox_mesh* target, __global const uint* components,
+static bool ox_flood_components(ox_flood_state* s, bool any, __global const uint* components,
                                 uint* next) {
-  if ((target->flags & OX_MESH_CLOSED) == 0u) return true;
-  if (source->component_count == 1u && s->table.queued != 0u) return true;
-  for (uint i = 0u; i < source->component_count; ++i) {
-    const uint vertex = components[source->component_first + i];
+  if (ox_is_open(s) || (s->source->component_count == 1u && any)) return true;
+  for (uint i = 0u; i < s->source->component_count; ++i) {
+    const uint vertex = components[s->source->component_first + i];
     if (ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX))) continue;
-    if (!ox_is_vertex_inside(s, vertex, target)) continue;
-    if (!ox_flood_vertex(s, vertex, true) || !ox_flood_on(s, next)) return false;
+    if (!ox_is_vertex_inside(s, vertex)) continue;
+    if (!ox_flood_vertex(s, vertex) || !ox_flood_on(s, next)) return false;
   }
   return true;
 }
 
-static void ox_flood(ox_flood_state* s, uint head, __global const ox_mesh* source,
-                     __global const ox_mesh* target, __global const uint* components) {
+// False: there is no room, or the flood leaks.
+static bool ox_flood(ox_flood_state* s, uint head, __global const uint* components) {
   uint count = 0u;
   for (uint c = head; c != OX_NONE; c = s->links[c]) ++count;
   uint places = OX_LEAST_PLACES;
   while (places < 4u * count) places *= 2u;
+  s->leaks = false;
   s->table.places = s->table.used = s->table.queued = 0u;
   if (count != 0u) {
     s->table = ox_empty_table(s->counters, s->lists, s->words, places);
-    if (s->table.places == 0u) return;
+    if (s->table.places == 0u) return false;
   }
   // Those near the surface first: from them nothing is concluded.
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge == OX_NONE && !ox_flood_vertex(s, s->crossings[c].triangle, false))
-      return;
+    if (s->crossings[c].edge == OX_NONE && !ox_flood_vertex(s, s->crossings[c].triangle))
+      return false;
+  uint next = s->table.queued;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge != OX_NONE && !ox_string_crossing(s, c)) return;
+    if (s->crossings[c].edge != OX_NONE && !ox_string_crossing(s, c)) return false;
+  for (uint c = head; c != OX_NONE && ox_is_open(s); c = s->links[c])
+    if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->crossings[c].edge)) return false;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge != OX_NONE && !ox_flood_ends(s, c)) return;
-  uint next = 0u;
-  if (!ox_flood_on(s, &next)) return;
+    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge)) return false;
+  const bool any = s->table.queued != next;
+  if (!ox_flood_on(s, &next)) return false;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge == OX_NONE &&
-        !ox_flood_around(s, s->crossings[c].triangle, target, &next))
-      return;
-  ox_flood_components(s, source, target, components, &next);
+    if (s->crossings[c].edge == OX_NONE && !ox_flood_around(s, s->crossings[c].triangle, &next))
+      return false;
+  return ox_flood_components(s, any, components, &next);
 }
 
 __kernel void flood(__global volatile uint* counters, __global const ox_list* lists,
                     __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                    __global const uint* heads, __global ox_edge_crossing* crossings,
-                    __global const uint* links, __global const ox_vertex* vertices,
-                    __global const ox_edge* edges, __global const uint* ring_starts,
-                    __global const ox_neighbour* rings, __global const uint* components,
-                    __global const ox_triangle* triangles, __global const ox_meshlet* meshlets,
+                    __global const ox_chunk* chunks, __global const uint* heads,
+                    __global ox_edge_crossing* crossings, __global const uint* links,
+                    __global const ox_vertex* vertices, __global const ox_edge* edges,
+                    __global const uint* ring_starts, __global const ox_neighbour* rings,
+                    __global const uint* components, __global const ox_triangle* triangles,
+                    __global const ox_meshlet* meshlets,
                     __global const ox_meshlet_node* meshlet_nodes, uint pair_count, uint rays_mode,
-                    __global ox_ray* rays, __global uint* words) {
+                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
   for (uint i = ox_next_item(counters, OX_QUEUE_FLOOD); i < 2u * pair_count;
        i = ox_next_item(counters, OX_QUEUE_FLOOD)) {
     __global const ox_pair* pair = pairs + (i >> 1);
@@ -244,6 +292,8 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
     state.pair = pair;
     state.pair_side = i;
     state.meshes = meshes;
+    state.source = source;
+    state.target = target;
     state.crossings = crossings;
     state.links = links;
     state.vertices = vertices;
@@ -255,6 +305,10 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
     state.surfaces.nodes = meshlet_nodes;
     state.rays = rays;
     state.words = words;
-    ox_flood(&state, heads[i], source, target, components);
+    ox_flood(&state, heads[i], components);
+    if (state.leaks)
+      ox_look_at_all(&state, chunks, tasks);
+    else
+      ox_cast_queue(&state);
   }
 }

@@ -48,9 +48,9 @@ __kernel void whole_step(
         meshlet_pairs, pair_crossings, crossings, heads, crossing_links);
   cross_meshlets(counters, lists, meshlet_pairs, pairs, meshes, meshlets, rays_mode, pair_crossings,
                  crossings, heads, crossing_links);
-  flood(counters, lists, pairs, meshes, heads, crossings, crossing_links, vertices, edges,
+  flood(counters, lists, pairs, meshes, chunks, heads, crossings, crossing_links, vertices, edges,
         ring_starts, rings, components, triangles, meshlets, meshlet_nodes, pair_count, rays_mode,
-        rays, words);
+        tasks, rays, words);
   vertex_high(counters, lists, tasks, pairs, meshes, chunks, vertices, rays_mode,
               displacement_limit, temporal_before, temporal, rays, 0);
   vertex_deformable(counters, lists, tasks, pairs, meshes, chunks, vertices, rays_mode,

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 #include "geometry/box.h"
@@ -15,10 +14,16 @@ namespace {
 
 constexpr std::size_t kBins = 16;
 
-// A run of Bvh::order that still has to become a subtree.
+// Items that still have to become a subtree.
 struct Range {
   std::uint32_t first;
   std::uint32_t count;
+};
+
+// A triangle on its way into a leaf.
+struct Item {
+  Box box;
+  std::uint32_t triangle;
 };
 
 struct Bin {
@@ -53,29 +58,29 @@ class Binning {
 
 class Builder {
  public:
-  Builder(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles)
-      : boxes_(triangles.size()) {
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      boxes_[i] = empty_box();
-      for (const std::uint32_t corner : triangles[i])
-        boxes_[i] = grown(boxes_[i], vertices[corner]);
+  Builder(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles) {
+    items_.reserve(triangles.size());
+    for (const Triangle& triangle : triangles) {
+      Box box = empty_box();
+      for (const std::uint32_t corner : triangle) box = grown(box, vertices[corner]);
+      items_.push_back({box, static_cast<std::uint32_t>(items_.size())});
     }
-    bvh_.order.resize(triangles.size());
-    std::iota(bvh_.order.begin(), bvh_.order.end(), 0u);
   }
 
   Bvh build() {
-    if (!boxes_.empty()) {
+    if (!items_.empty()) {
       split_all();
       link_all();
     }
+    bvh_.order.reserve(items_.size());
+    for (const Item& item : items_) bvh_.order.push_back(item.triangle);
     return std::move(bvh_);
   }
 
  private:
   // Emits the nodes in depth-first order. A stack of its own, as no depth is guaranteed.
   void split_all() {
-    std::vector<Range> stack{{0, static_cast<std::uint32_t>(boxes_.size())}};
+    std::vector<Range> stack{{0, static_cast<std::uint32_t>(items_.size())}};
     while (!stack.empty()) {
       const Range range = stack.back();
       stack.pop_back();
@@ -98,7 +103,7 @@ class Builder {
         node.skip = i + 1;
         const std::uint32_t first = node.leaf >> 3;
         for (std::uint32_t k = first; k < first + (node.leaf & 7); ++k) {
-          box = grown(box, boxes_[bvh_.order[k]]);
+          box = grown(box, items_[k].box);
         }
       } else {
         const BvhNode& left = bvh_.nodes[i + 1];
@@ -113,10 +118,10 @@ class Builder {
 
   // Reorders a range and returns how many triangles go left, at least 1 and not all.
   std::uint32_t partition(Range range) {
-    const auto begin = bvh_.order.begin() + range.first;
+    const auto begin = items_.begin() + range.first;
     const auto end = begin + range.count;
     Box centroids = empty_box();
-    for (auto it = begin; it != end; ++it) centroids = grown(centroids, centre(boxes_[*it]));
+    for (auto it = begin; it != end; ++it) centroids = grown(centroids, centre(it->box));
 
     Split best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,8 +130,8 @@ class Builder {
     if (std::isinf(best.cost)) return range.count / 2;  // all in one place
 
     const Binning binning(centroids, best.axis);
-    const auto middle = std::partition(begin, end, [&](std::uint32_t triangle) {
-      return binning.bin(centre(boxes_[triangle])) <= best.last_left;
+    const auto middle = std::partition(begin, end, [&](const Item& item) {
+      return binning.bin(centre(item.box)) <= best.last_left;
     });
     return static_cast<std::uint32_t>(middle - begin);
   }
@@ -137,7 +142,7 @@ class Builder {
     const Binning binning(centroids, axis);
     std::array<Bin, kBins> bins;
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
-      const Box& box = boxes_[bvh_.order[k]];
+      const Box& box = items_[k].box;
       Bin& bin = bins[binning.bin(centre(box))];
       bin.box = grown(bin.box, box);
       ++bin.count;
@@ -165,7 +170,7 @@ class Builder {
     }
   }
 
-  std::vector<Box> boxes_;  // of the triangles
+  std::vector<Item> items_;  // in the order of the leaves so far
   Bvh bvh_;
 };
 

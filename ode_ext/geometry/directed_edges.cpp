@@ -3,23 +3,34 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
+#include <numeric>
 
 namespace ode_ext {
 
+// By the lower corner they are counted into place, a few to each; only those few are compared.
 std::vector<DirectedEdge> sorted_edges(const std::vector<Triangle>& triangles) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(3 * triangles.size());
+  std::uint32_t corners = 0;
+  for (const Triangle& triangle : triangles)
+    for (const std::uint32_t corner : triangle) corners = std::max(corners, corner + 1);
+  std::vector<std::uint32_t> next(corners + 1);
+  for (const Triangle& triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++next[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+
+  std::vector<DirectedEdge> edges(3 * triangles.size());
+  std::uint32_t side = 0;
   for (const Triangle& triangle : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k, ++side) {
       const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to),
-                       static_cast<std::uint32_t>(edges.size()), from < to});
+      const std::uint32_t low = std::min(from, to);
+      edges[next[low]++] = {low, std::max(from, to), side, from < to};
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return std::tie(a.low, a.high, a.side) < std::tie(b.low, b.high, b.side);
-  });
+  for (std::uint32_t corner = 0, first = 0; corner < corners; first = next[corner++])
+    std::sort(edges.begin() + first, edges.begin() + next[corner],
+              [](const DirectedEdge& a, const DirectedEdge& b) {
+                return a.high != b.high ? a.high < b.high : a.side < b.side;
+              });
   return edges;
 }
 

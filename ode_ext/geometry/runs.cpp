@@ -2,22 +2,26 @@
 #include "geometry/runs.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "geometry/box.h"
 
 namespace ode_ext {
 namespace {
 
-using Iterator = std::vector<std::uint32_t>::iterator;
+struct Point {
+  Vec3f place;
+  std::uint32_t index;
+};
+using Iterator = std::vector<Point>::iterator;
 
 // Halves the points across the longest side of their box until a run is left, as a k-d tree
 // (Bentley 1975) does, but at multiples of a run, and of a group as long as there are several.
-void split(const std::vector<Vec3f>& points, Iterator first, Iterator last) {
+void split(Iterator first, Iterator last) {
   for (;;) {
     const auto count = static_cast<std::uint32_t>(last - first);
     if (count <= kRunLength) {
-      std::sort(first, last);  // nth_element leaves them in an order of its own
+      // nth_element leaves them in an order of its own.
+      std::sort(first, last, [](const Point& a, const Point& b) { return a.index < b.index; });
       return;
     }
     const std::uint32_t group = kRunLength * kRunsPerGroup;
@@ -25,17 +29,16 @@ void split(const std::vector<Vec3f>& points, Iterator first, Iterator last) {
     // The nearest to a half that leaves something on both sides.
     const std::uint32_t left = std::max(1u, (count / 2 + unit / 2) / unit) * unit;
     Box box = empty_box();
-    for (Iterator i = first; i != last; ++i) box = grown(box, points[*i]);
+    for (Iterator i = first; i != last; ++i) box = grown(box, i->place);
     const Vec3d size = extent(box);
     const std::size_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto before = [&](std::uint32_t a, std::uint32_t b) {
-      const Vec3f p = points[a], q = points[b];
+    const auto before = [axis](const Point& a, const Point& b) {
       for (const std::size_t k : {axis, (axis + 1) % 3, (axis + 2) % 3})
-        if (p[k] != q[k]) return p[k] < q[k];
-      return a < b;
+        if (a.place[k] != b.place[k]) return a.place[k] < b.place[k];
+      return a.index < b.index;
     };
     std::nth_element(first, first + left, last, before);
-    split(points, first, first + left);
+    split(first, first + left);
     first += left;
   }
 }
@@ -43,9 +46,13 @@ void split(const std::vector<Vec3f>& points, Iterator first, Iterator last) {
 }  // namespace
 
 std::vector<std::uint32_t> order_into_runs(const std::vector<Vec3f>& points) {
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  split(points, order.begin(), order.end());
+  std::vector<Point> all;
+  all.reserve(points.size());
+  for (const Vec3f& place : points) all.push_back({place, static_cast<std::uint32_t>(all.size())});
+  split(all.begin(), all.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(all.size());
+  for (const Point& point : all) order.push_back(point.index);
   return order;
 }
 

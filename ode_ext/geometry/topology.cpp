@@ -5,53 +5,25 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/directed_edges.h"
+
 namespace ode_ext {
 namespace {
 
 constexpr std::size_t kFewestClosedTriangles = 4;  // a tetrahedron
 
-struct HalfEdge {
-  std::uint64_t edge;  // lower corner, higher corner
-  std::uint32_t half;  // 3 * triangle + first corner
-};
-
-bool runs_upward(const std::vector<Triangle>& triangles, std::uint32_t half) {
-  const Triangle& triangle = triangles[half / 3];
-  return triangle[half % 3] < triangle[(half + 1) % 3];
-}
-
-// The two sides of an edge follow one another.
-std::vector<HalfEdge> sorted_half_edges(const std::vector<Triangle>& triangles) {
-  std::vector<HalfEdge> halves;
-  halves.reserve(3 * triangles.size());
-  for (const Triangle& triangle : triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({triangle[k], triangle[(k + 1) % 3]});
-      halves.push_back(
-          {std::uint64_t{low} << 32 | high, static_cast<std::uint32_t>(halves.size())});
-    }
-  }
-  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.half < b.half;
-  });
-  return halves;
-}
-
-bool every_edge_has_two(const std::vector<HalfEdge>& halves) {
-  if (halves.size() % 2 != 0) return false;
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    if (halves[i].edge != halves[i + 1].edge) return false;
-    if (i > 0 && halves[i - 1].edge == halves[i].edge) return false;
+bool every_edge_has_two(const std::vector<DirectedEdge>& edges) {
+  if (edges.size() % 2 != 0) return false;
+  for (std::size_t i = 0; i < edges.size(); i += 2) {
+    if (!same_edge(edges[i], edges[i + 1])) return false;
+    if (i > 0 && same_edge(edges[i - 1], edges[i])) return false;
   }
   return true;
 }
 
-bool consistent(const std::vector<HalfEdge>& halves, const std::vector<Triangle>& triangles) {
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    if (runs_upward(triangles, halves[i].half) == runs_upward(triangles, halves[i + 1].half)) {
-      return false;
-    }
-  }
+bool consistent(const std::vector<DirectedEdge>& edges) {
+  for (std::size_t i = 0; i < edges.size(); i += 2)
+    if (edges[i].upward == edges[i + 1].upward) return false;
   return true;
 }
 
@@ -74,12 +46,17 @@ Winding opposite(Winding winding) {
 
 // Breadth first through each connected part. False, with nothing changed, if some part is not
 // orientable (a Klein bottle).
-bool make_consistent(const std::vector<HalfEdge>& halves, const std::vector<Vec3f>& vertices,
+bool make_consistent(const std::vector<DirectedEdge>& edges, const std::vector<Vec3f>& vertices,
                      std::vector<Triangle>& triangles) {
-  std::vector<std::uint32_t> partner(halves.size());
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    partner[halves[i].half] = halves[i + 1].half;
-    partner[halves[i + 1].half] = halves[i].half;
+  struct Partner {
+    std::uint32_t side;
+    bool agrees;  // runs the edge the other way
+  };
+  std::vector<Partner> partner(edges.size());
+  for (std::size_t i = 0; i < edges.size(); i += 2) {
+    const bool agree = edges[i].upward != edges[i + 1].upward;
+    partner[edges[i].side] = {edges[i + 1].side, agree};
+    partner[edges[i + 1].side] = {edges[i].side, agree};
   }
 
   std::vector<Winding> windings(triangles.size(), Winding::kUnknown);
@@ -94,14 +71,13 @@ bool make_consistent(const std::vector<HalfEdge>& halves, const std::vector<Vec3
       const Winding own = windings[triangle];
       const double cone = cone_volume(vertices, triangles[triangle]);
       volume += own == Winding::kKeep ? cone : -cone;
-      for (std::uint32_t half = 3 * triangle; half < 3 * triangle + 3; ++half) {
-        const std::uint32_t other = partner[half];
-        const bool agree = runs_upward(triangles, half) != runs_upward(triangles, other);
-        const Winding wanted = agree ? own : opposite(own);
-        Winding& found = windings[other / 3];
+      for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
+        const std::uint32_t other = partner[side].side / 3;
+        const Winding wanted = partner[side].agrees ? own : opposite(own);
+        Winding& found = windings[other];
         if (found == Winding::kUnknown) {
           found = wanted;
-          queue.push_back(other / 3);
+          queue.push_back(other);
         } else if (found != wanted) {
           return false;
         }
@@ -129,11 +105,11 @@ double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Trian
 Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles) {
   Orientation result;
   if (triangles.size() < kFewestClosedTriangles) return result;
-  const std::vector<HalfEdge> halves = sorted_half_edges(triangles);
-  if (!every_edge_has_two(halves)) return result;
+  const std::vector<DirectedEdge> edges = sorted_edges(triangles);
+  if (!every_edge_has_two(edges)) return result;
 
-  if (!consistent(halves, triangles)) {
-    result.closed = result.reoriented = make_consistent(halves, vertices, triangles);
+  if (!consistent(edges)) {
+    result.closed = result.reoriented = make_consistent(edges, vertices, triangles);
     return result;
   }
   result.closed = true;

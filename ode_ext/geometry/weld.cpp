@@ -2,22 +2,71 @@
 #include "geometry/weld.h"
 
 #include <algorithm>
+#include <bit>
+#include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "geometry/runs.h"
 
 namespace ode_ext {
 namespace {
 
-struct Corner {
-  Vec3f position;
-  std::uint32_t index;  // 3 * triangle + corner
+bool before(const Vec3f& a, const Vec3f& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// The places of corners, each once, in the order in which they came: a hash table with open
+// addressing, at most half full.
+class Places {
+ public:
+  explicit Places(std::size_t most)
+      : table_(std::bit_ceil(2 * most + 1), kNoVertex), mask_(table_.size() - 1) {}
+
+  std::uint32_t index_of(const Vec3f& place) {
+    const auto bits = [](float value) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(value)};
+    };
+    // Multiplicative (Knuth), of which the upper half is well mixed.
+    const std::uint64_t hash =
+        (bits(place.x) * 0x9e3779b97f4a7c15u + bits(place.y)) * 0xc2b2ae3d27d4eb4fu +
+        bits(place.z) * 0x165667b19e3779f9u;
+    for (std::size_t at = hash >> 20;; ++at) {
+      std::uint32_t& found = table_[at & mask_];
+      if (found == kNoVertex) {
+        found = static_cast<std::uint32_t>(places_.size());
+        places_.push_back(place);
+        return found;
+      }
+      if (places_[found] == place) return found;
+    }
+  }
+
+  std::vector<Vec3f> take() { return std::move(places_); }
+
+ private:
+  std::vector<std::uint32_t> table_;
+  std::size_t mask_;
+  std::vector<Vec3f> places_;
 };
 
-bool before(const Corner& a, const Corner& b) {
-  if (a.position.x != b.position.x) return a.position.x < b.position.x;
-  if (a.position.y != b.position.y) return a.position.y < b.position.y;
-  return a.position.z < b.position.z;
+// For each place the number of its vertex, and the vertices: in compact runs (runs.h), whatever the
+// order of the places.
+std::vector<std::uint32_t> number_in_runs(std::vector<Vec3f>& places) {
+  std::vector<std::uint32_t> sorted(places.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return before(places[a], places[b]); });
+  std::vector<Vec3f> in_order;
+  in_order.reserve(places.size());
+  for (const std::uint32_t i : sorted) in_order.push_back(places[i]);
+  std::vector<std::uint32_t> vertex(places.size());
+  std::uint32_t next = 0;
+  for (const std::uint32_t i : order_into_runs(in_order)) {
+    vertex[sorted[i]] = next;
+    places[next++] = in_order[i];
+  }
+  return vertex;
 }
 
 // From the lowest vertex on, which leaves the winding.
@@ -26,57 +75,28 @@ Triangle rotated(const Triangle& t) {
   return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
 }
 
-// The places by the first corner that lies there; `place` of each corner.
-std::vector<std::uint32_t> in_order_of_listing(const std::vector<std::uint32_t>& place,
-                                               std::size_t place_count) {
-  std::vector<std::uint32_t> order;
-  std::vector<bool> listed(place_count);
-  for (const std::uint32_t i : place) {
-    if (listed[i]) continue;
-    listed[i] = true;
-    order.push_back(i);
-  }
-  return order;
-}
-
 }  // namespace
 
-WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder vertex_order) {
+WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
   WeldedMesh mesh;
-  std::vector<Corner> corners;
-  corners.reserve(soup.size());
+  mesh.corner_vertex.assign(soup.size(), kNoVertex);
+  Places places(soup.size());
   for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
     if (soup[i] == soup[i + 1] || soup[i + 1] == soup[i + 2] || soup[i + 2] == soup[i]) continue;
     mesh.source_triangle.push_back(static_cast<std::uint32_t>(i / 3));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3f position = soup[i + k] + Vec3f{};  // -0 + 0 = +0
-      corners.push_back({position, static_cast<std::uint32_t>(corners.size())});
-    }
+    for (std::size_t k = i; k < i + 3; ++k)
+      mesh.corner_vertex[k] = places.index_of(soup[k] + Vec3f{});  // -0 + 0 = +0
   }
-
-  // By place, so that equal ones are neighbours whatever the order of the triangles.
-  std::sort(corners.begin(), corners.end(), before);
-  std::vector<Vec3f> places;
-  std::vector<std::uint32_t> place(corners.size());
-  for (const Corner& corner : corners) {
-    if (places.empty() || !(places.back() == corner.position)) places.push_back(corner.position);
-    place[corner.index] = static_cast<std::uint32_t>(places.size() - 1);
+  mesh.vertices = places.take();
+  if (order == VertexOrder::kRuns) {
+    const std::vector<std::uint32_t> vertex = number_in_runs(mesh.vertices);
+    for (std::uint32_t& corner : mesh.corner_vertex)
+      if (corner != kNoVertex) corner = vertex[corner];
   }
-
-  const std::vector<std::uint32_t> order = vertex_order == VertexOrder::kRuns
-                                               ? order_into_runs(places)
-                                               : in_order_of_listing(place, places.size());
-  std::vector<std::uint32_t> vertex(places.size());
-  mesh.vertices.reserve(places.size());
-  for (const std::uint32_t i : order) {
-    vertex[i] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(places[i]);
-  }
-  mesh.triangles.resize(mesh.source_triangle.size());
-  mesh.corner_vertex.assign(soup.size(), kNoVertex);
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    mesh.triangles[i / 3][i % 3] = vertex[place[i]];
-    mesh.corner_vertex[3 * mesh.source_triangle[i / 3] + i % 3] = vertex[place[i]];
+  mesh.triangles.reserve(mesh.source_triangle.size());
+  for (const std::uint32_t source : mesh.source_triangle) {
+    const std::uint32_t* corner = &mesh.corner_vertex[3 * std::size_t{source}];
+    mesh.triangles.push_back({corner[0], corner[1], corner[2]});
   }
   return mesh;
 }

@@ -65,11 +65,11 @@ class FloodStep {
   void run(Launch launch, const StepData& data) {
     const auto& [meshes, pairs, lists, settings] = data;
     kernel_.launch(launch.groups, launch.local, lists.counters(), lists.lists(), pairs.pairs,
-                   meshes.records(), pairs.heads, lists.crossings(), lists.crossing_links(),
-                   meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
-                   meshes.components(), meshes.triangles(), meshes.meshlets(),
-                   meshes.meshlet_nodes(), pairs.count, settings.rays_mode, lists.rays(),
-                   lists.flood_words());
+                   meshes.records(), meshes.chunks(), pairs.heads, lists.crossings(),
+                   lists.crossing_links(), meshes.vertices(), meshes.edges(), meshes.ring_starts(),
+                   meshes.rings(), meshes.components(), meshes.triangles(), meshes.meshlets(),
+                   meshes.meshlet_nodes(), pairs.count, settings.rays_mode, lists.tasks(),
+                   lists.rays(), lists.flood_words());
   }
   double take_milliseconds() { return kernel_.take_milliseconds(); }
 

@@ -19,9 +19,10 @@ struct Step {
   StepReport& report;
   Workload workload;
   std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
-  // What is among its objects: deformable meshes, and none but what is flooded (shared/flooded.h).
+  // What is among its objects: deformable meshes, and closed ones alone, of which a flood leaves
+  // nothing to the vertex step (flood.cl).
   bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });
-  bool floods_all = !any_object([](const Mesh& mesh) { return mesh.deformable && !mesh.closed; });
+  bool floods_all = !any_object([](const Mesh& mesh) { return !mesh.closed; });
 
   bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
   TemporalCache& temporal() const { return remembers() ? *memory->temporal : nothing; }

@@ -82,4 +82,12 @@ TestMesh make_rock(int triangles) {
   return mesh;
 }
 
+TestMesh make_hills(int triangles) {
+  TestMesh mesh = test::make_sheet(1, std::max(1, static_cast<int>(std::sqrt(triangles / 2.0))));
+  for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3)
+    mesh.vertices[i + 2] =
+        0.1f * std::sin(9 * mesh.vertices[i]) * std::cos(7 * mesh.vertices[i + 1]);
+  return mesh;
+}
+
 }  // namespace ode_ext::bench

@@ -37,4 +37,7 @@ PairCase make_case(const std::string& name, const TestMesh& a, const TestMesh& b
 // A closed, bumpy ball, 1 m wide, of about so many triangles.
 TestMesh make_rock(int triangles);
 
+// An open mesh of about so many triangles: hills, 1 m wide, of which the top is +z.
+TestMesh make_hills(int triangles);
+
 }  // namespace ode_ext::bench

@@ -123,6 +123,7 @@ std::vector<Shape> shapes_of(const Options& options) {
   for (const int triangles : options.triangles) {
     const test::TestMesh rock = bench::make_rock(triangles);
     shapes.push_back({"rocks", rock, rock});
+    shapes.push_back({"hills", rock, bench::make_hills(triangles)});
   }
   return shapes;
 }

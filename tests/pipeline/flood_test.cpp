@@ -142,6 +142,19 @@ TEST_F(Flood, FindsTheVerticesBehindOpenMeshes) {
   EXPECT_LT(rays_, rays_of_all_ / 2);
 }
 
+// There, over edges that do not cross, what is behind the surface leads to what is before it.
+TEST_F(Flood, LeavesVerticesToTheVertexStepWhereItGetsRoundABorder) {
+  const TestMesh ball = jittered(make_icosphere(0.4, 3), 0.002, 1);
+  std::uint64_t tasks = 0;
+  for (int i = 0; i < 8; ++i) {
+    const TestScene scene = one_pair(ball, at(4, -3 + 0.8 * i, 0.05), hills(false), TestPose{});
+    collide(scene.scene);
+    tasks += flood_.report().actual[static_cast<std::size_t>(Arrow::kChunksHigh)];
+  }
+  EXPECT_GT(hits_, 500u);
+  EXPECT_GT(tasks, 100u);
+}
+
 // Vertices on either side of what pierces the face between them: rays of all would find some behind
 // it, though nothing parts them from the rest.
 TEST_F(Flood, LeavesToItsOwnVerticesWhatPiercesAFace) {
