@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/both.h"
 #include "geometry/box.h"
 #include "geometry/bvh.h"
 
@@ -13,6 +14,9 @@ namespace ode_ext {
 namespace {
 
 constexpr std::size_t kBins = 16;
+
+// A thread takes tens of microseconds to start, a triangle half of one.
+constexpr std::size_t kTrianglesAThread = 16384;
 
 // Items that still have to become a subtree.
 struct Range {
@@ -69,7 +73,8 @@ class Builder {
 
   Bvh build() {
     if (!items_.empty()) {
-      split_all();
+      split_all({0, static_cast<std::uint32_t>(items_.size())},
+                worthwhile_threads(items_.size(), kTrianglesAThread), bvh_.nodes);
       link_all();
     }
     bvh_.order.reserve(items_.size());
@@ -78,14 +83,35 @@ class Builder {
   }
 
  private:
-  // Emits the nodes in depth-first order. A stack of its own, as no depth is guaranteed.
-  void split_all() {
-    std::vector<Range> stack{{0, static_cast<std::uint32_t>(items_.size())}};
+  // The nodes of a range in depth-first order, appended.
+  void split_all(Range range, std::size_t threads, std::vector<BvhNode>& nodes) {
+    if (threads <= 1 || range.count <= kMaxLeafTriangles) {
+      split_alone(range, nodes);
+      return;
+    }
+    nodes.push_back({});
+    const std::uint32_t left = partition(range);
+    const std::size_t half = threads / 2;
+    std::vector<BvhNode> others;
+    do_both(
+        threads,
+        [&] {
+          split_all({range.first + left, range.count - left}, threads - half, others);
+        },
+        [&] {
+          split_all({range.first, left}, half, nodes);
+        });
+    nodes.insert(nodes.end(), others.begin(), others.end());
+  }
+
+  // A stack of its own, as no depth is guaranteed.
+  void split_alone(Range whole, std::vector<BvhNode>& nodes) {
+    std::vector<Range> stack{whole};
     while (!stack.empty()) {
       const Range range = stack.back();
       stack.pop_back();
       const bool leaf = range.count <= kMaxLeafTriangles;
-      bvh_.nodes.push_back({{}, 0, {}, leaf ? range.first << 3 | range.count : 0});
+      nodes.push_back({{}, 0, {}, leaf ? range.first << 3 | range.count : 0});
       if (leaf) continue;
       const std::uint32_t left = partition(range);
       stack.push_back({range.first + left, range.count - left});

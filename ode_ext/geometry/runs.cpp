@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/both.h"
 #include "geometry/box.h"
 
 namespace ode_ext {
@@ -14,9 +15,12 @@ struct Point {
 };
 using Iterator = std::vector<Point>::iterator;
 
+// A thread takes tens of microseconds to start, a point about a tenth of one.
+constexpr std::size_t kPointsAThread = 32768;
+
 // Halves the points across the longest side of their box until a run is left, as a k-d tree
 // (Bentley 1975) does, but at multiples of a run, and of a group as long as there are several.
-void split(Iterator first, Iterator last) {
+void split(Iterator first, Iterator last, std::size_t threads) {
   for (;;) {
     const auto count = static_cast<std::uint32_t>(last - first);
     if (count <= kRunLength) {
@@ -38,7 +42,14 @@ void split(Iterator first, Iterator last) {
       return a.index < b.index;
     };
     std::nth_element(first, first + left, last, before);
-    split(first, first + left);
+    if (threads > 1) {
+      const std::size_t half = threads / 2;
+      do_both(
+          threads, [=] { split(first, first + left, half); },
+          [=] { split(first + left, last, threads - half); });
+      return;
+    }
+    split(first, first + left, 1);
     first += left;
   }
 }
@@ -49,7 +60,7 @@ std::vector<std::uint32_t> order_into_runs(const std::vector<Vec3f>& points) {
   std::vector<Point> all;
   all.reserve(points.size());
   for (const Vec3f& place : points) all.push_back({place, static_cast<std::uint32_t>(all.size())});
-  split(all.begin(), all.end());
+  split(all.begin(), all.end(), worthwhile_threads(all.size(), kPointsAThread));
   std::vector<std::uint32_t> order;
   order.reserve(all.size());
   for (const Point& point : all) order.push_back(point.index);

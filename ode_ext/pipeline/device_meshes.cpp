@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "geometry/both.h"
 #include "geometry/ray_cast.h"
 
 namespace ode_ext {
@@ -106,6 +107,9 @@ std::vector<std::uint32_t> places_in_leaves(const Mesh& mesh) {
 
 static_assert(OX_CHUNK_VERTICES == kChunkVertices);
 
+// A thread takes tens of microseconds to start, a triangle half of one.
+constexpr std::size_t kTrianglesAThread = 16384;
+
 template <class T>
 void upload_all(Buffer& buffer, const std::vector<T>& records) {
   buffer.reserve(records.size() * sizeof(T));
@@ -165,7 +169,10 @@ DeviceMeshes::DeviceMeshes(Program& program)
 void DeviceMeshes::set(const MeshList& meshes) {
   // Nothing is in flight here (a step ends with a wait), so the arrays may be rebuilt in place.
   const bool anew = !are_shapes_of_the_same(meshes);
-  if (anew) rebuild(meshes);
+  if (anew)
+    rebuild(meshes);
+  else
+    forget_sources();
   moves_.clear();
   positions_.clear();
   for (auto& [i, deformable] : deformables_) {
@@ -206,11 +213,41 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_facets_.clear();
   host_topologies_.clear();
   deformables_.clear();
+  reserve(meshes);
   for (const auto& mesh : meshes) {
     const auto known = shapes_before.find(&topology(*mesh));
     append(*mesh, known == shapes_before.end() ? nullptr : known->second);
   }
   upload();
+}
+
+// Growing bit by bit, they would be copied several times, at sizes that count.
+void DeviceMeshes::reserve(const MeshList& meshes) {
+  const auto sum = [&](auto count_of) {
+    std::size_t total = 0;
+    for (const auto& mesh : meshes) total += count_of(topology(*mesh));
+    return total;
+  };
+  const std::size_t vertices = sum([](const Mesh& mesh) { return mesh.vertices.size(); });
+  const std::size_t triangles = sum([](const Mesh& mesh) { return mesh.triangles.size(); });
+  host_chunks_.reserve(sum([](const Mesh& mesh) { return mesh.chunks.size(); }));
+  host_vertices_.reserve(vertices);
+  host_ring_starts_.reserve(vertices + 1);
+  host_triangles_.reserve(triangles);
+  host_facets_.reserve(triangles);
+  host_edges_.reserve(
+      sum([](const Mesh& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); }));
+  host_rings_.reserve(sum([](const Mesh& mesh) { return mesh.rings.neighbours.size(); }));
+  host_meshlets_.reserve(sum([](const Mesh& mesh) { return mesh.meshlets.meshlets.size(); }));
+}
+
+// What was uploaded only, once it has been.
+void DeviceMeshes::forget_sources() {
+  const auto free = [](auto&... sources) {
+    (std::decay_t<decltype(sources)>().swap(sources), ...);
+  };
+  free(host_chunks_, host_vertices_, host_triangles_, host_edges_, host_ring_starts_, host_rings_,
+       host_components_, host_meshlets_, host_meshlet_nodes_, host_facets_, host_topologies_);
 }
 
 void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
@@ -242,29 +279,43 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
   const MeshletPlaces first{vertex_first, record.triangle_first,
                             static_cast<std::uint32_t>(host_edges_.size())};
-  append_edges(built, first);
-  append_rings(built.rings, first);
-  append_meshlets(built, first, host_meshlets_);
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
   for (const MeshletNode& node : built.meshlets.tree)
     host_meshlet_nodes_.push_back(to_record(node, record.extent));
   const std::vector<std::uint32_t> places = places_in_leaves(built);
-  for (const std::uint32_t triangle : built.bvh.order) {
-    host_triangles_.push_back(to_record(built, triangle, places));
-    host_facets_.push_back(built.facets.empty() ? triangle : built.facets[triangle]);
+  do_both(
+      worthwhile_threads(built.triangles.size(), kTrianglesAThread),
+      [&] {
+        append_edges(built, first, places);
+        append_rings(built.rings, first);
+        append_owners(built, vertex_first);
+      },
+      [&] {
+        append_meshlets(built, first, host_meshlets_);
+        append_triangles(built, places);
+      });
+}
+
+void DeviceMeshes::append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
+  for (const std::uint32_t triangle : mesh.bvh.order) {
+    host_triangles_.push_back(to_record(mesh, triangle, places));
+    host_facets_.push_back(mesh.facets.empty() ? triangle : mesh.facets[triangle]);
   }
+}
+
+void DeviceMeshes::append_owners(const Mesh& mesh, std::uint32_t vertex_first) {
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);
-  for (std::size_t t = 0; t < built.triangles.size(); ++t)
-    for (const std::uint32_t corner : built.triangles[t]) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t corner : mesh.triangles[t]) {
       std::uint32_t& owner = owner_triangles_[vertex_first + corner];
-      owner = std::min(owner, built.source_triangle[t]);
+      owner = std::min(owner, mesh.source_triangle[t]);
     }
 }
 
-void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first) {
-  const std::vector<std::uint32_t> places = places_in_leaves(mesh);
+void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first,
+                                const std::vector<std::uint32_t>& places) {
   const auto append_all = [&](const std::vector<Edge>& edges) {
     for (const Edge& edge : edges) {
       ox_edge record{};

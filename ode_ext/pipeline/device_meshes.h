@@ -68,10 +68,16 @@ class DeviceMeshes {
 
   bool are_shapes_of_the_same(const MeshList& meshes) const;
   void rebuild(const MeshList& meshes);
+  void reserve(const MeshList& meshes);
+  void forget_sources();
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
-  void append_edges(const Mesh& mesh, const MeshletPlaces& places);
-  void append_rings(const Rings& rings, const MeshletPlaces& places);
+  // `places` of the triangles in the order of the leaves.
+  void append_edges(const Mesh& mesh, const MeshletPlaces& first,
+                    const std::vector<std::uint32_t>& places);
+  void append_rings(const Rings& rings, const MeshletPlaces& first);
+  void append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places);
+  void append_owners(const Mesh& mesh, std::uint32_t vertex_first);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
 

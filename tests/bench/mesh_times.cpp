@@ -75,11 +75,12 @@ Cost measure(const TestMesh& made) {
   Cost cost{};
   const test::OdeMesh* mesh = nullptr;
   cost.ode_ms = milliseconds([&] { mesh = &world.mesh(made); });
-  world.geom(*mesh, test::at(0, 0, 0), space);
+  const dGeomID geom = world.geom(*mesh, test::at(0, 0, 0), space);
   const double before = bytes_in_use();
   const double first = milliseconds([&] { collider.pass(space); });
-  cost.bytes = bytes_in_use() - before;
+  dGeomSetPosition(geom, 0, 0, 1e-3);  // else it is answered from memory
   cost.ms = first - milliseconds([&] { collider.pass(space); });
+  cost.bytes = bytes_in_use() - before;
   return cost;
 }
 
