@@ -7,7 +7,9 @@
 // where the flood gets round the border, to an end in front, all vertices are looked at
 // (vertex_step.cl).
 // The rays of these vertices are cast (ray_step.cl), with those of vertices that may lie on the
-// surface, and they decide: an edge misjudged here to within rounding costs rays, no contact.
+// surface, and they decide: a vertex that is here taken to be inside costs a ray, no contact. One
+// that is taken not to be is lost if none of its edges says otherwise: where they all meet the
+// surface so flat, or run along a ridge so closely, that the order of their crossings rounds.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (heads, links),
 //       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
@@ -16,8 +18,8 @@
 //       crossings: `other`, which strings those of an edge together
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
-// may overflow: OX_LIST_RAYS_BVH, OX_LIST_CHUNKS_HIGH, OX_LIST_CHUNKS_DEFORMABLE,
-//       OX_LIST_FLOOD_WORDS
+// may overflow: OX_LIST_RAYS_BVH, OX_LIST_RAYS_BASIC, OX_LIST_CHUNKS_HIGH,
+//       OX_LIST_CHUNKS_DEFORMABLE, OX_LIST_FLOOD_WORDS
 #include "shared/cull.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -72,13 +74,13 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
   return true;
 }
 
-static void ox_cast_queue(const ox_flood_state* s) {
+static void ox_cast_queue(const ox_flood_state* s, uint list) {
   for (uint i = 0u; i < s->table.queued; ++i) {
     const uint vertex = ox_queue(s->words, &s->table)[i];
     const float3 direction = vload3(0, s->vertices[vertex].direction);
     if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) continue;
     if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->meshes, s->vertices + vertex)) continue;
-    const uint slot = ox_append(s->counters, s->lists, OX_LIST_RAYS_BVH);
+    const uint slot = ox_append(s->counters, s->lists, list);
     if (slot == OX_NONE) continue;
     s->rays[slot].pair_side = s->pair_side;
     s->rays[slot].vertex = vertex;
@@ -120,7 +122,7 @@ static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
 #define OX_END_OUTSIDE 2
 
 // On which side of the surface that crosses the edge first, seen from it, an end is. Crossings
-// nearer to one another than they round, at a ridge or in a valley, are passed over where as many
+// nearer to one another than points round, at a ridge or in a valley, are passed over where as many
 // enter as leave.
 static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
   const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
@@ -133,7 +135,7 @@ static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
       if (t > passed) first = ox_min(first, t);
     }
     if (first == INFINITY) return OX_END_UNPARTED;
-    const float last = first + 2.0f * s->pair->epsilon;  // each of two is off by less than epsilon
+    const float last = first + 2.0f * s->pair->epsilon;  // each of two is off by epsilon
     int leaving = 0;
     for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].other) {
       const float t = sign * s->crossings[c].t;
@@ -188,44 +190,62 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
   return true;
 }
 
-// Whether a vertex that is not near the surface is inside: of a closed target by a ray of any
-// direction, of an open one by its own.
+// Whether a vertex that is not near the surface is inside, or behind an open target: then its own
+// ray meets that from behind, however far off.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->vertices + index;
-  if (!ox_keep_vertex(s->pair, side, s->meshes, vertex)) return false;
+  const float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
+  if (!ox_is_open(s))
+    return ox_keep_vertex(s->pair, side, s->meshes, vertex) &&
+           ox_winds_about(p, s->pair->epsilon, s->target, &s->surfaces);
+  const float3 direction = vload3(0, vertex->direction);
+  if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return false;
+  ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
+  query.direction = ox_turn(s->pair, side, direction);
+  query.cast = ox_cast_from(p, query.direction);
   uint work = 0u;
-  if (ox_is_open(s)) {
-    const ox_vertex_ray ray = ox_ray_of(s->pair, side, s->meshes, vertex);
-    uint remember;
-    const ox_outcome outcome =
-        ox_cast_in_full(false, &ray, s->target, &s->surfaces, OX_NONE, 0.0f, &remember, &work);
-    return (outcome.kind & OX_HIT_KIND) == OX_HIT_INSIDE;
-  }
-  ox_query query;
-  query.cast.origin = ox_place(s->pair, side, vload3(0, vertex->position));
-  query.epsilon = s->pair->epsilon;
-  return ox_is_inside(false, &query, s->target, &s->surfaces, &work);
+  const ox_nearest nearest = ox_trace(false, &query, s->target, &s->surfaces, OX_NONE, &work);
+  return nearest.back_t < nearest.front_t;
 }
 
 // Neighbours on one side with a vertex near the surface: which side that is, no crossing tells.
-static bool ox_flood_around(ox_flood_state* s, uint vertex, uint* next) {
+static bool ox_flood_around(ox_flood_state* s, uint vertex) {
+  // A vertex is listed once for each pair of meshlets that met about it.
+  const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
+  if (s->words[word + 1u] != 0u) return true;
+  s->words[word + 1u] = 1u;
   for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
     const ox_neighbour neighbour = s->rings[i];
     const uint outside = OX_KEY(neighbour.vertex, OX_KEY_OUTSIDE);
     if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX)) || ox_has_key(s, outside) ||
         ox_is_parted(s, neighbour.edge))
       continue;
-    const bool inside = ox_is_vertex_inside(s, neighbour.vertex);
-    if (inside ? !ox_flood_vertex(s, neighbour.vertex) || !ox_flood_on(s, next)
-               : !ox_add_key(s, outside, 0u))
+    if (ox_is_vertex_inside(s, neighbour.vertex) ? !ox_flood_vertex(s, neighbour.vertex)
+                                                 : !ox_add_key(s, outside, 0u))
       return false;
   }
   return true;
 }
 
-// Parts that no crossing told of: wholly inside, or wholly outside. Behind an open target they are
-// not: what of it is inside of them is so with all of its vertices.
+// Ends outside of a target of several parts: behind the wall in front of them they may be in
+// another part. Asked once.
+static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
+  for (uint end = 0u; end < 2u; ++end) {
+    const uint vertex = s->edges[edge].vertex[end];
+    const uint outside = OX_KEY(vertex, OX_KEY_OUTSIDE);
+    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_has_key(s, outside) ||
+        ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
+      continue;
+    if (ox_is_vertex_inside(s, vertex) ? !ox_flood_vertex(s, vertex) || !ox_flood_on(s, next)
+                                       : !ox_add_key(s, outside, 0u))
+      return false;
+  }
+  return true;
+}
+
+// Parts of the source that no crossing told of. Behind an open target they are not: what of it is
+// inside of them is so with all of its vertices.
 static bool ox_flood_components(ox_flood_state* s, bool any, __global const uint* components,
                                 uint* next) {
   if (ox_is_open(s) || (s->source->component_count == 1u && any)) return true;
@@ -264,8 +284,12 @@ static bool ox_flood(ox_flood_state* s, uint head, __global const uint* componen
   const bool any = s->table.queued != next;
   if (!ox_flood_on(s, &next)) return false;
   for (uint c = head; c != OX_NONE; c = s->links[c])
-    if (s->crossings[c].edge == OX_NONE && !ox_flood_around(s, s->crossings[c].triangle, &next))
+    if (s->crossings[c].edge == OX_NONE && !ox_flood_around(s, s->crossings[c].triangle))
       return false;
+  if (!ox_flood_on(s, &next)) return false;
+  const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
+  for (uint c = head; c != OX_NONE && many_parts; c = s->links[c])
+    if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
   return ox_flood_components(s, any, components, &next);
 }
 
@@ -309,6 +333,6 @@ __kernel void flood(__global volatile uint* counters, __global const ox_list* li
     if (state.leaks)
       ox_look_at_all(&state, chunks, tasks);
     else
-      ox_cast_queue(&state);
+      ox_cast_queue(&state, ox_full_list(pairs, meshes, i, rays_mode));
   }
 }

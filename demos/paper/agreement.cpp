@@ -25,8 +25,8 @@ std::vector<Claim> claims_of(const Configuration& configuration) {
   for (const auto& [word, text] : kClaims) {
     if (configuration.has(word)) claims.push_back({text, configuration.without(word)});
   }
-  if (configuration.rays == Rays::kIterative) {
-    Configuration full = configuration;
+  if (configuration.has(kChecked)) {
+    Configuration full = configuration.without(kChecked);
     full.rays = Rays::kFull;
     claims.push_back({"iterative == full", full});
   }
@@ -37,9 +37,13 @@ std::vector<Claim> claims_of(const Configuration& configuration) {
 
 Agreement::Agreement(const std::vector<Configuration>& configurations, std::size_t driver) {
   for (std::size_t i = 0; i < configurations.size(); ++i) {
-    if (i == driver || !configurations[i].is_lossless()) continue;
+    if (i == driver || configurations[i].has(kIgnore)) continue;
+    // By the paper's rule it matters which steps it took part in; it agrees with nobody else.
+    const bool papers = configurations[i].follows_papers_rule();
+    if (papers && configurations[i].is_sampled()) continue;
     for (const Claim& claim : claims_of(configurations[i])) {
       const auto found = std::find(configurations.begin(), configurations.end(), claim.counterpart);
+      if (found == configurations.end() && papers) continue;
       const std::size_t other = found != configurations.end()
                                     ? static_cast<std::size_t>(found - configurations.begin())
                                     : driver;

@@ -8,7 +8,7 @@
 namespace paper {
 namespace {
 
-constexpr std::array<std::pair<Word, const char*>, 7> kWords{{{kPaper, "paper"},
+constexpr std::array<std::pair<Word, const char*>, 7> kWords{{{kChecked, "checked"},
                                                               {kBasic, "basic"},
                                                               {kMonolithic, "monolithic"},
                                                               {kExact, "exact"},
@@ -52,8 +52,8 @@ dBatchColliderParams Configuration::params(const std::string& device) const {
   dBatchColliderParamsInit(&params);
   if (!device.empty()) params.device = device.c_str();
   params.rays = rays == Rays::kFull ? dBatchRaysFull
-                : has(kPaper)       ? dBatchRaysIterativePaper
-                                    : dBatchRaysIterative;
+                : has(kChecked)     ? dBatchRaysIterative
+                                    : dBatchRaysIterativePaper;
   params.deformable_target = has(kBasic) ? dBatchDeformableBasic : dBatchDeformableRefit;
   params.organisation =
       has(kMonolithic) ? dBatchOrganisationMonolithic : dBatchOrganisationPipelined;
@@ -84,8 +84,8 @@ Configuration parse_configuration(std::string_view name) {
     if (configuration.has(word)) refuse(name, "it says something twice");
     configuration.words |= word;
   }
-  if (configuration.has(kPaper) && configuration.rays == Rays::kFull)
-    refuse(name, "'paper' is a rule for iterative rays");
+  if (configuration.has(kChecked) && configuration.rays == Rays::kFull)
+    refuse(name, "only iterative rays can be checked");
   return configuration;
 }
 
@@ -102,13 +102,13 @@ std::vector<Configuration> default_configurations(std::string_view scene) {
     add(Rays::kFull, 0, {0});
     add(Rays::kIterative, 0, timed);
     add(Rays::kIterative, kBasic, {0, kMonolithic, kExact});
-    result.push_back({Rays::kIterative, kPaper});
+    result.push_back({Rays::kIterative, kChecked});
     add(Rays::kIterative, 0, counted);
     add(Rays::kIterative, kBasic, counted);
   } else {
     add(Rays::kFull, 0, timed);
     add(Rays::kIterative, 0, timed);
-    result.push_back({Rays::kIterative, kPaper});
+    result.push_back({Rays::kIterative, kChecked});
     add(Rays::kFull, 0, counted);
     add(Rays::kIterative, 0, counted);
   }

@@ -17,7 +17,7 @@ enum class Rays { kFull, kIterative };
 
 // The words of a name after the first, in the order in which they are written.
 enum Word : unsigned {
-  kPaper = 1 << 0,       // dBatchRaysIterativePaper
+  kChecked = 1 << 0,     // dBatchRaysIterative, else dBatchRaysIterativePaper
   kBasic = 1 << 1,       // dBatchDeformableBasic
   kMonolithic = 1 << 2,  // dBatchOrganisationMonolithic
   kExact = 1 << 3,       // dBatchWorkloadExact
@@ -34,7 +34,9 @@ struct Configuration {
   bool has(Word word) const { return (words & word) != 0; }
   Configuration without(Word word) const { return {rays, words & ~unsigned{word}}; }
   // Gives the same bytes as every other one of which this is true.
-  bool is_lossless() const { return !has(kPaper) && !has(kIgnore); }
+  bool is_lossless() const { return !follows_papers_rule() && !has(kIgnore); }
+  // No temporal data, no ray; what the walk finds is believed. It depends on the steps before.
+  bool follows_papers_rule() const { return rays == Rays::kIterative && !has(kChecked); }
   // So slow that it takes part in some steps only.
   bool is_sampled() const { return has(kCount) || has(kBasic); }
   std::string name() const;

@@ -21,7 +21,8 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter = R"(
 Configurations are 'full' or 'iterative' (rays), then any of
-  paper        the paper's rule for iterative rays, which misses contacts
+  checked      what iterative rays find is checked by full ones; without it the paper's rule, by
+               which it is believed, and which misses contacts
   basic        every triangle of a deformable mesh instead of a refitted BVH
   monolithic   one kernel instead of the pipeline
   exact        the exact workload instead of the predicted one

@@ -121,7 +121,7 @@ void print_summary(std::ostream& out, const Json& summary) {
   const Json& settled = summary["configurations"]["iterative"]["settled"];
   out << "iterative, from step " << summary["settled_from"] << ": ";
   print_percent(out, settled["iterative_share"]);
-  out << " of the rays are iterative; of those unproven: ";
+  out << " of the rays are iterative; of those cast in full: ";
   print_percent(out, settled["unproven_share"]);
   out << '\n';
 }

@@ -75,8 +75,8 @@ enum {
 };
 
 /** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes, but where an open
-    mesh pierces a face of a body and none of its edges: there rays of all vertices find some of the
-    body behind it. */
+    mesh is in a body and meets none of its edges: there rays of all vertices find some of the body
+    behind it. */
 enum {
   dBatchRaysFull = 0,      /**< every ray in full; with edges, redone mispredictions and in the
                                   pipelined organisation only those of vertices inside, where

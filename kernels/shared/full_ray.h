@@ -75,22 +75,71 @@ static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global co
                : ox_trace_bvh(query, mesh, surfaces, seed, work);
 }
 
-// Whether a vertex whose ray grazes is inside a closed target, by rays in other directions, no two
-// of which graze but by a coincidence. Undecided after three: outside.
+// A ray that tells whether its origin is inside: in any direction, but two of which graze by a
+// coincidence only. k below OX_ASKING_RAYS.
+#define OX_ASKING_RAYS 3u
+static inline ox_query ox_asking_query(uint k, float3 origin, float epsilon) {
+  ox_query query;
+  query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
+                    : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
+                              : (float3)(0.3319f, -0.6203f, -0.7107f);
+  query.cast = ox_cast_from(origin, query.direction);
+  query.epsilon = epsilon;
+  query.t_max = INFINITY;
+  query.behind = 0.0f;
+  query.two_sided = false;
+  return query;
+}
+
+// Whether a vertex whose ray grazes is inside a closed target. Undecided after three: outside.
 static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global const ox_mesh* mesh,
                                 const ox_surfaces* surfaces, uint* work) {
-  for (uint k = 0u; k < 3u; ++k) {
-    ox_query query;
-    query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
-                      : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
-                                : (float3)(0.3319f, -0.6203f, -0.7107f);
-    query.cast = ox_cast_from(grazing->cast.origin, query.direction);
-    query.epsilon = grazing->epsilon;
-    query.t_max = INFINITY;
-    query.behind = 0.0f;
-    query.two_sided = false;
+  for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
+    const ox_query query = ox_asking_query(k, grazing->cast.origin, grazing->epsilon);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, OX_NONE, work);
     if (!ox_grazes(&nearest, query.epsilon)) return nearest.back_t < nearest.front_t;
+  }
+  return false;
+}
+
+// How often a ray leaves the mesh more than it enters it. One through an edge counts twice there.
+static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* mesh,
+                                 const ox_surfaces* surfaces) {
+  uint work = 0u;
+  int sum = 0;
+  ox_ray_walk walk = ox_begin_ray_walk(mesh);
+  for (;;) {
+    const uint next =
+        ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, 0.0f, INFINITY, &work);
+    if (next == OX_NONE) return sum;
+    __global const ox_meshlet* meshlet = surfaces->meshlets + next;
+    for (uint block = 0u; OX_VECTOR_WIDTH * block < meshlet->triangle_count; ++block) {
+      ox_floats t, determinant;
+      ox_ints met;
+      ox_meets_lanes(&query->cast, meshlet, block, &met, &t, &determinant);
+      met &= (t >= 0.0f) & (t < INFINITY);
+      uint left = ox_mask_of(&met);
+      if (left == 0u) continue;
+      float determinant_lane[OX_VECTOR_WIDTH];
+      ox_store(determinant, 0, determinant_lane);
+      for (; left != 0u; left &= left - 1u)
+        sum += determinant_lane[ox_lowest(left)] < 0.0f ? 1 : -1;
+    }
+  }
+}
+
+// Whether a point that is not near the surface is inside a closed mesh, which may cut itself: the
+// surface winds about it. What is met first tells if that is a back face; behind a front face there
+// may be the wall of another part that the point is in.
+static inline bool ox_winds_about(float3 point, float epsilon, __global const ox_mesh* mesh,
+                                  const ox_surfaces* surfaces) {
+  uint work = 0u;
+  for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
+    const ox_query query = ox_asking_query(k, point, epsilon);
+    const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
+    if (ox_grazes(&nearest, epsilon)) continue;
+    if (nearest.back_t < nearest.front_t) return true;
+    return nearest.front != OX_NONE && ox_leaves_more(&query, mesh, surfaces) > 0;
   }
   return false;
 }

@@ -19,7 +19,8 @@ using Iterator = std::vector<Point>::iterator;
 constexpr std::size_t kPointsAThread = 32768;
 
 // Halves the points across the longest side of their box until a run is left, as a k-d tree
-// (Bentley 1975) does, but at multiples of a run, and of a group as long as there are several.
+// (Bentley 1975) does, but at multiples of a run, and of a group of runs as long as there are
+// several: the order decides between equal contacts, so it stays as it was.
 void split(Iterator first, Iterator last, std::size_t threads) {
   for (;;) {
     const auto count = static_cast<std::uint32_t>(last - first);

@@ -2,7 +2,6 @@
 #include "pipeline/device_meshes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>

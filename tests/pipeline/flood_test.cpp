@@ -115,6 +115,29 @@ TEST_F(Flood, FindsTheVerticesInsideOfSolidsThatCutThemselves) {
   EXPECT_GT(hits_, 300u);
 }
 
+// In one part, and all about it the walls of the other: what a ray meets first is a front face.
+TEST_F(Flood, FindsWhatIsWhollyInsideOfSolidsThatCutThemselves) {
+  const TestMesh crossed = merged(make_cube(1), moved(make_cube(1), {0.5, 0.2, 0.1}));
+  for (const Point& place : {Point{-0.2, -0.1, -0.2}, Point{0.7, 0.3, 0.3}, Point{0.25, 0.1, 0}}) {
+    const TestScene scene =
+        one_pair(crossed, at(0, 0, 0), make_icosphere(0.05, 2), at(place[0], place[1], place[2]));
+    collide(scene.scene);
+    EXPECT_FALSE(flood_.collide(scene.scene, nullptr).contacts.empty());
+  }
+}
+
+// Its ends lie in one part each, and cross the walls of the other alone.
+TEST_F(Flood, FindsBothEndsOfWhatLiesAcrossAWallInside) {
+  const TestMesh crossed = merged(make_cube(1), moved(make_cube(1), {0.5, 0.2, 0.1}));
+  TestMesh bar = make_box({0.8, 0.1, 0.1}, 8, 2, 2);
+  const TestScene scene =
+      one_pair(crossed, at(0, 0, 0), bar, turned({0, 0, 1}, 0.1, {0.2, 0.05, 0.02}));
+  collide(scene.scene);
+  // All of its vertices are inside, and have a ray.
+  const std::size_t vertices = scene.scene.meshes[1]->vertices.size();
+  EXPECT_EQ(rays_, vertices);
+}
+
 // Hills of large triangles, the top of a closed slab or a sheet alone.
 TestMesh hills(bool closed) {
   TestMesh mesh = closed ? make_box({8, 8, 1}, 16, 16, 1) : make_sheet(8, 16);
@@ -166,6 +189,16 @@ TEST_F(Flood, LeavesToItsOwnVerticesWhatPiercesAFace) {
   for (const Contact& contact : found.contacts) EXPECT_LT(std::fabs(contact.depth), 0.2);
 }
 
+// All of its lower vertices lie on the ground to within rounding.
+TEST_F(Flood, FindsWhatIsBehindOpenGroundFromVerticesThatLieOnIt) {
+  for (const double z : {0.0, 1e-8}) {
+    TestMesh body = make_box({0.5, 0.5, 0.5}, 4, 4, 4);
+    const TestScene scene = one_pair(body, at(0.03, 0.02, z), make_sheet(4, 3), TestPose{});
+    collide(scene.scene);
+  }
+  EXPECT_GT(hits_, 20u);
+}
+
 // In a valley, within the box of the hills and 12 cm above them.
 TEST_F(Flood, CastsNoRayFromABodyJustAboveHills) {
   for (const bool closed : {true, false}) {
@@ -193,6 +226,34 @@ TEST_F(Flood, GrowsWhatItNeedsRoomFor) {
   EXPECT_GT(collider.report().redone, 0);
   // More than its first table held.
   EXPECT_GT(hits(collider), 4000u);
+}
+
+// There the chunks of a source that is looked at in whole need room too.
+TEST_F(Flood, GrowsWhatItNeedsRoomForAtABorder) {
+  ColliderOptions tight = flooded();
+  tight.initial_capacity = 1;
+  Collider collider(tight);
+  const TestScene scene =
+      one_pair(make_icosphere(0.4, 4), at(4, 0.2, 0.05), hills(false), TestPose{});
+  const auto expected = bits_of(flood_.collide(scene.scene, nullptr));
+  EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
+  EXPECT_GT(collider.report().redone, 0);
+  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kChunksHigh)], 20u);
+}
+
+TEST_F(Flood, CastsBasicRaysAtClosedDeformableTargetsWhereAsked) {
+  ColliderOptions basic = flooded();
+  basic.deformable_target = DeformableTarget::kBasic;
+  Collider collider(basic);
+  Scene scene;
+  scene.meshes = {std::make_shared<const Mesh>(
+                      build_mesh(soup_of(make_icosphere(0.6, 2)), {.deformable = true})),
+                  std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(1, 4))))};
+  scene.objects = {{Pose{}, 0, 1}, {Pose{{0.1, 0.2, 0.8}}, 1, 2}};
+  scene.pairs = {{0, 1}};
+  EXPECT_EQ(bits_of(collider.collide(scene, nullptr)), bits_of(flood_.collide(scene, nullptr)));
+  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kRaysBasic)], 0u);
+  EXPECT_GT(hits(collider), 5u);
 }
 
 TEST_F(Flood, IsTheSameInGroupsOfAnySize) {

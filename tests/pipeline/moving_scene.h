@@ -55,7 +55,7 @@ class MovingScene {
   TestScene scene_;
 };
 
-// Round enough that iterative rays can often be proven.
+// Round, and of a few hundred triangles.
 inline std::vector<TestMesh> smooth_meshes() {
   return {make_icosphere(0.6, 3), make_torus(0.5, 0.2, 48, 24), make_icosphere(0.4, 2)};
 }

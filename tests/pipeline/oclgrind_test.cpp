@@ -211,7 +211,7 @@ TEST(OclgrindPipeline, CountsExactlyAndInTiles) {
   EXPECT_EQ(counts(collider, scene), counts(plain, scene));
 }
 
-// Iterative rays that are proven, handed on, and that walk off a border; in both organisations.
+// Iterative rays that are believed, handed on, and that walk off a border; in both organisations.
 TEST(OclgrindPipeline, CastsIteratively) {
   const std::vector<TestMesh> meshes = {make_icosphere(0.6, 1), make_cube(1), make_sheet(1.5, 4)};
   for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
