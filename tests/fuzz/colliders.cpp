@@ -17,13 +17,14 @@ Collider make_kept(std::size_t index) {
     case 0:
       break;
     case 1:  // everything must be grown and redone
-      params.rays = dBatchRaysIterative;
       params.workload = dBatchWorkloadExact;
       params.initial_capacity = 1;
       params.confidence = 0.01;
       break;
-    case 2:
+    case 2:  // looks at every vertex
+      params.rays = dBatchRaysIterative;
       params.organisation = dBatchOrganisationMonolithic;
+      collider.floods = false;
       params.deformable_target = dBatchDeformableBasic;
       params.work_group_size = kGroupSizes[1];
       break;

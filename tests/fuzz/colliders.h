@@ -15,7 +15,10 @@ namespace ode_ext::fuzz {
 struct Collider {
   dBatchColliderID id = nullptr;
   bool complete = true;  // it promises to overlook nothing, and to notice every change
-  bool alike = true;     // the answers of all these are the same, byte for byte
+  // The answers of all these are the same, byte for byte; for what is not solid, of those that find
+  // vertices inside in the same way.
+  bool alike = true;
+  bool floods = true;
 };
 
 class Colliders {
