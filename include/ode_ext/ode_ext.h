@@ -37,7 +37,9 @@
  *
  * Threads: one pass per collider at a time. Different colliders may run in different threads as far
  * as ODE itself allows it (each thread its own space and geoms; Debian's ODE shares one global mesh
- * cache, so no two threads may be inside ODE's own mesh colliders at once).
+ * cache, so no two threads may be inside ODE's own mesh colliders at once). Meshes of tens of
+ * thousands of triangles are made by as many threads as there are processors, which are gone when
+ * the call returns.
  *
  * Errors: creators return 0, int functions -1; the sentence is in
  * dBatchColliderGetLastErrorMessage(). No function throws. ODE itself aborts where it is used
