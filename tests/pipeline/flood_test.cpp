@@ -138,6 +138,29 @@ TEST_F(Flood, FindsBothEndsOfWhatLiesAcrossAWallInside) {
   EXPECT_EQ(rays_, vertices);
 }
 
+// Pairs round to more where meshes lie far from their own origin, or the other is much larger.
+TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
+  for (const double offset : {0.0, 1e2, 1e4}) {
+    const double scale = offset == 0 ? 1000 : 1;
+    const Point far{offset, 0, 0};
+    TestScene scene;
+    for (const TestMesh& mesh : {jittered(make_icosphere(0.6, 2), 0.01, 1),
+                                 jittered(make_torus(0.5, 0.2, 16, 10), 0.01, 2), make_l(1)})
+      scene.add_mesh(moved(mesh, far));
+    scene.add_mesh(scaled(make_cube(1, 4), scale));
+    Random random(74);
+    for (int i = 0; i < 150; ++i) {
+      TestPose a = random.pose(0.4);
+      if (scale != 1) a.position[2] += 0.5 * scale;
+      a.position = a.position - rotate(a, far);
+      scene.add_pair(static_cast<std::uint32_t>(random.below(3)), a, 3, TestPose{});
+    }
+    hits_ = 0;
+    collide(scene.scene);
+    EXPECT_GT(hits_, 100u) << offset;
+  }
+}
+
 // Hills of large triangles, the top of a closed slab or a sheet alone.
 TestMesh hills(bool closed) {
   TestMesh mesh = closed ? make_box({8, 8, 1}, 16, 16, 1) : make_sheet(8, 16);
@@ -211,7 +234,10 @@ TEST_F(Flood, CastsNoRayFromABodyJustAboveHills) {
     EXPECT_EQ(rays_, 0u);
     EXPECT_GT(rays_of_all_, 0u);
     // Of the 1,280 triangles of the body, none reaches down as far as the hills below it do up.
-    EXPECT_LT(flood_.report().actual[static_cast<std::size_t>(Arrow::kMeshlets)], 200u);
+    const ArrowCounts& counts = flood_.report().actual;
+    EXPECT_LT(counts[static_cast<std::size_t>(Arrow::kMeshlets)], 200u);
+    EXPECT_LT(counts[static_cast<std::size_t>(Arrow::kMeshletPairs)], 200u);
+    EXPECT_EQ(counts[static_cast<std::size_t>(Arrow::kCrossings)], 0u);
   }
 }
 
