@@ -4,14 +4,20 @@
 # Shared headers come first, in an order in which each needs only earlier ones; then the kernels.
 
 set(kernels_dir ${PROJECT_SOURCE_DIR}/kernels)
-file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/shared/*.h)
-file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl)
+file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/shared/*.h
+     ${kernels_dir}/paper/*.h)
+file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl
+     ${kernels_dir}/paper/*.cl)
 
 set(ODE_EXT_KERNEL_FILES)
-foreach(header types transform append flooded cull lanes ray_triangle ray_meshlet meshlet_tree
-               nearest full_ray iterative_ray choose cast contradiction candidate_order patches meshlet
-               cross edge_pair crossing_order regions pair_hits spokesmen edge_axis way_out deform moves)
-  set(header shared/${header}.h)
+foreach(header shared/types shared/scene shared/transform shared/append shared/flooded shared/cull
+               shared/lanes shared/ray_triangle shared/ray_meshlet shared/meshlet_tree
+               shared/nearest shared/full_ray shared/vertex_ray
+               paper/types paper/iterative_ray paper/choose paper/cast paper/note_work
+               shared/contradiction shared/candidate_order shared/patches shared/meshlet
+               shared/cross shared/edge_pair shared/crossing_order shared/regions shared/pair_hits
+               shared/spokesmen shared/edge_axis shared/way_out shared/deform shared/moves)
+  set(header ${header}.h)
   if(header IN_LIST headers)
     list(APPEND ODE_EXT_KERNEL_FILES ${header})
     list(REMOVE_ITEM headers ${header})

@@ -9,38 +9,32 @@
 #include "shared/append.h"
 #include "shared/patches.h"
 
-// in: pair_hits, pair_crossings. out: where the candidates and the crossings of each pair start.
-// item: 1 pair. The counters cannot overflow: they end at the number of hits and a multiple of
-// that of crossings, and at the number of crossings.
-__kernel void contact_place(__global volatile uint* counters, __global const uint* pair_hits,
-                            __global const uint* pair_crossings, uint pair_count,
-                            __global uint* pair_segments, __global uint* crossing_segments) {
+// in: found. out: where the candidates and the crossings of each pair start, there. item: 1 pair.
+// The counters cannot overflow: they end at the number of hits and a multiple of that of crossings,
+// and at the number of crossings.
+__kernel void contact_place(OX_SCENE_PARAMETERS) {
+  const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
-    const uint crossings = pair_crossings[p];
-    const uint most = pair_hits[p] + OX_POINTS_PER_CROSSING * crossings;
-    if (most != 0u)
-      pair_segments[p] = atomic_add(counters + OX_COUNTER_SEGMENTS * OX_COUNTER_STRIDE, most);
+    const uint crossings = found[p].crossings;
+    const uint most = found[p].hits + OX_POINTS_PER_CROSSING * crossings;
+    if (most != 0u) found[p].first_candidate = ox_take_room(&scene, OX_COUNTER_SEGMENTS, most);
     if (crossings != 0u)
-      crossing_segments[p] =
-          atomic_add(counters + OX_COUNTER_CROSSED * OX_COUNTER_STRIDE, crossings);
+      found[p].first_crossing = ox_take_room(&scene, OX_COUNTER_CROSSED, crossings);
   }
 }
 
 // in: hits. out: candidates, by pair, in the frame of B. item: 1 hit.
-__kernel void contact_gather(__global const uint* counters, __global const ox_list* lists,
-                             __global const ox_hit* hits, __global const ox_pair* pairs,
-                             __global const ox_vertex* vertices,
-                             __global const ox_triangle* triangles,
-                             __global const uint* pair_segments,
+__kernel void contact_gather(OX_SCENE_PARAMETERS, __global const ox_hit* hits,
                              __global ox_candidate* candidates) {
-  const uint hit_count = ox_length(counters, lists, OX_LIST_HITS);
+  const ox_scene scene = OX_SCENE;
+  const uint hit_count = ox_length(&scene, OX_LIST_HITS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < hit_count; i += stride) {
     __global const ox_hit* hit = hits + i;
     const uint p = hit->pair_side >> 1;
     const uint side = hit->pair_side & 1u;
-    __global ox_candidate* candidate = candidates + pair_segments[p] + hit->slot;
+    __global ox_candidate* candidate = candidates + found[p].first_candidate + hit->slot;
     float3 position = vload3(0, vertices[hit->vertex].position);
     float3 normal = vload3(0, triangles[hit->triangle].normal);
     if ((hit->kind & OX_HIT_REVERSED) != 0u) normal = -normal;
@@ -135,10 +129,9 @@ static void ox_store_contact(__global const ox_candidate* candidate, __global ox
 }
 
 // Room for `count` contacts of pair p; less where the list is full.
-static uint ox_place_contacts(__global volatile uint* counters, __global const ox_list* lists,
-                              uint count, __global ox_range* range) {
-  const uint first = atomic_add(counters + OX_LIST_CONTACTS * OX_COUNTER_STRIDE, count);
-  const uint capacity = lists[OX_LIST_CONTACTS].capacity;
+static uint ox_place_contacts(const ox_scene* scene, uint count, __global ox_range* range) {
+  const uint first = ox_take_room(scene, OX_LIST_CONTACTS, count);
+  const uint capacity = scene->lists[OX_LIST_CONTACTS].capacity;
   range->first = first;
   range->count = min(count, first < capacity ? capacity - first : 0u);
   return range->count;
@@ -146,26 +139,24 @@ static uint ox_place_contacts(__global volatile uint* counters, __global const o
 
 // in: candidates. out: contacts, pair_ranges. item: 1 pair, of a queue. max_deformable: of a pair
 // with a deformable mesh; 0: all, in no order (the host sorts them). May overflow: OX_LIST_CONTACTS
-__kernel void contact_reduce(__global volatile uint* counters, __global const ox_list* lists,
-                             __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                             __global const uint* pair_hits, __global const uint* pair_segments,
-                             uint pair_count, __global ox_candidate* candidates, uint max_contacts,
-                             uint max_deformable, uint rays_mode, __global ox_range* pair_ranges,
+__kernel void contact_reduce(OX_SCENE_PARAMETERS, __global ox_candidate* candidates,
+                             uint max_contacts, uint max_deformable, __global ox_range* pair_ranges,
                              __global ox_contact* contacts) {
-  for (uint p = ox_next_item(counters, OX_QUEUE_REDUCE); p < pair_count;
-       p = ox_next_item(counters, OX_QUEUE_REDUCE)) {
-    const uint count = pair_hits[p];
+  const ox_scene scene = OX_SCENE;
+  for (uint p = ox_next_item(&scene, OX_QUEUE_REDUCE); p < pair_count;
+       p = ox_next_item(&scene, OX_QUEUE_REDUCE)) {
+    const uint count = found[p].hits;
     if (count == 0u) continue;
     __global const ox_mesh* a = meshes + pairs[p].mesh[0];
     __global const ox_mesh* b = meshes + pairs[p].mesh[1];
-    __global ox_candidate* mine = candidates + pair_segments[p];
+    __global ox_candidate* mine = candidates + found[p].first_candidate;
     const bool deformable = ((a->flags | b->flags) & OX_MESH_DEFORMABLE) != 0u;
     if (deformable && max_deformable == 0u) {  // all that say most
       uint kind = OX_HIT_TOUCHING;
       for (uint i = 0u; i < count; ++i) kind = min(kind, ox_kind(mine + i));
       uint wanted = 0u;
       for (uint i = 0u; i < count; ++i) wanted += ox_kind(mine + i) == kind ? 1u : 0u;
-      uint room = ox_place_contacts(counters, lists, wanted, pair_ranges + p);
+      uint room = ox_place_contacts(&scene, wanted, pair_ranges + p);
       __global ox_contact* contact = contacts + pair_ranges[p].first;
       for (uint i = 0u; i < count && room != 0u; ++i) {
         if (ox_kind(mine + i) != kind) continue;
@@ -177,10 +168,10 @@ __kernel void contact_reduce(__global volatile uint* counters, __global const ox
     // Contacts closer than 2 % of the smaller mesh's radius hold it up no better than one.
     const float merge = 0.02f * ox_min(a->radius, b->radius);
     uint taken[OX_MAX_CONTACTS];
-    const uint n = ox_reduce(mine, count, merge * merge, pairs[p].epsilon,
-                             deformable ? max_deformable : max_contacts,
-                             (rays_mode & OX_RAYS_EDGES) != 0u, taken);
-    const uint room = ox_place_contacts(counters, lists, n, pair_ranges + p);
+    const uint n =
+        ox_reduce(mine, count, merge * merge, pairs[p].epsilon,
+                  deformable ? max_deformable : max_contacts, (modes & OX_MODE_EDGES) != 0u, taken);
+    const uint room = ox_place_contacts(&scene, n, pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
       ox_store_contact(mine + taken[k], contacts + pair_ranges[p].first + k);
   }

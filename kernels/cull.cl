@@ -8,10 +8,8 @@
 // may overflow: OX_LIST_MESHLETS
 #include "shared/meshlet.h"
 
-__kernel void cull(__global volatile uint* counters, __global const ox_list* lists,
-                   __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                   __global const ox_meshlet_node* meshlet_nodes, uint pair_count,
-                   __global ox_meshlet_task* tasks) {
+__kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
+  const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     __global const ox_pair* pair = pairs + p;
@@ -33,7 +31,7 @@ __kernel void cull(__global volatile uint* counters, __global const ox_list* lis
     while (walk.count != 0u) {
       const uint child = walk.child[--walk.count];
       if ((child & OX_CHILD_MESHLET) != 0u) {
-        const uint slot = ox_append(counters, lists, OX_LIST_MESHLETS);
+        const uint slot = ox_append(&scene, OX_LIST_MESHLETS);
         if (slot == OX_NONE) continue;
         tasks[slot].pair_side = p << 1 | side;
         tasks[slot].meshlet = source->meshlet_first + (child >> 1);

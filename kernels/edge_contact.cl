@@ -18,13 +18,10 @@
 
 // in: crossings. out: those of each pair together, as they are needed, and the first of the orders
 // of them. item: 1 crossing.
-__kernel void crossing_gather(__global const uint* counters, __global const ox_list* lists,
-                              __global const ox_edge_crossing* crossings,
-                              __global const ox_pair* pairs, __global const ox_vertex* vertices,
-                              __global const ox_edge* edges, __global const uint* facets,
-                              __global const uint* crossing_segments,
+__kernel void crossing_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
                               __global ox_edge_crossing* gathered, __global uint* order) {
-  const uint count = ox_length(counters, lists, OX_LIST_CROSSINGS);
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_length(&scene, OX_LIST_CROSSINGS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     ox_edge_crossing crossing = crossings[i];
@@ -50,8 +47,9 @@ __kernel void crossing_gather(__global const uint* counters, __global const ox_l
     crossing.covered = 0u;
     crossing.paired = 0.0f;
     crossing.hit = OX_NONE;
-    gathered[crossing_segments[p] + crossing.slot] = crossing;
-    order[(size_t)OX_ORDERS_PER_CROSSING * crossing_segments[p] + crossing.slot] = crossing.slot;
+    const uint first = found[p].first_crossing;
+    gathered[first + crossing.slot] = crossing;
+    order[(size_t)OX_ORDERS_PER_CROSSING * first + crossing.slot] = crossing.slot;
   }
 }
 
@@ -422,34 +420,24 @@ static void ox_drop_apart(const ox_edge_pair* p) {
 }
 
 // item: 1 pair, of a queue.
-__kernel void edge_contacts(__global volatile uint* counters, __global const ox_pair* pairs,
-                            __global const ox_mesh* meshes, __global const ox_chunk* chunks,
-                            __global const ox_vertex* vertices, __global const ox_edge* edges,
-                            __global const ox_triangle* triangles,
-                            __global const ox_meshlet* meshlets,
-                            __global const ox_meshlet_node* meshlet_nodes,
-                            __global const uint* facets, __global const uint* pair_crossings,
-                            __global const uint* crossing_segments, uint pair_count,
-                            __global ox_edge_crossing* crossings, __global uint* order,
-                            __global uint* pair_hits, __global const uint* pair_segments,
-                            __global ox_candidate* candidates) {
-  for (uint i = ox_next_item(counters, OX_QUEUE_EDGE_CONTACTS); i < pair_count;
-       i = ox_next_item(counters, OX_QUEUE_EDGE_CONTACTS)) {
-    const uint crossed = pair_crossings[i];
-    if (crossed == 0u && pair_hits[i] == 0u) continue;
+__kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
+                            __global uint* order, __global ox_candidate* candidates) {
+  const ox_scene scene = OX_SCENE;
+  for (uint i = ox_next_item(&scene, OX_QUEUE_EDGE_CONTACTS); i < pair_count;
+       i = ox_next_item(&scene, OX_QUEUE_EDGE_CONTACTS)) {
+    const uint crossed = found[i].crossings;
+    const uint hits = found[i].hits;
+    if (crossed == 0u && hits == 0u) continue;
     ox_edge_pair pair;
     pair.pair = pairs + i;
     pair.mesh[0] = meshes + pairs[i].mesh[0];
     pair.mesh[1] = meshes + pairs[i].mesh[1];
     pair.vertices = vertices;
     pair.edges = edges;
-    pair.surfaces.triangles = triangles;
-    pair.surfaces.meshlets = meshlets;
-    pair.surfaces.nodes = meshlet_nodes;
+    pair.surfaces = scene.surfaces;
     pair.facets = facets;
-    pair.crossings = crossings + (crossed == 0u ? 0u : crossing_segments[i]);
-    pair.order =
-        order + (crossed == 0u ? 0u : (size_t)OX_ORDERS_PER_CROSSING * crossing_segments[i]);
+    pair.crossings = crossings + found[i].first_crossing;
+    pair.order = order + (size_t)OX_ORDERS_PER_CROSSING * found[i].first_crossing;
     pair.by_region = pair.order + crossed;
     pair.region_first = pair.by_region + crossed;
     pair.point_of_region = pair.region_first + crossed;
@@ -459,18 +447,19 @@ __kernel void edge_contacts(__global volatile uint* counters, __global const ox_
     pair.by_facets_count = 0u;
     pair.count = crossed;
     pair.regions = 0u;
-    pair.candidates = candidates + pair_segments[i];
-    pair.hits = pair_hits[i];
-    pair.candidate_count = pair_hits[i];
-    pair.most_candidates = pair_hits[i] + OX_POINTS_PER_CROSSING * crossed;
+    pair.candidates = candidates + found[i].first_candidate;
+    pair.hits = hits;
+    pair.candidate_count = hits;
+    pair.most_candidates = hits + OX_POINTS_PER_CROSSING * crossed;
     ox_choose_exits(&pair);
     if (crossed == 0u) {
       ox_drop_apart(&pair);
       ox_drop_beyond_border(&pair);
       for (uint side = 0u; side < 2u; ++side) {
-        const ox_hit_count hits = ox_count_hits(&pair, side);
-        if (hits.fallback != 0u && hits.inside == 0u)
-          ox_lead_mesh_out(&pair, side, hits.fallback, chunks[pair.mesh[side]->chunk_first].first);
+        const ox_hit_count of_side = ox_count_hits(&pair, side);
+        if (of_side.fallback != 0u && of_side.inside == 0u)
+          ox_lead_mesh_out(&pair, side, of_side.fallback,
+                           chunks[pair.mesh[side]->chunk_first].first);
       }
     } else {
       const ox_order by_edge = {pair.order, pair.by_region, crossed, OX_BY_EDGE};
@@ -492,6 +481,6 @@ __kernel void edge_contacts(__global volatile uint* counters, __global const ox_
       ox_choose_spokesmen(&pair);
     }
     ox_admit_touching(&pair);
-    pair_hits[i] = pair.candidate_count;
+    found[i].hits = pair.candidate_count;
   }
 }

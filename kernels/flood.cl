@@ -11,36 +11,26 @@
 // that is taken not to be is lost if none of its edges says otherwise: where they all meet the
 // surface so flat, or run along a ridge so closely, that the order of their crossings rounds.
 //
-// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (heads, links),
+// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found, links),
 //       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (shared/flooded.h)
-//       tasks: of those sides where the flood got round a border
+//       tasks: of all others, and of those where the flood got round a border
 //       crossings: `other`, which strings those of an edge together
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
-// may overflow: OX_LIST_RAYS_BVH, OX_LIST_RAYS_BASIC, OX_LIST_CHUNKS_HIGH,
-//       OX_LIST_CHUNKS_DEFORMABLE, OX_LIST_FLOOD_WORDS
-#include "shared/cull.h"
+// may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
-#include "shared/full_ray.h"
+#include "shared/vertex_ray.h"
 
 typedef struct {
-  __global volatile uint* counters;
-  __global const ox_list* lists;
+  ox_scene scene;
   __global const ox_pair* pair;
   uint pair_side;
-  __global const ox_mesh* meshes;
   __global const ox_mesh* source;
   __global const ox_mesh* target;
   __global ox_edge_crossing* crossings;
   __global const uint* links;
-  __global const ox_vertex* vertices;
-  __global const ox_edge* edges;
-  __global const uint* ring_starts;
-  __global const ox_neighbour* rings;
-  ox_surfaces surfaces;
-  __global ox_ray* rays;
   __global uint* words;
   ox_flood_table table;
   bool leaks;  // the flood got round the border of an open target
@@ -56,7 +46,7 @@ static bool ox_has_key(const ox_flood_state* s, uint key) {
 
 // Of a key that is not there. False: there is no room.
 static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
-  if (!ox_grow_table(s->counters, s->lists, s->words, &s->table)) return false;
+  if (!ox_grow_table(&s->scene, s->words, &s->table)) return false;
   const uint word = ox_find_key(s->words, &s->table, key);
   s->words[word] = key;
   s->words[word + 1u] = value;
@@ -74,35 +64,20 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
   return true;
 }
 
-static void ox_cast_queue(const ox_flood_state* s, uint list) {
-  for (uint i = 0u; i < s->table.queued; ++i) {
-    const uint vertex = ox_queue(s->words, &s->table)[i];
-    const float3 direction = vload3(0, s->vertices[vertex].direction);
-    if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) continue;
-    if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->meshes, s->vertices + vertex)) continue;
-    const uint slot = ox_append(s->counters, s->lists, list);
-    if (slot == OX_NONE) continue;
-    s->rays[slot].pair_side = s->pair_side;
-    s->rays[slot].vertex = vertex;
-    s->rays[slot].memory = OX_NONE;
-    s->rays[slot].triangle = OX_NONE;
-  }
+static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
+  for (uint i = 0u; i < s->table.queued; ++i)
+    ox_append_ray(&s->scene, s->pair_side, ox_queue(s->words, &s->table)[i], rays);
 }
 
 // Every vertex of the source is the vertex step's.
-static void ox_look_at_all(const ox_flood_state* s, __global const ox_chunk* chunks,
-                           __global ox_chunk_task* tasks) {
-  const bool deforms = ((s->source->flags | s->target->flags) & OX_MESH_DEFORMABLE) != 0u;
-  const uint category = deforms ? OX_CATEGORY_DEFORMABLE : OX_CATEGORY_HIGH;
+static void ox_look_at_all(const ox_flood_state* s, __global ox_chunk_task* tasks) {
   for (uint k = 0u; k < s->source->chunk_count; ++k) {
     const uint chunk = s->source->chunk_first + k;
-    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, chunks + chunk)) continue;
-    const uint slot = ox_append(s->counters, s->lists, category);
+    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene.chunks + chunk)) continue;
+    const uint slot = ox_append(&s->scene, OX_LIST_CHUNKS);
     if (slot == OX_NONE) continue;
     tasks[slot].pair_side = s->pair_side;
     tasks[slot].chunk = chunk;
-    tasks[slot].category = category;
-    tasks[slot].previous = OX_NONE;
   }
 }
 
@@ -162,7 +137,7 @@ static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
 static bool ox_flood_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end)
     if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
-        !ox_flood_vertex(s, s->edges[edge].vertex[end]))
+        !ox_flood_vertex(s, s->scene.edges[edge].vertex[end]))
       return false;
   return true;
 }
@@ -170,7 +145,7 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge) {
 // The ends in front of an open target: a flood that gets there got round its border.
 static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
-    const uint outside = OX_KEY(s->edges[edge].vertex[end], OX_KEY_OUTSIDE);
+    const uint outside = OX_KEY(s->scene.edges[edge].vertex[end], OX_KEY_OUTSIDE);
     if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
         !ox_add_key(s, outside, 0u))
       return false;
@@ -182,8 +157,8 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 static bool ox_flood_on(ox_flood_state* s, uint* next) {
   for (; *next < s->table.queued; ++*next) {
     const uint vertex = ox_queue(s->words, &s->table)[*next];
-    for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
-      const ox_neighbour neighbour = s->rings[i];
+    for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
+      const ox_neighbour neighbour = s->scene.rings[i];
       if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
     }
   }
@@ -194,18 +169,18 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
 // ray meets that from behind, however far off.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
-  __global const ox_vertex* vertex = s->vertices + index;
+  __global const ox_vertex* vertex = s->scene.vertices + index;
   const float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
   if (!ox_is_open(s))
-    return ox_keep_vertex(s->pair, side, s->meshes, vertex) &&
-           ox_winds_about(p, s->pair->epsilon, s->target, &s->surfaces);
+    return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
+           ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces);
+  if (!ox_casts_ray(vertex)) return false;
   const float3 direction = vload3(0, vertex->direction);
-  if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return false;
   ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
   query.direction = ox_turn(s->pair, side, direction);
   query.cast = ox_cast_from(p, query.direction);
   uint work = 0u;
-  const ox_nearest nearest = ox_trace(false, &query, s->target, &s->surfaces, OX_NONE, &work);
+  const ox_nearest nearest = ox_trace(false, &query, s->target, &s->scene.surfaces, OX_NONE, &work);
   return nearest.back_t < nearest.front_t;
 }
 
@@ -215,8 +190,8 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex) {
   const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
   if (s->words[word + 1u] != 0u) return true;
   s->words[word + 1u] = 1u;
-  for (uint i = s->ring_starts[vertex]; i < s->ring_starts[vertex + 1u]; ++i) {
-    const ox_neighbour neighbour = s->rings[i];
+  for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
+    const ox_neighbour neighbour = s->scene.rings[i];
     const uint outside = OX_KEY(neighbour.vertex, OX_KEY_OUTSIDE);
     if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX)) || ox_has_key(s, outside) ||
         ox_is_parted(s, neighbour.edge))
@@ -232,7 +207,7 @@ static bool ox_flood_around(ox_flood_state* s, uint vertex) {
 // another part. Asked once.
 static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
-    const uint vertex = s->edges[edge].vertex[end];
+    const uint vertex = s->scene.edges[edge].vertex[end];
     const uint outside = OX_KEY(vertex, OX_KEY_OUTSIDE);
     if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_has_key(s, outside) ||
         ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
@@ -246,11 +221,10 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
 
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is
 // inside of them is so with all of its vertices.
-static bool ox_flood_components(ox_flood_state* s, bool any, __global const uint* components,
-                                uint* next) {
+static bool ox_flood_components(ox_flood_state* s, bool any, uint* next) {
   if (ox_is_open(s) || (s->source->component_count == 1u && any)) return true;
   for (uint i = 0u; i < s->source->component_count; ++i) {
-    const uint vertex = components[s->source->component_first + i];
+    const uint vertex = s->scene.components[s->source->component_first + i];
     if (ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX))) continue;
     if (!ox_is_vertex_inside(s, vertex)) continue;
     if (!ox_flood_vertex(s, vertex) || !ox_flood_on(s, next)) return false;
@@ -259,15 +233,14 @@ static bool ox_flood_components(ox_flood_state* s, bool any, __global const uint
 }
 
 // False: there is no room, or the flood leaks.
-static bool ox_flood(ox_flood_state* s, uint head, __global const uint* components) {
+static bool ox_flood(ox_flood_state* s, uint head) {
   uint count = 0u;
   for (uint c = head; c != OX_NONE; c = s->links[c]) ++count;
   uint places = OX_LEAST_PLACES;
   while (places < 4u * count) places *= 2u;
-  s->leaks = false;
   s->table.places = s->table.used = s->table.queued = 0u;
   if (count != 0u) {
-    s->table = ox_empty_table(s->counters, s->lists, s->words, places);
+    s->table = ox_empty_table(&s->scene, s->words, places);
     if (s->table.places == 0u) return false;
   }
   // Those near the surface first: from them nothing is concluded.
@@ -290,49 +263,31 @@ static bool ox_flood(ox_flood_state* s, uint head, __global const uint* componen
   const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
   for (uint c = head; c != OX_NONE && many_parts; c = s->links[c])
     if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
-  return ox_flood_components(s, any, components, &next);
+  return ox_flood_components(s, any, &next);
 }
 
-__kernel void flood(__global volatile uint* counters, __global const ox_list* lists,
-                    __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                    __global const ox_chunk* chunks, __global const uint* heads,
-                    __global ox_edge_crossing* crossings, __global const uint* links,
-                    __global const ox_vertex* vertices, __global const ox_edge* edges,
-                    __global const uint* ring_starts, __global const ox_neighbour* rings,
-                    __global const uint* components, __global const ox_triangle* triangles,
-                    __global const ox_meshlet* meshlets,
-                    __global const ox_meshlet_node* meshlet_nodes, uint pair_count, uint rays_mode,
-                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
-  for (uint i = ox_next_item(counters, OX_QUEUE_FLOOD); i < 2u * pair_count;
-       i = ox_next_item(counters, OX_QUEUE_FLOOD)) {
+__kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
+                    __global const uint* links, __global ox_chunk_task* tasks,
+                    __global ox_ray* rays, __global uint* words) {
+  const ox_scene scene = OX_SCENE;
+  for (uint i = ox_next_item(&scene, OX_QUEUE_FLOOD); i < 2u * pair_count;
+       i = ox_next_item(&scene, OX_QUEUE_FLOOD)) {
     __global const ox_pair* pair = pairs + (i >> 1);
     if (pair->near == 0u) continue;
-    __global const ox_mesh* source = meshes + pair->mesh[i & 1u];
-    __global const ox_mesh* target = meshes + pair->mesh[1u - (i & 1u)];
-    if (!ox_is_flooded(rays_mode, source, target)) continue;
     ox_flood_state state;
-    state.counters = counters;
-    state.lists = lists;
+    state.scene = scene;
     state.pair = pair;
     state.pair_side = i;
-    state.meshes = meshes;
-    state.source = source;
-    state.target = target;
+    state.source = meshes + pair->mesh[i & 1u];
+    state.target = meshes + pair->mesh[1u - (i & 1u)];
     state.crossings = crossings;
     state.links = links;
-    state.vertices = vertices;
-    state.edges = edges;
-    state.ring_starts = ring_starts;
-    state.rings = rings;
-    state.surfaces.triangles = triangles;
-    state.surfaces.meshlets = meshlets;
-    state.surfaces.nodes = meshlet_nodes;
-    state.rays = rays;
     state.words = words;
-    ox_flood(&state, heads[i], components);
+    state.leaks = !ox_is_flooded(&scene, state.source, state.target);
+    if (!state.leaks) ox_flood(&state, found[i >> 1].head[i & 1u]);
     if (state.leaks)
-      ox_look_at_all(&state, chunks, tasks);
+      ox_look_at_all(&state, tasks);
     else
-      ox_cast_queue(&state, ox_full_list(pairs, meshes, i, rays_mode));
+      ox_cast_queue(&state, rays);
   }
 }

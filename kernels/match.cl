@@ -9,15 +9,12 @@
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
 #include "shared/cross.h"
 
-__kernel void match(__global volatile uint* counters, __global const ox_list* lists,
-                    __global const ox_meshlet_task* tasks, __global const ox_pair* pairs,
-                    __global const ox_mesh* meshes, __global const ox_meshlet* meshlets,
-                    __global const ox_meshlet_node* meshlet_nodes, uint rays_mode,
-                    __global ox_meshlet_pair* meshlet_pairs, __global volatile uint* pair_crossings,
-                    __global ox_edge_crossing* crossings, __global volatile uint* heads,
+__kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
+                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings,
                     __global uint* links) {
-  const ox_crossing_lists to = {counters, lists, pair_crossings, crossings, heads, links};
-  const uint count = ox_length(counters, lists, OX_LIST_MESHLETS);
+  const ox_scene scene = OX_SCENE;
+  const ox_crossing_lists to = {crossings, links};
+  const uint count = ox_length(&scene, OX_LIST_MESHLETS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     const ox_meshlet_task task = tasks[i];
@@ -46,11 +43,11 @@ __kernel void match(__global volatile uint* counters, __global const ox_list* li
       both.meshlet[side] = task.meshlet;
       both.meshlet[1u - side] = target->meshlet_first + (child >> 1);
       both.padding = 0u;
-      const uint slot = ox_append(counters, lists, OX_LIST_MESHLET_PAIRS);
+      const uint slot = ox_append(&scene, OX_LIST_MESHLET_PAIRS);
       if (slot != OX_NONE)
         meshlet_pairs[slot] = both;
       else
-        ox_cross_meshlets(&to, &both, pairs, meshes, meshlets, rays_mode);
+        ox_cross_meshlets(&scene, &to, &both);
     }
   }
 }

@@ -46,21 +46,17 @@ static inline bool ox_find_near(__global const ox_pair* pair, uint side,
 }
 
 // Where crossings go: into their list and, of sides that are flooded (flood.cl), one linked to the
-// next from `heads` on.
+// next from the pair's head on.
 typedef struct {
-  __global volatile uint* counters;
-  __global const ox_list* lists;
-  __global volatile uint* pair_crossings;  // of contacts, per pair
   __global ox_edge_crossing* crossings;
-  __global volatile uint* heads;  // per side of a pair
   __global uint* links;
 } ox_crossing_lists;
 
 // `contact`: whether it is of one.
-static inline void ox_append_crossing(const ox_crossing_lists* to, uint pair_side, uint edge,
-                                      uint triangle, float t, bool leaves, bool contact,
-                                      bool flooded) {
-  const uint slot = ox_append(to->counters, to->lists, OX_LIST_CROSSINGS);
+static inline void ox_append_crossing(const ox_scene* scene, const ox_crossing_lists* to,
+                                      uint pair_side, uint edge, uint triangle, float t,
+                                      bool leaves, bool contact, bool flooded) {
+  const uint slot = ox_append(scene, OX_LIST_CROSSINGS);
   if (slot == OX_NONE) return;
   __global ox_edge_crossing* crossing = to->crossings + slot;
   crossing->pair_side = pair_side;
@@ -68,14 +64,16 @@ static inline void ox_append_crossing(const ox_crossing_lists* to, uint pair_sid
   crossing->triangle = triangle;
   crossing->t = t;
   crossing->leaves = leaves ? 1u : 0u;
-  crossing->slot = contact ? atomic_inc(to->pair_crossings + (pair_side >> 1)) : OX_NONE;
-  if (flooded) to->links[slot] = atomic_xchg(to->heads + pair_side, slot);
+  __global ox_found* found = scene->found + (pair_side >> 1);
+  crossing->slot = contact ? atomic_inc(&found->crossings) : OX_NONE;
+  if (flooded) to->links[slot] = atomic_xchg(&found->head[pair_side & 1u], slot);
 }
 
 // Every place where an edge of the source crosses the target, a little beyond its ends too: edges
 // that meet in a vertex are cast one by one, and none of them may leave it to the other.
-static inline void ox_cross_edges(const ox_crossing_lists* to, uint pair_side, bool flooded,
-                                  __global const ox_pair* pair, __global const ox_meshlet* source,
+static inline void ox_cross_edges(const ox_scene* scene, const ox_crossing_lists* to,
+                                  uint pair_side, bool flooded, __global const ox_pair* pair,
+                                  __global const ox_meshlet* source,
                                   __global const ox_meshlet* target, const ox_near_points* near) {
   const float from = -pair->epsilon;
   for (uint e = 0u; e < source->edge_count; ++e) {
@@ -102,7 +100,7 @@ static inline void ox_cross_edges(const ox_crossing_lists* to, uint pair_side, b
       ox_store(determinant, 0, determinant_lane);
       for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k)
         if (met_lane[k] != 0)
-          ox_append_crossing(to, pair_side, source->edge[e],
+          ox_append_crossing(scene, to, pair_side, source->edge[e],
                              target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
                              determinant_lane[k] < 0.0f, apart, flooded);
     }
@@ -112,8 +110,8 @@ static inline void ox_cross_edges(const ox_crossing_lists* to, uint pair_side, b
 // Vertices that may lie on the surface, or beside it past a ridge or a corner: what is within
 // epsilon of a triangle is so of its plane, and within its box and slab. Triangles so small that
 // their area underflows have no plane to compute: all vertices may lie on them.
-static inline void ox_touch_vertices(const ox_crossing_lists* to, uint pair_side,
-                                     __global const ox_pair* pair,
+static inline void ox_touch_vertices(const ox_scene* scene, const ox_crossing_lists* to,
+                                     uint pair_side, __global const ox_pair* pair,
                                      __global const ox_meshlet* source,
                                      __global const ox_meshlet* m, const ox_near_points* near) {
   uint asked = 0u;
@@ -145,34 +143,33 @@ static inline void ox_touch_vertices(const ox_crossing_lists* to, uint pair_side
     }
   }
   for (; touching != 0u; touching &= touching - 1u)
-    ox_append_crossing(to, pair_side, OX_NONE,
+    ox_append_crossing(scene, to, pair_side, OX_NONE,
                        source->vertex_index[31u - clz(touching & (~touching + 1u))], 0.0f, false,
                        false, true);
 }
 
-static inline void ox_cross_side(const ox_crossing_lists* to, uint pair_side,
-                                 __global const ox_pair* pair, __global const ox_mesh* meshes,
-                                 uint rays_mode, __global const ox_meshlet* source,
+static inline void ox_cross_side(const ox_scene* scene, const ox_crossing_lists* to, uint pair_side,
+                                 __global const ox_meshlet* source,
                                  __global const ox_meshlet* target, const ox_near_points* near) {
+  __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
   const uint side = pair_side & 1u;
   const bool flooded =
-      ox_is_flooded(rays_mode, meshes + pair->mesh[side], meshes + pair->mesh[1u - side]);
-  ox_cross_edges(to, pair_side, flooded, pair, source, target, near);
-  if (flooded) ox_touch_vertices(to, pair_side, pair, source, target, near);
+      ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side]);
+  ox_cross_edges(scene, to, pair_side, flooded, pair, source, target, near);
+  if (flooded) ox_touch_vertices(scene, to, pair_side, pair, source, target, near);
 }
 
 // The edges of either meshlet against the triangles of the other.
-static inline void ox_cross_meshlets(const ox_crossing_lists* to, const ox_meshlet_pair* both,
-                                     __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                                     __global const ox_meshlet* meshlets, uint rays_mode) {
-  __global const ox_pair* pair = pairs + both->pair;
-  __global const ox_meshlet* a = meshlets + both->meshlet[0];
-  __global const ox_meshlet* b = meshlets + both->meshlet[1];
+static inline void ox_cross_meshlets(const ox_scene* scene, const ox_crossing_lists* to,
+                                     const ox_meshlet_pair* both) {
+  __global const ox_pair* pair = scene->pairs + both->pair;
+  __global const ox_meshlet* a = scene->surfaces.meshlets + both->meshlet[0];
+  __global const ox_meshlet* b = scene->surfaces.meshlets + both->meshlet[1];
   ox_near_points near_b;  // vertices of A, in the frame of B
   ox_near_points near_a;
   if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) return;
-  ox_cross_side(to, both->pair << 1, pair, meshes, rays_mode, a, b, &near_b);
-  ox_cross_side(to, both->pair << 1 | 1u, pair, meshes, rays_mode, b, a, &near_a);
+  ox_cross_side(scene, to, both->pair << 1, a, b, &near_b);
+  ox_cross_side(scene, to, both->pair << 1 | 1u, b, a, &near_a);
 }
 
 #endif

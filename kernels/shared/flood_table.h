@@ -26,9 +26,8 @@ typedef struct {
 
 // Room for `count` words, or OX_NONE: the counter says what is lacking. It stops at
 // OX_MOST_COUNTED, whatever is asked for.
-static inline uint ox_take_words(__global volatile uint* counters, __global const ox_list* lists,
-                                 uint count) {
-  __global volatile uint* counter = counters + OX_LIST_FLOOD_WORDS * OX_COUNTER_STRIDE;
+static inline uint ox_take_words(const ox_scene* scene, uint count) {
+  __global volatile uint* counter = scene->counters + OX_LIST_FLOOD_WORDS * OX_COUNTER_STRIDE;
   uint first = *counter;
   for (;;) {
     const uint end = count < OX_MOST_COUNTED - first ? first + count : OX_MOST_COUNTED;
@@ -36,17 +35,14 @@ static inline uint ox_take_words(__global volatile uint* counters, __global cons
     if (seen == first) break;
     first = seen;
   }
-  return first < lists[OX_LIST_FLOOD_WORDS].capacity &&
-                 count <= lists[OX_LIST_FLOOD_WORDS].capacity - first
-             ? lists[OX_LIST_FLOOD_WORDS].first + first
-             : OX_NONE;
+  const ox_list list = scene->lists[OX_LIST_FLOOD_WORDS];
+  return first < list.capacity && count <= list.capacity - first ? list.first + first : OX_NONE;
 }
 
-static inline ox_flood_table ox_empty_table(__global volatile uint* counters,
-                                            __global const ox_list* lists, __global uint* words,
+static inline ox_flood_table ox_empty_table(const ox_scene* scene, __global uint* words,
                                             uint places) {
   ox_flood_table table;
-  table.first = ox_take_words(counters, lists, 2u * places + places / 2u);
+  table.first = ox_take_words(scene, 2u * places + places / 2u);
   table.places = table.first == OX_NONE ? 0u : places;
   table.used = 0u;
   table.queued = 0u;
@@ -68,17 +64,17 @@ static inline __global uint* ox_queue(__global uint* words, const ox_flood_table
 }
 
 // Room for one key more; the table is at most half full. False: there is none.
-static inline bool ox_grow_table(__global volatile uint* counters, __global const ox_list* lists,
-                                 __global uint* words, ox_flood_table* table) {
+static inline bool ox_grow_table(const ox_scene* scene, __global uint* words,
+                                 ox_flood_table* table) {
   if (2u * (table->used + 1u) <= table->places) return true;
   if (table->places == 0u) {
-    *table = ox_empty_table(counters, lists, words, OX_LEAST_PLACES);
+    *table = ox_empty_table(scene, words, OX_LEAST_PLACES);
     return table->places != 0u;
   }
-  ox_flood_table larger = ox_empty_table(counters, lists, words, 2u * table->places);
+  ox_flood_table larger = ox_empty_table(scene, words, 2u * table->places);
   if (larger.places == 0u) {
     // More than is needed now: the less often a step is redone.
-    ox_take_words(counters, lists, 16u * min(table->places, OX_MOST_COUNTED / 16u));
+    ox_take_words(scene, 16u * min(table->places, OX_MOST_COUNTED / 16u));
     return false;
   }
   for (uint i = 0u; i < table->places; ++i) {

@@ -3,13 +3,14 @@
 #ifndef ODE_EXT_KERNELS_SHARED_FLOODED_H
 #define ODE_EXT_KERNELS_SHARED_FLOODED_H
 
-#include "shared/types.h"
+#include "shared/scene.h"
 
 // All but those of sheets, of which something counts as beyond that no edge crosses: a sheet as
 // target has no inside, and as source it reaches as far as its thickness beside an open target.
-static inline bool ox_is_flooded(uint rays_mode, __global const ox_mesh* source,
+static inline bool ox_is_flooded(const ox_scene* scene, __global const ox_mesh* source,
                                  __global const ox_mesh* target) {
-  if ((rays_mode & OX_RAYS_FLOOD) == 0u || (target->flags & OX_MESH_TWO_SIDED) != 0u) return false;
+  if ((scene->modes & OX_MODE_FLOOD) == 0u || (target->flags & OX_MESH_TWO_SIDED) != 0u)
+    return false;
   return (source->flags & OX_MESH_TWO_SIDED) == 0u || (target->flags & OX_MESH_CLOSED) != 0u;
 }
 

@@ -7,16 +7,10 @@
 #include "shared/meshlet_tree.h"
 #include "shared/nearest.h"
 #include "shared/ray_meshlet.h"
+#include "shared/scene.h"
 
 // In boxes.
 #define OX_WORK_TRIANGLE 2u
-
-// What rays are cast against: the triangles of all meshes, their meshlets, and the trees of those.
-typedef struct {
-  __global const ox_triangle* triangles;
-  __global const ox_meshlet* meshlets;
-  __global const ox_meshlet_node* nodes;
-} ox_surfaces;
 
 static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces* surfaces,
                                        __global const ox_meshlet* meshlet, float from,

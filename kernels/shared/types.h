@@ -28,14 +28,14 @@ typedef float ox_f32;
 // Counters live in one buffer, each on a cache line of its own. The first are those of the append
 // lists; a counter runs on past the capacity of its list: that is how overflow is seen.
 #define OX_COUNTER_STRIDE 16u
-#define OX_LIST_CHUNKS_SMALL 0u       // of rigid pairs that moved little
-#define OX_LIST_CHUNKS_HIGH 1u        // of rigid pairs that moved far, or are new
-#define OX_LIST_CHUNKS_DEFORMABLE 2u  // of pairs with a deformable mesh
-#define OX_LIST_RAYS_ITERATIVE 3u
-#define OX_LIST_RAYS_BVH 4u
-#define OX_LIST_RAYS_BASIC 5u
-#define OX_LIST_MESHLETS 6u       // that can meet the other mesh of a pair
-#define OX_LIST_MESHLET_PAIRS 7u  // that can meet
+#define OX_LIST_CHUNKS_SMALL 0u       // paper: of rigid pairs that moved little
+#define OX_LIST_CHUNKS 1u             // paper: of rigid pairs that moved far, or are new
+#define OX_LIST_CHUNKS_DEFORMABLE 2u  // paper: of pairs with a deformable mesh
+#define OX_LIST_RAYS_ITERATIVE 3u     // paper
+#define OX_LIST_RAYS 4u               // cast in full
+#define OX_LIST_RAYS_BASIC 5u         // paper
+#define OX_LIST_MESHLETS 6u           // that can meet the other mesh of a pair
+#define OX_LIST_MESHLET_PAIRS 7u      // that can meet
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
 #define OX_LIST_FLOOD_WORDS 10u  // room for finding the vertices inside, handed out in stretches
@@ -44,8 +44,8 @@ typedef float ox_f32;
 #define OX_COUNTER_BOUNDED 12u   // pairs whose bounding volumes overlap
 #define OX_COUNTER_SEGMENTS 13u  // candidates handed out to pairs
 #define OX_COUNTER_CROSSED 14u   // crossings handed out to pairs
-#define OX_COUNTER_UNPROVEN 15u  // iterative rays that had to be cast in full
-#define OX_COUNTER_DROPPED 16u   // vertices dropped for want of temporal data
+#define OX_COUNTER_UNPROVEN 15u  // paper: iterative rays that had to be cast in full
+#define OX_COUNTER_DROPPED 16u   // paper: vertices dropped for want of temporal data
 #define OX_QUEUE_FLOOD 17u       // how many items the work-items have taken (ox_next_item)
 #define OX_QUEUE_EDGE_CONTACTS 18u
 #define OX_QUEUE_REDUCE 19u
@@ -58,12 +58,12 @@ typedef struct {
 } ox_list;
 OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 
-// What a step does other than usual (options.h). Whether rays are iterative at all is decided by
-// whether pairs keep temporal data.
-#define OX_RAYS_PAPER 1u  // where there is temporal data: only rays that have some, as found
-#define OX_RAYS_BASIC 2u  // deformable targets without their BVH
-#define OX_RAYS_EDGES 4u  // crossings of edges are searched too
-#define OX_RAYS_FLOOD 8u  // and tell which vertices are inside (shared/flooded.h)
+// What a step does (options.h). Whether rays are iterative at all is decided by whether pairs keep
+// temporal data.
+#define OX_MODE_PAPER 1u  // paper: where there is temporal data only rays that have some, as found
+#define OX_MODE_BASIC 2u  // paper: deformable targets without their tree
+#define OX_MODE_EDGES 4u  // crossings of edges are searched
+#define OX_MODE_FLOOD 8u  // and tell which vertices are inside (shared/flooded.h)
 
 #define OX_NONE 0xffffffffu
 
@@ -223,74 +223,42 @@ typedef struct {
   ox_f32 offset[2][3];
   ox_f32 epsilon;  // [m] what rounding can do to a coordinate of this pair
   ox_u32 mesh[2];
-  // [m] per side, how far a vertex of the source moved in the frame of the target at most since
-  // the last step; infinite: not known.
+  // Paper: [m] per side, how far a vertex of the source moved in the frame of the target at most
+  // since the last step; infinite: not known.
   ox_f32 displacement[2];
   ox_u32 near;  // whether the oriented boxes of the meshes overlap; else the rest may be void
   ox_u32 padding[2];
 } ox_pair;
 OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
 
-// Where the temporal data of a pair are (pipeline/temporal_cache.h). OX_NONE as slot: nowhere.
+// What has been found of a pair so far.
 typedef struct {
-  ox_u32 slot;          // its pose in the last step
-  ox_u32 directory[2];  // per side its first directory entry, one per chunk of the source
-  ox_u32 known;         // whether the last step left anything there
-} ox_link;
-OX_STATIC_ASSERT(sizeof(ox_link) == 16, ox_link_is_16_bytes);
+  ox_u32 hits;       // later: candidates
+  ox_u32 crossings;  // of contacts
+  ox_u32 head[2];    // per side the last of its crossings, which links lead on from; OX_NONE: none
+  ox_u32 first_candidate, first_crossing;  // where those of the pair start; void where it has none
+  ox_u32 padding[2];
+} ox_found;
+OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
 
-// The relative pose of a pair, as in ox_pair.
-typedef struct {
-  ox_f32 rotation[9];
-  ox_f32 offset[2][3];
-  ox_u32 step;  // that wrote it
-} ox_relative_pose;
-OX_STATIC_ASSERT(sizeof(ox_relative_pose) == 64, ox_relative_pose_is_64_bytes);
-
-// The temporal datum of a vertex.
-typedef struct {
-  ox_u32 triangle;  // met last, in the order of the leaves from the target's first on; or OX_NONE
-  ox_f32 moved;     // [m] since it was last cast in full; kept with OX_RAYS_PAPER only
-} ox_temporal;
-OX_STATIC_ASSERT(sizeof(ox_temporal) == 8, ox_temporal_is_8_bytes);
-
-// The block of temporal data that a chunk had in a step: OX_CHUNK_VERTICES of them.
-typedef struct {
-  ox_u32 block;
-  ox_u32 step;
-} ox_directory_entry;
-OX_STATIC_ASSERT(sizeof(ox_directory_entry) == 8, ox_directory_entry_is_8_bytes);
-
-// pair_side = pair << 1 | side; side 0: vertices of A against B, side 1: of B against A.
-// A chunk's block of temporal data has the task's own index. OX_NONE as chunk: nothing to do (the
-// monolithic organisation keeps a place for every chunk).
+// Vertices to be looked at. pair_side = pair << 1 | side; side 0: vertices of A against B, side 1:
+// of B against A. The last two fields are the paper's (paper/types.h).
 typedef struct {
   ox_u32 pair_side;
   ox_u32 chunk;
-  ox_u32 previous;  // its block in the last step; OX_NONE: it had none
-  ox_u32 category;  // OX_CATEGORY_..., with OX_CATEGORY_REMEMBERED
+  ox_u32 previous;
+  ox_u32 category;
 } ox_chunk_task;
 OX_STATIC_ASSERT(sizeof(ox_chunk_task) == 16, ox_chunk_task_is_16_bytes);
 
-#define OX_CATEGORY_SMALL OX_LIST_CHUNKS_SMALL
-#define OX_CATEGORY_HIGH OX_LIST_CHUNKS_HIGH
-#define OX_CATEGORY_DEFORMABLE OX_LIST_CHUNKS_DEFORMABLE
-#define OX_CATEGORY_MASK 3u
-#define OX_CATEGORY_REMEMBERED 4u  // the pair keeps temporal data
-
+// Of a vertex. The last two fields are the paper's (paper/types.h).
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
-  ox_u32 memory;    // where its temporal datum goes; OX_NONE: nowhere
-  ox_u32 triangle;  // its temporal datum of the last step, or OX_NONE
+  ox_u32 memory;
+  ox_u32 triangle;
 } ox_ray;
 OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
-
-// What a work-item did, by algorithm, in units of about one box test.
-typedef struct {
-  ox_u32 vertex, iterative, bvh, basic;
-} ox_work;
-OX_STATIC_ASSERT(sizeof(ox_work) == 16, ox_work_is_16_bytes);
 
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit

@@ -12,6 +12,8 @@ namespace ode_ext {
 namespace {
 
 void append_file(std::string& source, const EmbeddedKernel& file) {
+  const bool of_paper = std::string_view(file.name).starts_with("paper/");
+  if (of_paper) source += "#ifdef OX_PAPER\n";
   source += "#line 1 \"" + std::string(file.name) + "\"\n";
   std::string_view rest(reinterpret_cast<const char*>(file.text), file.size);
   while (!rest.empty()) {
@@ -21,6 +23,7 @@ void append_file(std::string& source, const EmbeddedKernel& file) {
     source += '\n';
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
   }
+  if (of_paper) source += "#endif\n";
 }
 
 // For a message about a failed build, so a failure of its own is only told.

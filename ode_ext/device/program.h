@@ -14,9 +14,10 @@ namespace ode_ext {
 
 class Program {
  public:
-  // Builds all files of kernels/ (shared/*.h first, then *.cl, each preceded by a #line that names
-  // it) as one program with "-cl-std=CL1.2" and `options`; where these do not name OX_VECTOR_WIDTH,
-  // with that which suits the device (shared/lanes.h). Throws DeviceError with device, driver,
+  // Builds all files of kernels/ (headers first, then *.cl, each preceded by a #line that names it)
+  // as one program with "-cl-std=CL1.2" and `options`; those of kernels/paper/ only where these
+  // define OX_PAPER; where they do not name OX_VECTOR_WIDTH, with that which suits the device
+  // (shared/lanes.h). Throws DeviceError with device, driver,
   // options and build log.
   Program(Device& device, const std::string& options);
   // The same with `source` instead, for tests and tools.

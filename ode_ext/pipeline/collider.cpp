@@ -18,7 +18,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   result_.contacts.clear();
   if (scene.pairs.empty()) return result_;
 
-  Step step{scene, memory, nothing_, report_,
+  Step step{scene, memory, report_,
             Workload(options_, device_, data_.lists, scene, memory, report_)};
   try {
     upload(step);
@@ -38,14 +38,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
 void Collider::upload(Step& step) {
   data_.meshes.set(step.scene.meshes);
   data_.pairs.upload_objects(step.scene);
-  if (step.memory == nullptr || options_.rays == Rays::kFull) return;
-  // The blocks of temporal data have the places of the tasks of one tile.
-  if (!step.workload.is_whole()) {
-    step.memory->temporal.reset();
-    return;
-  }
-  if (!step.remembers()) step.memory->temporal = std::make_unique<TemporalCache>(device_);
-  step.temporal().begin(step.scene);
+  if (paper_) paper_->begin_step(step);
 }
 
 void Collider::collide_tile(Step& step) {
@@ -72,12 +65,12 @@ void Collider::run(Step& step) {
   const std::size_t pairs = workload.tile().count;
   workload.begin_run();
   data_.pairs.upload_pairs(step.scene, workload.tile());
-  vertex_rays_.begin_run(data_, step);
+  if (paper_) paper_->begin_run(data_, step);
   read_ranges_.reserve(pairs * sizeof(ox_range));
   read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
 
   if (workload.is_few())
-    steps_.whole->run(data_, step.temporal());
+    steps_.run_whole(data_);
   else
     launch_steps(step);
 
@@ -89,22 +82,35 @@ void Collider::run(Step& step) {
 void Collider::launch_steps(Step& step) {
   Workload& workload = step.workload;
   const std::size_t pairs = workload.tile().count;
-  steps_.pair.run(workload.launch(pairs), data_, step.temporal(), vertex_rays_.is_dense());
+  steps_.relate(workload.launch(pairs), data_);
   if (options_.edges) {
-    steps_.cull.run(workload.launch(pairs), data_);
+    steps_.cull(workload.launch(pairs), data_);
     workload.settle_launches();
-    steps_.match.run(workload.launch(Arrow::kMeshlets), data_);
+    steps_.match(workload.launch(Arrow::kMeshlets), data_);
     workload.settle_launches();
-    steps_.cross.run(workload.launch(Arrow::kMeshletPairs), data_);
+    steps_.cross(workload.launch(Arrow::kMeshletPairs), data_);
   }
-  if (floods(options_)) steps_.flood.run(workload.launch_queue(2 * pairs), data_);
-  vertex_rays_.run(data_, step);
+  if (paper_)
+    paper_->run(data_, step);
+  else
+    launch_vertices(step);
   workload.settle_launches();
-  steps_.gather.run(workload.launch(pairs), workload.launch(Arrow::kHits), data_);
+  steps_.gather(workload.launch(pairs), workload.launch(Arrow::kHits), data_);
   if (options_.edges)
-    steps_.edge_contacts.run(workload.launch_queue(pairs), workload.launch(Arrow::kCrossings),
+    steps_.add_edge_contacts(workload.launch_queue(pairs), workload.launch(Arrow::kCrossings),
                              data_);
-  steps_.reduce.run(workload.launch_queue(pairs), data_);
+  steps_.reduce(workload.launch_queue(pairs), data_);
+}
+
+void Collider::launch_vertices(Step& step) {
+  Workload& workload = step.workload;
+  steps_.flood(workload.launch_queue(2 * workload.tile().count), data_);
+  workload.settle_launches();
+  if (!step.floods_all) {
+    steps_.choose_vertices(workload.launch(Arrow::kChunks), data_);
+    workload.settle_launches();
+  }
+  steps_.cast(workload.launch(Arrow::kRays), data_);
 }
 
 // At most as many as there is room for.
@@ -142,7 +148,7 @@ void Collider::deliver(Step& step) {
 // What is uploaded only where it changed.
 void Collider::forget_uploads() {
   data_.lists.forget();
-  nothing_.forget_links();
+  if (paper_) paper_->forget();
 }
 
 // A step that failed. What it has left may be half written: nobody is to start from it.
@@ -164,13 +170,13 @@ StageTimes Collider::take_milliseconds() {
   StageTimes ms{};
   add_time(ms, Stage::kDeformStep, data_.meshes);
   steps_.take_milliseconds(ms);
-  vertex_rays_.take_milliseconds(ms);
+  if (paper_) paper_->take_milliseconds(ms);
   return ms;
 }
 
 void Collider::finish(Step& step) {
   report_.capacity = data_.lists.capacities();
-  report_.temporal_pairs = step.remembers() ? step.temporal().pairs() : 0;
+  report_.temporal_pairs = step.remembers() ? step.memory->temporal->pairs() : 0;
   report_.ms = take_milliseconds();
   data_.lists.note_use(report_.actual, step.memory != nullptr);
   if (step.memory == nullptr) return;

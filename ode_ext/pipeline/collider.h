@@ -2,8 +2,11 @@
 // The main path: pairs in, contacts out (GRAPP figure 1). Knows OpenCL and geometry, not ODE.
 #pragma once
 
+#include <optional>
+
 #include "device/buffer.h"
 #include "device/program.h"
+#include "paper/vertex_rays.h"
 #include "pipeline/options.h"
 #include "pipeline/pass_memory.h"
 #include "pipeline/scene.h"
@@ -11,7 +14,6 @@
 #include "pipeline/step_data.h"
 #include "pipeline/step_report.h"
 #include "pipeline/steps.h"
-#include "pipeline/vertex_rays.h"
 
 namespace ode_ext {
 
@@ -34,6 +36,7 @@ class Collider {
   void collide_tile(Step& step);
   void run(Step& step);
   void launch_steps(Step& step);
+  void launch_vertices(Step& step);
   void read_contacts(std::uint64_t count);
   void read_unpredicted(const Step& step);
   void deliver(Step& step);
@@ -47,9 +50,8 @@ class Collider {
   Device device_;
   Program program_;
   Steps steps_;
-  VertexRays vertex_rays_;
   StepData data_;
-  TemporalCache nothing_;  // of steps that remember nothing
+  std::optional<paper::VertexRays> paper_;  // where options ask for it
   PinnedMemory read_ranges_, read_contacts_;
   PairContacts result_;
   StepReport report_;

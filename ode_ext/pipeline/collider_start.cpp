@@ -10,10 +10,10 @@ namespace {
 
 StepSettings settings_of(const ColliderOptions& options) {
   StepSettings settings;
-  if (options.rays == Rays::kIterativePaper) settings.rays_mode |= OX_RAYS_PAPER;
-  if (options.deformable_target == DeformableTarget::kBasic) settings.rays_mode |= OX_RAYS_BASIC;
-  if (options.edges) settings.rays_mode |= OX_RAYS_EDGES;
-  if (floods(options)) settings.rays_mode |= OX_RAYS_FLOOD;
+  if (options.rays == Rays::kIterativePaper) settings.modes |= OX_MODE_PAPER;
+  if (options.deformable_target == DeformableTarget::kBasic) settings.modes |= OX_MODE_BASIC;
+  if (options.edges) settings.modes |= OX_MODE_EDGES;
+  if (!follows_paper(options)) settings.modes |= OX_MODE_FLOOD;
   settings.displacement_limit = options.displacement_limit;
   settings.walk_limit = options.walk_limit;
   settings.max_contacts = options.max_contacts;
@@ -25,6 +25,7 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
   if (options.vector_width != 0)
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
   if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   return text;
 }
@@ -36,12 +37,11 @@ Collider::Collider(const ColliderOptions& options)
       device_(options.device, options.largest_buffer),
       program_(device_, program_options(options, device_.info())),
       steps_(program_, may_run_whole(options_, device_.info())),
-      vertex_rays_(program_, options_),
       data_(program_),
-      nothing_(device_),
       read_ranges_(device_),
       read_contacts_(device_) {
   data_.settings = settings_of(options);
+  if (follows_paper(options_)) paper_.emplace(program_, options_);
   if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
       options_.vector_width != 8 && options_.vector_width != 16)
     throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
@@ -60,27 +60,31 @@ Collider::Collider(const ColliderOptions& options)
 // more, wherever that falls in a simulation; launching that many settles both.
 void Collider::warm_up() {
   const Scene scene;
-  Step step{scene, nullptr, nothing_, report_,
+  Step step{scene, nullptr, report_,
             Workload(options_, device_, data_.lists, scene, nullptr, report_)};
   step.workload.begin_run();
   data_.meshes.set({});
   data_.pairs.upload_objects(scene);
   data_.pairs.upload_pairs(scene, {0, 0});
-  vertex_rays_.begin_run(data_, step);
   const std::size_t local = options_.work_group_size;
   const bool is_pocl =
       device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
   const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
-  steps_.pair.run(wide, data_, nothing_, false);
-  steps_.cull.run(wide, data_);
-  steps_.match.run(wide, data_);
-  steps_.cross.run(wide, data_);
-  steps_.flood.run(wide, data_);
-  vertex_rays_.warm_up(wide, data_, nothing_);
-  steps_.gather.run(wide, wide, data_);
-  steps_.edge_contacts.run(wide, wide, data_);
-  steps_.reduce.run(wide, data_);
-  if (step.workload.is_few()) steps_.whole->run(data_, nothing_);
+  steps_.relate(wide, data_);
+  steps_.cull(wide, data_);
+  steps_.match(wide, data_);
+  steps_.cross(wide, data_);
+  if (paper_) {
+    paper_->warm_up(wide, data_, step);
+  } else {
+    steps_.flood(wide, data_);
+    steps_.choose_vertices(wide, data_);
+    steps_.cast(wide, data_);
+  }
+  steps_.gather(wide, wide, data_);
+  steps_.add_edge_contacts(wide, wide, data_);
+  steps_.reduce(wide, data_);
+  if (step.workload.is_few()) steps_.run_whole(data_);
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

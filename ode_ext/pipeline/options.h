@@ -41,12 +41,13 @@ struct ColliderOptions {
   std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it
 };
 
-// Whether crossings of edges tell which vertices are inside (kernels/flood.cl). The modes of the
-// paper look at every vertex.
-inline bool floods(const ColliderOptions& options) {
-  return options.edges && options.rays == Rays::kFull &&
-         options.organisation == Organisation::kPipelined &&
-         options.misprediction == Misprediction::kRedo;
+// Whether vertices are looked at one by one, as in the paper (paper/vertex_rays.h); else crossings
+// of edges tell which of them are inside (kernels/flood.cl), of which none may be lost.
+inline bool follows_paper(const ColliderOptions& options) {
+  return !options.edges || options.rays != Rays::kFull ||
+         options.deformable_target != DeformableTarget::kRefit ||
+         options.organisation != Organisation::kPipelined ||
+         options.misprediction != Misprediction::kRedo || options.count_work;
 }
 
 // The largest max_contacts (OX_MAX_CONTACTS in kernels/shared/patches.h).

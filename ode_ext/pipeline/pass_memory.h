@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "paper/temporal_cache.h"
 #include "pipeline/prediction.h"
-#include "pipeline/temporal_cache.h"
 
 namespace ode_ext {
 
@@ -12,7 +12,7 @@ namespace ode_ext {
 // filled it.
 struct PassMemory {
   History history;
-  std::unique_ptr<TemporalCache> temporal;
+  std::unique_ptr<TemporalCache> temporal;  // of iterative rays
   // How many pairs to collide at a time since all at once did not fit the device; 0: they do.
   std::size_t tile_pairs = 0;
 };

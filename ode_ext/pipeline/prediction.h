@@ -11,10 +11,10 @@ namespace ode_ext {
 // The append buffers, in the order of the pipeline. The order is public (dBatchBuffer...).
 enum class Arrow : std::size_t {
   kChunksSmall,
-  kChunksHigh,
+  kChunks,
   kChunksDeformable,
   kRaysIterative,
-  kRaysBvh,
+  kRays,
   kRaysBasic,
   kMeshlets,
   kMeshletPairs,

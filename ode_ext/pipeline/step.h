@@ -6,7 +6,6 @@
 #include "pipeline/pass_memory.h"
 #include "pipeline/scene.h"
 #include "pipeline/step_report.h"
-#include "pipeline/temporal_cache.h"
 #include "pipeline/workload.h"
 
 namespace ode_ext {
@@ -14,8 +13,7 @@ namespace ode_ext {
 // One step of the simulation, as long as it runs.
 struct Step {
   const Scene& scene;
-  PassMemory* memory;      // of the same space; null: a call outside of any pass
-  TemporalCache& nothing;  // for steps that remember nothing
+  PassMemory* memory;  // of the same space; null: a call outside of any pass
   StepReport& report;
   Workload workload;
   std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
@@ -25,7 +23,6 @@ struct Step {
   bool floods_all = !any_object([](const Mesh& mesh) { return !mesh.closed; });
 
   bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
-  TemporalCache& temporal() const { return remembers() ? *memory->temporal : nothing; }
 
   template <class Predicate>
   bool any_object(Predicate is_such) const {

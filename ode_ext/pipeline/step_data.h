@@ -5,6 +5,7 @@
 #include "device/program.h"
 #include "pipeline/append_lists.h"
 #include "pipeline/device_meshes.h"
+#include "pipeline/launch.h"
 #include "pipeline/pair_buffers.h"
 #include "pipeline/step_settings.h"
 
@@ -13,6 +14,16 @@ namespace ode_ext {
 struct StepData {
   explicit StepData(Program& program)
       : meshes(program), pairs(program.device()), lists(program.device()) {}
+
+  // A kernel whose first parameters are OX_SCENE_PARAMETERS (kernels/shared/scene.h).
+  template <class... Args>
+  void launch(Kernel& kernel, Launch size, const Args&... args) const {
+    kernel.launch(size.groups, size.local, lists.counters(), lists.lists(), settings.modes,
+                  pairs.count, pairs.pairs, pairs.found, meshes.records(), meshes.chunks(),
+                  meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
+                  meshes.components(), meshes.facets(), meshes.triangles(), meshes.meshlets(),
+                  meshes.meshlet_nodes(), args...);
+  }
 
   DeviceMeshes meshes;
   PairBuffers pairs;

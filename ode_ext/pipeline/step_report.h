@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "paper/work_count.h"
 #include "pipeline/prediction.h"
 #include "pipeline/stage.h"
-#include "pipeline/work_count.h"
 
 namespace ode_ext {
 

@@ -7,7 +7,7 @@ namespace ode_ext {
 
 // What the kernels of a step are told about its algorithms.
 struct StepSettings {
-  cl_uint rays_mode = 0;  // OX_RAYS_...
+  cl_uint modes = 0;  // OX_MODE_...
   cl_float displacement_limit = 1;
   cl_uint walk_limit = 32;
   cl_uint max_contacts = 16;

@@ -1,54 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of the pipeline by step, but for those of rays of vertices (vertex_rays.h).
+// The kernels of the pipeline, step by step, in the order in which they run.
 #pragma once
 
 #include <optional>
 
 #include "device/program.h"
-#include "pipeline/contact_step.h"
-#include "pipeline/pair_step.h"
-#include "pipeline/search_step.h"
+#include "pipeline/launch.h"
 #include "pipeline/stage.h"
-#include "pipeline/whole_step.h"
+#include "pipeline/step_data.h"
 
 namespace ode_ext {
 
-struct Steps {
+class Steps {
+ public:
   // has_whole: the program was built for a whole step too.
-  Steps(Program& program, bool has_whole)
-      : pair(program),
-        cull(program),
-        match(program),
-        cross(program),
-        flood(program),
-        gather(program),
-        edge_contacts(program),
-        reduce(program) {
-    if (has_whole) whole.emplace(program);
-  }
+  Steps(Program& program, bool has_whole);
+
+  // Which pairs overlap: kernels/pair_step.cl.
+  void relate(Launch per_pair, const StepData& data);
+  // Where their edges cross: cull.cl, match.cl, cross.cl.
+  void cull(Launch per_pair, const StepData& data);
+  void match(Launch per_meshlet, const StepData& data);
+  void cross(Launch per_meshlet_pair, const StepData& data);
+  // Which vertices are inside, and where their rays leave: flood.cl, vertex_step.cl, ray_step.cl.
+  void flood(Launch per_side, const StepData& data);
+  void choose_vertices(Launch per_vertex, const StepData& data);
+  void cast(Launch per_ray, const StepData& data);
+  // What becomes of hits and crossings: contact_step.cl and edge_contact.cl.
+  void gather(Launch per_pair, Launch per_hit, const StepData& data);
+  void add_edge_contacts(Launch per_pair, Launch per_crossing, const StepData& data);
+  void reduce(Launch per_pair, const StepData& data);
+
+  // All of them in one launch: whole_step.cl. Only if has_whole.
+  void run_whole(const StepData& data);
 
   // Adds the device time since the last call.
-  void take_milliseconds(StageTimes& ms) {
-    add_time(ms, Stage::kPairStep, pair);
-    add_time(ms, Stage::kCull, cull);
-    add_time(ms, Stage::kMatch, match);
-    add_time(ms, Stage::kCross, cross);
-    add_time(ms, Stage::kFlood, flood);
-    add_time(ms, Stage::kEdgeContacts, edge_contacts);
-    add_time(ms, Stage::kContactStep, gather);
-    add_time(ms, Stage::kContactStep, reduce);
-    if (whole.has_value()) add_time(ms, Stage::kWholeStep, *whole);
-  }
+  void take_milliseconds(StageTimes& ms);
 
-  PairStep pair;
-  CullStep cull;
-  MatchStep match;
-  CrossStep cross;
-  FloodStep flood;
-  GatherStep gather;
-  EdgeContactStep edge_contacts;
-  ReduceStep reduce;
-  std::optional<WholeStep> whole;  // on devices that run it
+ private:
+  Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_, place_, gather_,
+      gather_crossings_, edge_contacts_, reduce_;
+  std::optional<Kernel> whole_;
 };
 
 }  // namespace ode_ext

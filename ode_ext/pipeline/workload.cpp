@@ -32,9 +32,8 @@ bool is_small(const Scene& scene, Tile tile, std::size_t few_pairs) {
 }  // namespace
 
 bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device) {
-  return options.few_pairs != 0 && floods(options) && options.launches == LaunchRule::kPredicted &&
-         !options.count_work && options.deformable_target == DeformableTarget::kRefit &&
-         (device.type & CL_DEVICE_TYPE_CPU) != 0;
+  return options.few_pairs != 0 && !follows_paper(options) &&
+         options.launches == LaunchRule::kPredicted && (device.type & CL_DEVICE_TYPE_CPU) != 0;
 }
 
 Workload::Workload(const ColliderOptions& options, const Device& device, AppendLists& lists,
@@ -88,8 +87,8 @@ void Workload::reserve(const ArrowCounts& counts) {
     at(wanted, a) = at(wanted, b) = at(wanted, a) + at(wanted, b);
   };
   if (remembers()) {
-    share_room(Arrow::kChunksSmall, Arrow::kChunksHigh);
-    share_room(Arrow::kRaysIterative, Arrow::kRaysBvh);
+    share_room(Arrow::kChunksSmall, Arrow::kChunks);
+    share_room(Arrow::kRaysIterative, Arrow::kRays);
   }
   for (std::uint64_t& count : wanted) count = std::max(count, options_.initial_capacity);
   // A record takes as many words.

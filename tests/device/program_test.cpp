@@ -68,6 +68,7 @@ TEST(EmbeddedSource, KeepsEveryLineInItsPlaceAndLeavesOutIncludes) {
     EXPECT_NE(source.find("#line 1 \"" + std::string(file.name) + "\"\n"), std::string::npos);
     lines += 1 + static_cast<std::size_t>(std::count(file.text, file.text + file.size, '\n'));
     if (file.text[file.size - 1] != '\n') ++lines;
+    if (std::string(file.name).starts_with("paper/")) lines += 2;  // the condition around it
   }
   EXPECT_EQ(static_cast<std::size_t>(std::count(source.begin(), source.end(), '\n')), lines);
 }
@@ -75,6 +76,13 @@ TEST(EmbeddedSource, KeepsEveryLineInItsPlaceAndLeavesOutIncludes) {
 TEST(Program, BuildsTheEmbeddedKernels) {
   Device device("");
   EXPECT_NO_THROW(Program(device, ""));
+}
+
+TEST(Program, HasThePapersKernelsOnlyWhereAskedFor) {
+  Device device("");
+  Program product(device, ""), paper(device, "-DOX_PAPER");
+  EXPECT_THROW(Kernel(product, "monolithic"), DeviceError);
+  EXPECT_NO_THROW(Kernel(paper, "monolithic"));
 }
 
 TEST(Program, AlwaysBuildsOpenClC12) {

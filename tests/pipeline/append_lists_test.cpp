@@ -40,10 +40,10 @@ TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   AppendLists lists(device);
   lists.reserve({4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44});
   EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
-  EXPECT_EQ(lists.first(Arrow::kChunksHigh), 5u);
+  EXPECT_EQ(lists.first(Arrow::kChunks), 5u);
   EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
   EXPECT_EQ(lists.first(Arrow::kRaysIterative), 0u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBvh), 20u);
+  EXPECT_EQ(lists.first(Arrow::kRays), 20u);
   EXPECT_EQ(lists.first(Arrow::kRaysBasic), 45u);
   EXPECT_EQ(lists.first(Arrow::kMeshlets), 0u);
   EXPECT_EQ(lists.first(Arrow::kMeshletPairs), 0u);

@@ -382,7 +382,7 @@ TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
               std::max<std::uint64_t>(1, static_cast<std::uint64_t>(expected)));
     EXPECT_GE(second.capacity[i], second.predicted[i]);
   }
-  for (const Arrow arrow : {Arrow::kCrossings, Arrow::kRaysBvh, Arrow::kHits, Arrow::kContacts})
+  for (const Arrow arrow : {Arrow::kCrossings, Arrow::kRays, Arrow::kHits, Arrow::kContacts})
     EXPECT_GT(first.actual[static_cast<std::size_t>(arrow)], 0u);
   EXPECT_GT(second.milliseconds(Stage::kBvhRays), 0);
   EXPECT_GE(second.ms_total, second.milliseconds(Stage::kBvhRays));

@@ -17,9 +17,9 @@ namespace {
 
 std::vector<ox_candidate> sorted_candidates(const StepRecords& records, std::size_t pair) {
   std::vector<ox_candidate> candidates;
-  if (records.pair_hits[pair] > 0) {
-    const auto first = records.candidates.begin() + records.pair_segments[pair];
-    candidates.assign(first, first + records.pair_hits[pair]);
+  if (records.found[pair].hits > 0) {
+    const auto first = records.candidates.begin() + records.found[pair].first_candidate;
+    candidates.assign(first, first + records.found[pair].hits);
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     const auto key = [](const ox_candidate& c) {

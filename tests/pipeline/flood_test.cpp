@@ -26,7 +26,7 @@ ColliderOptions of_every_vertex() {
 }
 
 std::uint64_t rays(const Collider& collider) {
-  return collider.report().actual[static_cast<std::size_t>(Arrow::kRaysBvh)];
+  return collider.report().actual[static_cast<std::size_t>(Arrow::kRays)];
 }
 
 std::uint64_t hits(const Collider& collider) {
@@ -195,7 +195,7 @@ TEST_F(Flood, LeavesVerticesToTheVertexStepWhereItGetsRoundABorder) {
   for (int i = 0; i < 8; ++i) {
     const TestScene scene = one_pair(ball, at(4, -3 + 0.8 * i, 0.05), hills(false), TestPose{});
     collide(scene.scene);
-    tasks += flood_.report().actual[static_cast<std::size_t>(Arrow::kChunksHigh)];
+    tasks += flood_.report().actual[static_cast<std::size_t>(Arrow::kChunks)];
   }
   EXPECT_GT(hits_, 500u);
   EXPECT_GT(tasks, 100u);
@@ -264,10 +264,10 @@ TEST_F(Flood, GrowsWhatItNeedsRoomForAtABorder) {
   const auto expected = bits_of(flood_.collide(scene.scene, nullptr));
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
   EXPECT_GT(collider.report().redone, 0);
-  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kChunksHigh)], 20u);
+  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kChunks)], 20u);
 }
 
-TEST_F(Flood, CastsBasicRaysAtClosedDeformableTargetsWhereAsked) {
+TEST_F(Flood, FindsWhatBasicRaysAtADeformableTargetFind) {
   ColliderOptions basic = flooded();
   basic.deformable_target = DeformableTarget::kBasic;
   Collider collider(basic);

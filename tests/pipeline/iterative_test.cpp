@@ -21,7 +21,7 @@ std::uint64_t iterative(const StepReport& report) {
   return report.actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
 }
 std::uint64_t bvh(const StepReport& report) {
-  return report.actual[static_cast<std::size_t>(Arrow::kRaysBvh)];
+  return report.actual[static_cast<std::size_t>(Arrow::kRays)];
 }
 
 class IterativeSteps : public testing::Test {
@@ -185,7 +185,7 @@ TEST(IterativePaper, CastsInFullAgainOnceThePairHasMovedFar) {
   int in_full = 0;
   for (int i = 0; i < 60; ++i, moving.advance()) {
     paper.collide(moving.scene(), &memory);
-    if (paper.report().actual[static_cast<std::size_t>(Arrow::kChunksHigh)] > 0) ++in_full;
+    if (paper.report().actual[static_cast<std::size_t>(Arrow::kChunks)] > 0) ++in_full;
   }
   EXPECT_GT(in_full, 1);
   EXPECT_LT(in_full, 30);

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "device/program.h"
+#include "paper/kernels.h"
+#include "paper/types.h"
 #include "shared/deform.h"
 #include "shared/types.h"
 
@@ -108,6 +110,12 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_pair, mesh),
     OFFSET_OF(ox_pair, displacement),
     OFFSET_OF(ox_pair, near),
+    SIZE_OF(ox_found),
+    OFFSET_OF(ox_found, hits),
+    OFFSET_OF(ox_found, crossings),
+    OFFSET_OF(ox_found, head),
+    OFFSET_OF(ox_found, first_candidate),
+    OFFSET_OF(ox_found, first_crossing),
     SIZE_OF(ox_list),
     OFFSET_OF(ox_list, first),
     OFFSET_OF(ox_list, capacity),
@@ -218,7 +226,7 @@ std::string layout_kernel() {
 
 TEST(SharedTypes, AreLaidOutAlikeByHostAndDevice) {
   Device device("");
-  Program program(device, layout_kernel(), "");
+  Program program(device, layout_kernel(), paper::kProgramOption);
   Kernel kernel(program, "layout");
   Buffer out(device);
   out.reserve(kMembers.size() * sizeof(cl_uint));

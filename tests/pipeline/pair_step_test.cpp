@@ -223,7 +223,7 @@ TEST(PairStep, ClearsTheCountsOfEveryPair) {
   Rig::shared().run(scene.scene);
   const StepRecords records = Rig::shared().run_pair_step(scene.scene);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    EXPECT_EQ(records.pair_hits[i], 0u);
+    EXPECT_EQ(records.found[i].hits, 0u);
     EXPECT_EQ(records.ranges[i].count, 0u);
   }
 }

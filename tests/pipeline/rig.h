@@ -7,14 +7,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "pipeline/monolithic_step.h"
+#include "paper/kernels.h"
+#include "paper/temporal_cache.h"
+#include "paper/types.h"
 #include "pipeline/options.h"
-#include "pipeline/ray_step.h"
 #include "pipeline/step_data.h"
 #include "pipeline/steps.h"
-#include "pipeline/temporal_cache.h"
 #include "pipeline/test_scene.h"
-#include "pipeline/vertex_step.h"
 
 namespace ode_ext::test {
 
@@ -24,7 +23,7 @@ struct StepRecords {
   std::vector<ox_chunk_task> tasks;  // of all lists; what follows comes in any order
   std::vector<ox_ray> rays;          // of all lists
   std::vector<ox_hit> hits;
-  std::vector<ox_u32> pair_hits, pair_segments;
+  std::vector<ox_found> found;  // per pair
   std::vector<ox_candidate> candidates;
   std::vector<ox_range> ranges;
   std::vector<ox_contact> contacts;
@@ -34,7 +33,6 @@ struct StepRecords {
   std::vector<ox_meshlet_task> meshlet_tasks;
   std::vector<ox_meshlet_pair> meshlet_pairs;
   std::vector<ox_edge_crossing> crossings, gathered_crossings;
-  std::vector<ox_u32> pair_crossings, crossing_segments;
 };
 
 class Rig {
@@ -49,10 +47,10 @@ class Rig {
 
   StepRecords run(const Scene& scene, std::uint32_t max_contacts = 16, Launch launch = {8, 64}) {
     upload(scene, max_contacts, false);
-    steps_.pair.run(launch, data_, temporal_, false);
+    steps_.relate(launch, data_);
     run_vertices(launch);
-    steps_.gather.run(launch, launch, data_);
-    steps_.reduce.run(launch, data_);
+    steps_.gather(launch, launch, data_);
+    steps_.reduce(launch, data_);
     return read_back();
   }
 
@@ -62,20 +60,21 @@ class Rig {
     const bool dense = organisation == Organisation::kMonolithic;
     do {
       upload(scene, 16, true);
-      if (flooded) data_.settings.rays_mode |= OX_RAYS_FLOOD;
-      steps_.pair.run(launch, data_, temporal_, dense);
-      steps_.cull.run(launch, data_);
-      steps_.match.run(launch, data_);
-      steps_.cross.run(launch, data_);
-      if (flooded) steps_.flood.run(launch, data_);
-      if (dense)
-        monolithic_.run(launch, data_, temporal_, works_);
+      if (flooded) data_.settings.modes |= OX_MODE_FLOOD;
+      steps_.relate(launch, data_);
+      steps_.cull(launch, data_);
+      steps_.match(launch, data_);
+      steps_.cross(launch, data_);
+      if (flooded)
+        flood(launch);
+      else if (dense)
+        run_dense(launch);
       else
         run_vertices(launch);
     } while (grow_for_search());
-    steps_.gather.run(launch, launch, data_);
-    steps_.edge_contacts.run(launch, launch, data_);
-    steps_.reduce.run(launch, data_);
+    steps_.gather(launch, launch, data_);
+    steps_.add_edge_contacts(launch, launch, data_);
+    steps_.reduce(launch, data_);
     StepRecords records = read_back();
     read_back_search(records);
     return records;
@@ -84,25 +83,25 @@ class Rig {
   // The reduction alone, of the first pair, which gets these candidates.
   StepRecords run_reduction(const Scene& scene, const std::vector<ox_candidate>& candidates) {
     upload(scene, 16, true);
-    steps_.pair.run({8, 64}, data_, temporal_, false);
-    const auto& [meshes, pairs, lists, settings] = data_;
+    steps_.relate({8, 64}, data_);
     const auto count = static_cast<ox_u32>(candidates.size());
-    data_.pairs.hits.write(&count, sizeof(count));
+    const ox_found found{count, 0, {OX_NONE, OX_NONE}, 0, 0, {}};
+    data_.pairs.found.write(&found, sizeof(found));
     Buffer given(device_);
     given.reserve(count * sizeof(ox_candidate));
     given.write(candidates.data(), count * sizeof(ox_candidate));
     Kernel reduce(program_, "contact_reduce");
-    reduce.launch(8, 64, lists.counters(), lists.lists(), pairs.pairs, meshes.records(), pairs.hits,
-                  pairs.segments, pairs.count, given, settings.max_contacts,
-                  settings.max_contacts_deformable, settings.rays_mode, pairs.ranges,
-                  lists.contacts());
+    data_.launch(reduce, {8, 64}, given, data_.settings.max_contacts,
+                 data_.settings.max_contacts_deformable, data_.pairs.ranges,
+                 data_.lists.contacts());
     return read_back();
   }
 
   // Its first step alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1, false);
-    steps_.pair.run(launch, data_, temporal_, false);
+    steps_.relate(launch, data_);
+    list_chunks(launch, false);
     return read_back();
   }
 
@@ -118,19 +117,48 @@ class Rig {
  private:
   Rig()
       : device_(""),
-        program_(device_, ""),
+        program_(device_, paper::kProgramOption),
         steps_(program_, false),
-        vertex_(program_),
-        iterative_(program_, "ray_iterative"),
-        bvh_(program_, "ray_bvh"),
-        basic_(program_, "ray_basic"),
-        monolithic_(program_),
+        paper_(program_),
         data_(program_) {}
 
+  void flood(Launch launch) {
+    steps_.flood(launch, data_);
+    steps_.choose_vertices(launch, data_);
+    steps_.cast(launch, data_);
+  }
+
+  void list_chunks(Launch launch, bool dense) {
+    paper_.list_chunks(launch, data_, temporal_, dense, {dense_first_, chunks_});
+  }
+
   void run_vertices(Launch launch) {
-    for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunksHigh, Arrow::kChunksDeformable})
-      vertex_.run(category, launch, data_, temporal_, works_);
-    for (RayStep* step : {&iterative_, &bvh_, &basic_}) step->run(launch, data_, temporal_, works_);
+    list_chunks(launch, false);
+    for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunks, Arrow::kChunksDeformable})
+      paper_.choose_vertices(category, launch, data_, temporal_, works_);
+    for (Kernel* rays : {&paper_.rays_iterative, &paper_.rays_full, &paper_.rays_basic})
+      paper_.cast(*rays, launch, data_, temporal_, works_);
+  }
+
+  void run_dense(Launch launch) {
+    list_chunks(launch, true);
+    paper_.run_monolithic(launch, data_, temporal_, {dense_first_, chunks_}, works_);
+  }
+
+  void place_chunks(const Scene& scene) {
+    std::vector<ox_u32> first;
+    chunks_ = 0;
+    for (const auto& pair : scene.pairs) {
+      first.push_back(chunks_);
+      for (const std::uint32_t object : pair) {
+        const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
+        chunks_ += static_cast<cl_uint>(topology(mesh).chunks.size());
+      }
+    }
+    first.push_back(chunks_);
+    dense_first_.reserve(first.size() * sizeof(ox_u32));
+    dense_first_.write(first.data(), first.size() * sizeof(ox_u32));
+    device_.finish();
   }
 
   // Whether the search found more than there was room for, which there now is.
@@ -165,8 +193,8 @@ class Rig {
     const std::size_t count = scene.pairs.size();
     pairs.upload_objects(scene);
     pairs.upload_pairs(scene, {0, count});
-    pairs.upload_dense_first();
-    const std::uint64_t tasks = std::uint64_t{pairs.chunks} + 1;
+    place_chunks(scene);
+    const std::uint64_t tasks = std::uint64_t{chunks_} + 1;
     // An edge may cross every triangle; that all of them do takes more memory than there is, so
     // the room for what the search finds follows what it did.
     lists.reserve({tasks, tasks, tasks, vertices, vertices, vertices, edges, edges, vertices, edges,
@@ -175,11 +203,9 @@ class Rig {
     lists.tasks().reserve(tasks * sizeof(ox_chunk_task));
     temporal_.begin_without(count);
     works_.reserve(sizeof(ox_work));
-    pairs.segments.fill_zero(count * sizeof(ox_u32));
-    pairs.crossing_segments.fill_zero(count * sizeof(ox_u32));
     pairs.pairs.fill_zero(count * sizeof(ox_pair));
     settings.max_contacts = max_contacts;
-    settings.rays_mode = with_edges ? OX_RAYS_EDGES : 0u;
+    settings.modes = with_edges ? OX_MODE_EDGES : 0u;
   }
 
   StepRecords read_back() {
@@ -191,16 +217,15 @@ class Rig {
     StepRecords records;
     records.bounded = static_cast<std::uint32_t>(counter(OX_COUNTER_BOUNDED));
     read(pairs.pairs, 0, records.pairs, pairs.count);
-    for (const Arrow list : {Arrow::kChunksSmall, Arrow::kChunksHigh, Arrow::kChunksDeformable})
+    for (const Arrow list : {Arrow::kChunksSmall, Arrow::kChunks, Arrow::kChunksDeformable})
       read(lists.tasks(), lists.first(list), records.tasks,
            counter(static_cast<std::size_t>(list)));
-    for (const Arrow list : {Arrow::kRaysIterative, Arrow::kRaysBvh, Arrow::kRaysBasic})
+    for (const Arrow list : {Arrow::kRaysIterative, Arrow::kRays, Arrow::kRaysBasic})
       read(lists.rays(), lists.first(list), records.rays, counter(static_cast<std::size_t>(list)));
     read(lists.hits(), 0, records.hits, counter(OX_LIST_HITS));
-    read(pairs.hits, 0, records.pair_hits, pairs.count);
-    read(pairs.segments, 0, records.pair_segments, pairs.count);
+    read(pairs.found, 0, records.found, pairs.count);
     // With edges there is room between the candidates of one pair and the next.
-    const bool edges = (settings.rays_mode & OX_RAYS_EDGES) != 0;
+    const bool edges = (settings.modes & OX_MODE_EDGES) != 0;
     read(lists.candidates(), 0, records.candidates,
          counter(edges ? OX_COUNTER_SEGMENTS : OX_LIST_HITS));
     read(pairs.ranges, 0, records.ranges, pairs.count);
@@ -218,8 +243,6 @@ class Rig {
     read(lists.meshlet_pairs(), 0, records.meshlet_pairs, counter(OX_LIST_MESHLET_PAIRS));
     read(lists.crossings(), 0, records.crossings, counter(OX_LIST_CROSSINGS));
     read(lists.gathered_crossings(), 0, records.gathered_crossings, counter(OX_LIST_CROSSINGS));
-    read(pairs.crossings, 0, records.pair_crossings, pairs.count);
-    read(pairs.crossing_segments, 0, records.crossing_segments, pairs.count);
   }
 
   // Appends `count` records of the buffer from `first` on.
@@ -234,12 +257,12 @@ class Rig {
   Device device_;
   Program program_;
   Steps steps_;
-  VertexStep vertex_;
-  RayStep iterative_, bvh_, basic_;
-  MonolithicStep monolithic_;
+  paper::Kernels paper_;
   StepData data_;
   TemporalCache temporal_{device_};
   Buffer works_{device_};
+  Buffer dense_first_{device_};
+  cl_uint chunks_ = 0;                              // of all pairs
   std::size_t edge_count_ = 0, meshlet_count_ = 0;  // of all meshes
 };
 

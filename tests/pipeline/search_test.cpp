@@ -222,8 +222,8 @@ TEST(Search, GathersCrossingsByPair) {
     std::set<std::size_t> places;
     for (ox_u32 i = 0; i < scene.pairs.size(); ++i) {
       const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
-      for (ox_u32 k = 0; k < records.pair_crossings[i]; ++k) {
-        const std::size_t place = records.crossing_segments[i] + k;
+      for (ox_u32 k = 0; k < records.found[i].crossings; ++k) {
+        const std::size_t place = records.found[i].first_crossing + k;
         EXPECT_TRUE(places.insert(place).second);
         const ox_edge_crossing& c = records.gathered_crossings.at(place);
         EXPECT_EQ(c.pair_side >> 1, i);

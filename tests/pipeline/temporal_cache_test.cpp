@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which places pairs get for their temporal data; what is made of them is in iterative_test.cpp.
-#include "pipeline/temporal_cache.h"
+#include "paper/temporal_cache.h"
 
 #include <gtest/gtest.h>
 

@@ -141,8 +141,8 @@ std::vector<Said> all_said(const TestScene& scene) {
   const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
   const TestPose& frame = scene.pose_of(0, 1);
   std::vector<Said> said;
-  for (ox_u32 i = 0; i < records.pair_hits[0]; ++i) {
-    const ox_candidate& c = records.candidates.at(records.pair_segments[0] + i);
+  for (ox_u32 i = 0; i < records.found[0].hits; ++i) {
+    const ox_candidate& c = records.candidates.at(records.found[0].first_candidate + i);
     if ((c.side_kind & OX_HIT_KIND) == OX_HIT_NONE) continue;
     // Of a point on both surfaces rounding decides whether it is said.
     if ((c.side_kind & OX_HIT_POINT) != 0 && static_cast<double>(c.depth) < 4 * tolerance_of(scene))

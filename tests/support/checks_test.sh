@@ -24,6 +24,8 @@ plant_clean_tree() {
   source_file ode_ext/ode/gather.cpp '#include <ode/ode.h>' '' '#include "pipeline/collider.h"'
   source_file ode_ext/pipeline/collider.cpp '#include <CL/cl.h>' '' '#include "device/device.h"' \
     '#include "geometry/mesh.h"'
+  source_file ode_ext/pipeline/collider.h '#include "paper/rays.h"'
+  source_file ode_ext/paper/rays.h '#include "pipeline/step.h"'
   source_file ode_ext/geometry/mesh.cpp '#include "geometry/bvh.h"' \
     "// $(printf '%95s' '') ε"
   source_file ode_ext/device/device.cpp '#include <CL/cl.h>'
@@ -75,6 +77,13 @@ include_fails ode_ext/device/buffer.cpp '<ode/common.h>'
 include_fails ode_ext/pipeline/pair_step.cpp '"ode/gather.h"'
 include_fails ode_ext/pipeline/pair_step.cpp '"api/handles.h"'
 include_fails ode_ext/pipeline/pair_step.cpp '"ode_ext/ode_ext.h"'
+include_fails ode_ext/paper/rays.cpp '"api/handles.h"'
+include_fails ode_ext/device/buffer.cpp '"paper/rays.h"'
+include_fails ode_ext/ode/gather.h '"paper/rays.h"'
+source_file ode_ext/pipeline/tiles.cpp '#include "paper/rays.h"'
+expect_fail check-house 'ode_ext/pipeline/tiles.cpp'
+source_file kernels/cull.cl '#include "paper/types.h"'
+expect_fail check-house 'kernels/cull.cl'
 include_fails ode_ext/ode/gather.h '"api/handles.h"'
 include_fails ode_ext/ode/gather.h '<CL/cl.h>'
 include_fails ode_ext/api/create.cpp '<CL/cl.h>'

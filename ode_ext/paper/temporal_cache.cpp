@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/temporal_cache.h"
+#include "paper/temporal_cache.h"
 
 #include <bit>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/work_count.h"
+#include "paper/work_count.h"
 
 #include <algorithm>
 

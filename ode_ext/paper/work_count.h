@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device/buffer.h"
-#include "shared/types.h"
+#include "paper/types.h"
 
 namespace ode_ext {
 

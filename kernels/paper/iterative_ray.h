@@ -4,9 +4,9 @@
 // only.
 //
 // A triangle on the line need not be the first. The paper takes it for that; else a full ray looks
-// at what lies before it (shared/cast.h).
-#ifndef ODE_EXT_KERNELS_SHARED_ITERATIVE_RAY_H
-#define ODE_EXT_KERNELS_SHARED_ITERATIVE_RAY_H
+// at what lies before it (paper/cast.h).
+#ifndef ODE_EXT_KERNELS_PAPER_ITERATIVE_RAY_H
+#define ODE_EXT_KERNELS_PAPER_ITERATIVE_RAY_H
 
 #include "shared/full_ray.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which ray algorithm a vertex gets (GRAPP section 3.2), the same in both organisations. Device
 // only.
-#ifndef ODE_EXT_KERNELS_SHARED_CHOOSE_H
-#define ODE_EXT_KERNELS_SHARED_CHOOSE_H
+#ifndef ODE_EXT_KERNELS_PAPER_CHOOSE_H
+#define ODE_EXT_KERNELS_PAPER_CHOOSE_H
 
-#include "shared/append.h"
-#include "shared/cull.h"
+#include "paper/types.h"
+#include "shared/vertex_ray.h"
 
 #define OX_WORK_TASK 1u
 #define OX_WORK_VERTEX 2u
@@ -26,13 +26,18 @@ static inline float ox_displacement(__global const ox_pair* pair, uint side,
   return pair->displacement[side] + vertex->moved + target->moved;
 }
 
+// The list of the full algorithm for the target of a ray.
+static inline uint ox_full_list(const ox_scene* scene, uint pair_side) {
+  __global const ox_mesh* target =
+      scene->meshes + scene->pairs[pair_side >> 1].mesh[1u - (pair_side & 1u)];
+  return (target->flags & OX_MESH_DEFORMABLE) != 0u && (scene->modes & OX_MODE_BASIC) != 0u
+             ? OX_LIST_RAYS_BASIC
+             : OX_LIST_RAYS;
+}
+
 // `task_index` and `lane`: the vertex. Clears its temporal datum; the ray step sets it.
-static inline ox_choice ox_choose(__global volatile uint* counters,
-                                  __global const ox_chunk_task* tasks, uint task_index, uint lane,
-                                  __global const ox_pair* pairs, __global const ox_mesh* meshes,
-                                  __global const ox_chunk* chunks,
-                                  __global const ox_vertex* vertices, uint rays_mode,
-                                  float displacement_limit,
+static inline ox_choice ox_choose(const ox_scene* scene, __global const ox_chunk_task* tasks,
+                                  uint task_index, uint lane, float displacement_limit,
                                   __global const ox_temporal* temporal_before,
                                   __global ox_temporal* temporal, ox_work* work) {
   ox_choice choice;
@@ -42,7 +47,7 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
   work->vertex += OX_WORK_TASK;
   __global const ox_chunk_task* task = tasks + task_index;
   if (task->chunk == OX_NONE) return choice;
-  __global const ox_chunk* chunk = chunks + task->chunk;
+  __global const ox_chunk* chunk = scene->chunks + task->chunk;
   if (lane >= chunk->count) return choice;
 
   choice.vertex = chunk->first + lane;
@@ -51,14 +56,13 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
     temporal[choice.memory].triangle = OX_NONE;
     temporal[choice.memory].moved = 0.0f;
   }
-  __global const ox_vertex* vertex = vertices + choice.vertex;
-  const float3 direction = vload3(0, vertex->direction);
-  if (direction.x == 0.0f && direction.y == 0.0f && direction.z == 0.0f) return choice;
+  __global const ox_vertex* vertex = scene->vertices + choice.vertex;
+  if (!ox_casts_ray(vertex)) return choice;
 
   const uint side = task->pair_side & 1u;
-  __global const ox_pair* pair = pairs + (task->pair_side >> 1);
-  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-  const bool paper = (rays_mode & OX_RAYS_PAPER) != 0u;
+  __global const ox_pair* pair = scene->pairs + (task->pair_side >> 1);
+  __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
+  const bool paper = (scene->modes & OX_MODE_PAPER) != 0u;
   ox_temporal before;
   before.triangle = OX_NONE;
   before.moved = INFINITY;
@@ -77,14 +81,13 @@ static inline ox_choice ox_choose(__global volatile uint* counters,
   const bool iterative = small && choice.triangle != OX_NONE;
   if (!(paper && iterative)) {
     work->vertex += OX_WORK_VERTEX;
-    if (!ox_keep_vertex(pair, side, meshes, vertex)) return choice;
+    if (!ox_keep_vertex(pair, side, scene->meshes, vertex)) return choice;
     if (paper && small) {  // the paper has no ray for it
-      ox_count(counters, OX_COUNTER_DROPPED);
+      ox_count(scene, OX_COUNTER_DROPPED);
       return choice;
     }
   }
-  choice.list =
-      iterative ? OX_LIST_RAYS_ITERATIVE : ox_full_list(pairs, meshes, task->pair_side, rays_mode);
+  choice.list = iterative ? OX_LIST_RAYS_ITERATIVE : ox_full_list(scene, task->pair_side);
   return choice;
 }
 

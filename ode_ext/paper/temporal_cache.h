@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "device/buffer.h"
+#include "paper/types.h"
 #include "pipeline/scene.h"
-#include "shared/types.h"
 
 namespace ode_ext {
 

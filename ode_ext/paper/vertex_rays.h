@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From pairs to hits by rays of vertices, as the paper has it (GRAPP section 3): the pair step says
+// which vertices are to be looked at, the vertex step which of them get a ray, and of which kind,
+// the ray step casts them; or one kernel does all of it. In place of the flood.
+#pragma once
+
+#include <vector>
+
+#include "device/program.h"
+#include "paper/kernels.h"
+#include "paper/temporal_cache.h"
+#include "paper/work_count.h"
+#include "pipeline/options.h"
+#include "pipeline/step.h"
+#include "pipeline/step_data.h"
+
+namespace ode_ext::paper {
+
+class VertexRays {
+ public:
+  VertexRays(Program& program, const ColliderOptions& options);
+
+  // Before the first run of a step: finds its temporal data, where it is to have some.
+  void begin_step(const Step& step);
+  // Before a run: what it needs beside lists and pairs.
+  void begin_run(StepData& data, const Step& step);
+  void run(StepData& data, Step& step);
+  // The device lost what was uploaded.
+  void forget() { nothing_.forget_links(); }
+  void warm_up(Launch wide, StepData& data, const Step& step);
+  // Adds the device time since the last call.
+  void take_milliseconds(StageTimes& ms);
+
+ private:
+  // Whether each chunk has a place of its own, not in lists.
+  bool is_dense() const { return options_.organisation == Organisation::kMonolithic; }
+  TemporalCache& temporal(const Step& step) {
+    return step.remembers() ? *step.memory->temporal : nothing_;
+  }
+  DensePlaces places() const { return {dense_first_, chunks_}; }
+  void place_chunks(const Step& step);
+  void run_dense(StepData& data, Step& step);
+  void run_vertices(Arrow category, StepData& data, Step& step);
+  void run_rays(Kernel& rays, Arrow list, Worker worker, StepData& data, Step& step);
+
+  Device& device_;
+  const ColliderOptions& options_;
+  Kernels kernels_;
+  TemporalCache nothing_;  // of steps that remember nothing
+  WorkRecords works_;
+  Buffer dense_first_;
+  std::vector<ox_u32> host_dense_first_;
+  cl_uint chunks_ = 0;  // of all pairs
+};
+
+}  // namespace ode_ext::paper

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/steps.h"
+
+namespace ode_ext {
+
+Steps::Steps(Program& program, bool has_whole)
+    : pair_step_(program, "pair_step"),
+      cull_(program, "cull"),
+      match_(program, "match"),
+      cross_(program, "cross_meshlets"),
+      flood_(program, "flood"),
+      vertex_step_(program, "vertex_step"),
+      ray_step_(program, "ray_step"),
+      place_(program, "contact_place"),
+      gather_(program, "contact_gather"),
+      gather_crossings_(program, "crossing_gather"),
+      edge_contacts_(program, "edge_contacts"),
+      reduce_(program, "contact_reduce") {
+  if (has_whole) whole_.emplace(program, "whole_step");
+}
+
+void Steps::relate(Launch per_pair, const StepData& data) {
+  data.launch(pair_step_, per_pair, data.pairs.objects, data.pairs.members, data.pairs.ranges);
+}
+
+void Steps::cull(Launch per_pair, const StepData& data) {
+  data.launch(cull_, per_pair, data.lists.meshlets());
+}
+
+void Steps::match(Launch per_meshlet, const StepData& data) {
+  data.launch(match_, per_meshlet, data.lists.meshlets(), data.lists.meshlet_pairs(),
+              data.lists.crossings(), data.lists.crossing_links());
+}
+
+void Steps::cross(Launch per_meshlet_pair, const StepData& data) {
+  data.launch(cross_, per_meshlet_pair, data.lists.meshlet_pairs(), data.lists.crossings(),
+              data.lists.crossing_links());
+}
+
+void Steps::flood(Launch per_side, const StepData& data) {
+  data.launch(flood_, per_side, data.lists.crossings(), data.lists.crossing_links(),
+              data.lists.tasks(), data.lists.rays(), data.lists.flood_words());
+}
+
+void Steps::choose_vertices(Launch per_vertex, const StepData& data) {
+  data.launch(vertex_step_, per_vertex, data.lists.tasks(), data.lists.rays());
+}
+
+void Steps::cast(Launch per_ray, const StepData& data) {
+  data.launch(ray_step_, per_ray, data.lists.rays(), data.lists.hits());
+}
+
+void Steps::gather(Launch per_pair, Launch per_hit, const StepData& data) {
+  data.launch(place_, per_pair);
+  data.launch(gather_, per_hit, data.lists.hits(), data.lists.candidates());
+}
+
+void Steps::add_edge_contacts(Launch per_pair, Launch per_crossing, const StepData& data) {
+  data.launch(gather_crossings_, per_crossing, data.lists.crossings(),
+              data.lists.gathered_crossings(), data.lists.crossing_order());
+  data.launch(edge_contacts_, per_pair, data.lists.gathered_crossings(),
+              data.lists.crossing_order(), data.lists.candidates());
+}
+
+void Steps::reduce(Launch per_pair, const StepData& data) {
+  data.launch(reduce_, per_pair, data.lists.candidates(), data.settings.max_contacts,
+              data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
+}
+
+void Steps::run_whole(const StepData& data) {
+  const auto& [meshes, pairs, lists, settings] = data;
+  data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
+              lists.meshlet_pairs(), lists.crossings(), lists.crossing_links(), lists.tasks(),
+              lists.rays(), lists.flood_words(), lists.hits(), lists.candidates(),
+              lists.gathered_crossings(), lists.crossing_order(), settings.max_contacts,
+              settings.max_contacts_deformable, lists.contacts());
+}
+
+void Steps::take_milliseconds(StageTimes& ms) {
+  add_time(ms, Stage::kPairStep, pair_step_);
+  add_time(ms, Stage::kCull, cull_);
+  add_time(ms, Stage::kMatch, match_);
+  add_time(ms, Stage::kCross, cross_);
+  add_time(ms, Stage::kFlood, flood_);
+  add_time(ms, Stage::kVertexStep, vertex_step_);
+  add_time(ms, Stage::kBvhRays, ray_step_);
+  for (Kernel* kernel : {&gather_crossings_, &edge_contacts_})
+    add_time(ms, Stage::kEdgeContacts, *kernel);
+  for (Kernel* kernel : {&place_, &gather_, &reduce_}) add_time(ms, Stage::kContactStep, *kernel);
+  if (whole_.has_value()) add_time(ms, Stage::kWholeStep, *whole_);
+}
+
+}  // namespace ode_ext
