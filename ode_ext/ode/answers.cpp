@@ -1,59 +1,95 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/answers.h"
 
-#include <cstring>
+#include <algorithm>
 #include <functional>
 
 namespace ode_ext {
-namespace {
-
-bool same(const PairMember& a, const PairMember& b) {
-  return a.geom == b.geom && a.data == b.data && a.mesh == b.mesh &&
-         std::memcmp(&a.pose, &b.pose, sizeof(Pose)) == 0;
-}
-
-}  // namespace
-
-static_assert(sizeof(Pose) == 12 * sizeof(double), "poses are compared by their bytes");
 
 bool Answer::holds(const PairMember& a, const PairMember& b) const {
-  return valid && ((same(members[0], a) && same(members[1], b)) ||
-                   (same(members[0], b) && same(members[1], a)));
+  const auto is_of = [&](const PairMember& first, const PairMember& second) {
+    return geoms[0] == first.geom && geoms[1] == second.geom && stamps[0] == first.stamp &&
+           stamps[1] == second.stamp;
+  };
+  return valid && (is_of(a, b) || is_of(b, a));
 }
 
-Answer* Answers::find(dGeomID a, dGeomID b) {
-  const auto found = map_.find(key(a, b));
-  return found == map_.end() ? nullptr : &found->second;
+void Answer::prefetch() const {
+  const char* const first = reinterpret_cast<const char*>(this);
+  __builtin_prefetch(first);
+  __builtin_prefetch(first + sizeof(Answer) - 1);
 }
 
-void Answers::prune(std::uint64_t pass) {
-  std::erase_if(map_,
-                [&](const auto& item) { return item.second.last_pass + kPassesRemembered < pass; });
-}
+namespace {
 
-Answers::Key Answers::key(dGeomID a, dGeomID b) {
-  return std::less<>()(a, b) ? Key{a, b} : Key{b, a};
-}
+constexpr std::size_t kLeastSlots = 64;
 
 // Geoms come from an allocator: their low bits are equal and their differences regular, so the two
 // are mixed by odd multipliers (of the golden ratio and of pi) and the high half is folded down.
-std::size_t Answers::Hash::operator()(const Key& key) const {
+std::size_t hash(const std::array<dGeomID, 2>& key) {
   const std::uint64_t a = reinterpret_cast<std::uintptr_t>(key[0]);
   const std::uint64_t b = reinterpret_cast<std::uintptr_t>(key[1]);
   const std::uint64_t mixed = a * 0x9e3779b97f4a7c15u + b * 0x3243f6a8885a308du;
   return static_cast<std::size_t>(mixed ^ mixed >> 29);
 }
 
-bool in_canonical_order(const PairMember& a, const PairMember& b) {
-  if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
-  const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
-  if (poses != 0) return poses < 0;
-  if (a.mesh->content_hash != b.mesh->content_hash)
-    return a.mesh->content_hash < b.mesh->content_hash;
-  const int soups = compare_soups(a.mesh->soup, b.mesh->soup);  // hashes can be forged
-  if (soups != 0) return soups < 0;
-  // Copies at one pose: nothing of theirs tells them apart, so their handles have to.
-  return std::less<>()(a.geom, b.geom);
+}  // namespace
+
+Answers::Key Answers::key(dGeomID a, dGeomID b) {
+  return std::less<>()(a, b) ? Key{a, b} : Key{b, a};
+}
+
+Answers::Slot& Answers::slot_of(const Key& key) {
+  for (std::size_t place = hash(key);; ++place) {
+    Slot& slot = slots_[place & (slots_.size() - 1)];
+    if (slot.answer == nullptr || (slot.key[0] == key[0] && slot.key[1] == key[1])) return slot;
+  }
+}
+
+void Answers::resize(std::size_t count) {
+  std::vector<Slot> before(count);
+  before.swap(slots_);
+  for (const Slot& slot : before)
+    if (slot.answer != nullptr) slot_of(slot.key) = slot;
+}
+
+Answer& Answers::entry(dGeomID a, dGeomID b) {
+  if (2 * (size() + 1) > slots_.size()) resize(std::max(kLeastSlots, 2 * slots_.size()));
+  const Key wanted = key(a, b);
+  Slot& slot = slot_of(wanted);
+  if (slot.answer != nullptr) return *slot.answer;
+  if (free_.empty()) {
+    slot = {wanted, &answers_.emplace_back()};
+  } else {
+    slot = {wanted, free_.back()};
+    free_.pop_back();
+    *slot.answer = {};
+  }
+  return *slot.answer;
+}
+
+Answer* Answers::find(dGeomID a, dGeomID b) {
+  return slots_.empty() ? nullptr : slot_of(key(a, b)).answer;
+}
+
+void Answers::prune(std::uint64_t pass) {
+  if (pass < pruned_pass_ + kPassesRemembered) return;
+  pruned_pass_ = pass;
+  bool any = false;
+  for (Slot& slot : slots_) {
+    if (slot.answer == nullptr || slot.answer->last_pass + kPassesRemembered >= pass) continue;
+    slot.answer->contacts = {};
+    free_.push_back(slot.answer);
+    slot.answer = nullptr;
+    any = true;
+  }
+  if (any) resize(slots_.size());  // what was pushed aside may be nearer now
+}
+
+void Answers::clear() {
+  slots_.clear();
+  answers_.clear();
+  free_.clear();
 }
 
 }  // namespace ode_ext

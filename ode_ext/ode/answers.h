@@ -7,10 +7,10 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <unordered_map>
+#include <deque>
 #include <vector>
 
+#include "ode/members.h"
 #include "pipeline/scene.h"
 
 namespace ode_ext {
@@ -19,16 +19,9 @@ namespace ode_ext {
 // nobody asks for is no longer computed ahead.
 inline constexpr std::uint64_t kPassesRemembered = 8;
 
-// One geom of a pair: all that its contacts depend on.
-struct PairMember {
-  dGeomID geom = nullptr;
-  dTriMeshDataID data = nullptr;
-  std::shared_ptr<const Mesh> mesh;
-  Pose pose;
-};
-
 struct Answer {
-  std::array<PairMember, 2> members;  // contacts are those of dCollide(members[0], members[1])
+  std::array<dGeomID, 2> geoms{};         // contacts are those of dCollide(geoms[0], geoms[1]),
+  std::array<std::uint64_t, 2> stamps{};  // as they were then
   std::vector<Contact> contacts;
   bool valid = false;
   std::uint64_t gathering = 0;       // the last gathering that met it; nested passes count
@@ -39,30 +32,44 @@ struct Answer {
 
   // Whether this is the answer for these two, in either order.
   bool holds(const PairMember& a, const PairMember& b) const;
+  // Into the caches: it is about to be used.
+  void prefetch() const;
 };
 
+// By pair of geoms, unordered. A pass asks for each pair in turn, between two of which kernels have
+// filled the caches: open addressing, so that little is touched, and answers in the order in which
+// they were first met, as they mostly are again.
 class Answers {
  public:
-  // The entry of the unordered pair; created empty.
-  Answer& entry(dGeomID a, dGeomID b) { return map_[key(a, b)]; }
+  // The entry of the pair; created empty. Stays where it is until it is forgotten.
+  Answer& entry(dGeomID a, dGeomID b);
   Answer* find(dGeomID a, dGeomID b);
+  // Forgets those that no pass met of late. Looks every so many passes.
   void prune(std::uint64_t pass);
-  void clear() { map_.clear(); }
-  std::size_t size() const { return map_.size(); }
+  void clear();
+  std::size_t size() const { return answers_.size() - free_.size(); }
 
  private:
   using Key = std::array<dGeomID, 2>;
-  struct Hash {
-    std::size_t operator()(const Key& key) const;
+  struct Slot {
+    Key key;
+    Answer* answer = nullptr;  // null: free
   };
   static Key key(dGeomID a, dGeomID b);
+  // Where the key is, or would be.
+  Slot& slot_of(const Key& key);
+  void resize(std::size_t slots);
 
-  std::unordered_map<Key, Answer, Hash> map_;
+  std::vector<Slot> slots_;  // a power of two, at most half of them taken
+  std::deque<Answer> answers_;
+  std::vector<Answer*> free_;
+  std::uint64_t pruned_pass_ = 0;
 };
 
-// The order in which a pair is computed. It depends on the meshes and the poses alone, so that a
-// pair gives the same bytes whichever way round, whenever and in whatever company it is asked for;
-// only copies at one pose are told apart by their handles.
-bool in_canonical_order(const PairMember& a, const PairMember& b);
+// An answer with what it is of, for the program's callbacks to be asked without the lock.
+struct AnswerCopy {
+  std::array<PairMember, 2> members;
+  std::vector<Contact> contacts;
+};
 
 }  // namespace ode_ext

@@ -20,6 +20,10 @@
 namespace ode_ext {
 namespace {
 
+// How many pairs ahead answers are fetched, which have left the caches since the last pass: about
+// what memory takes to come.
+constexpr std::size_t kAhead = 8;
+
 // How many answers computed outside of any pass are kept, for programs that never make one.
 constexpr std::uint64_t kAnswersOutside = 65536;
 
@@ -48,16 +52,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Rotations, and positions a float can hold with room for what is summed of them: differences,
-// turned, over three axes, 36 times as much. Beyond, and for NaN, there is nothing to compute.
-bool is_usable(const Pose& pose) {
-  if (!(off_rotation(pose.rotation) <= kMostOff)) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(std::fabs(pose.position[k]) < 1e36)) return false;
-  return true;
-}
-
-PlacedGeom placed(dGeomID geom) { return {geom, pose_of(geom)}; }
+PlacedGeom placed(dGeomID geom) { return {geom, geom}; }
 
 // What dCollide itself checks before it asks a collider.
 bool can_collide(dGeomID g1, dGeomID g2) {
@@ -135,6 +130,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
     }
   }
   answers_.prune(pass_);
+  members_.prune(pass_);
   meshes_.prune(pass_);
   memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
   stats_.meshes = static_cast<int>(meshes_.size());
@@ -145,30 +141,33 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
 
 void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root) {
   const Stopwatch reading;
-  begin_scene();
-  std::vector<const Answer*> gathered;
+  scene_.begin();
+  std::vector<Answer*> entries;
+  for (const GatheredPair& pair : pairs)
+    entries.push_back(&answers_.entry(pair.first.geom, pair.second.geom));
+  std::size_t gathered = 0;
   bool familiar = pairs.empty();
-  for (const GatheredPair& pair : pairs) {
-    Answer& answer = answers_.entry(pair.first.geom, pair.second.geom);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch();
+    const GatheredPair& pair = pairs[i];
+    Answer& answer = *entries[i];
     if (answer.gathering == look_) continue;
     answer.gathering = look_;
-    gathered.push_back(&answer);
+    ++gathered;
     familiar = familiar || answer.gathered_pass != 0;
     if (answer.gathered_pass != pass_) ++answer.passes_unasked;
     answer.gathered_pass = answer.last_pass = pass_;
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
     if (answer.passes_unasked <= kPassesRemembered)
-      add_unless_answered(answer, member_of(pair.first), member_of(pair.second));
+      add(answer, member_of(pair.first), member_of(pair.second));
     else
       note_unasked(answer, pair);
   }
-  stats_.pairs = static_cast<long long>(gathered.size());
+  stats_.pairs = static_cast<long long>(gathered);
   stats_.ms[dBatchStageMeshes] = reading.milliseconds();
   collide_scene(&memories_.of(root, pass_, familiar));
   note_report();
-  stats_.pairs_colliding = std::count_if(
-      gathered.begin(), gathered.end(),
-      [](const Answer* answer) { return answer->valid && !answer->contacts.empty(); });
+  stats_.pairs_colliding = scene_.colliding();
 }
 
 // Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
@@ -180,17 +179,20 @@ void BatchCollider::note_unasked(Answer& answer, const GatheredPair& pair) {
     const auto [place, is_new] = unasked_members_.try_emplace(placed.geom);
     if (!is_new) continue;
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-    place->second = {placed.geom, data, meshes_.keep(data, pass_), placed.pose};
+    place->second.data = data;
+    place->second.mesh = meshes_.keep(data, pass_);
+    place->second.given = pose_of(placed);
   }
   unasked_pairs_.push_back({pair.first.geom, pair.second.geom});
 }
 
 void BatchCollider::compute_unasked() {
-  begin_scene();
+  scene_.begin();
   for (const auto& [first, second] : unasked_pairs_) {
     const PairMember &a = unasked_members_.at(first), &b = unasked_members_.at(second);
     if (meshes_.is_as_known(a.data, a.mesh) && meshes_.is_as_known(b.data, b.mesh))
-      add_unless_answered(answers_.entry(first, second), member_of(a), member_of(b));
+      add(answers_.entry(first, second), members_.note(first, a.data, a.mesh, a.given, pass_),
+          members_.note(second, b.data, b.mesh, b.given, pass_));
   }
   unasked_pairs_.clear();
   unasked_members_.clear();
@@ -204,83 +206,71 @@ void BatchCollider::count_outside(std::size_t pairs) {
   asked_outside_ += pairs;
   if (asked_outside_ <= kAnswersOutside) return;
   answers_.clear();
+  members_.clear();
   meshes_.clear();
   asked_outside_ = 0;
 }
 
 void BatchCollider::compute_alone(Answer& answer, const GatheredPair& pair) {
   if (depth_ == 0) ++look_;
-  begin_scene();
-  add_unless_answered(answer, member_of(pair.first), member_of(pair.second));
+  scene_.begin();
+  add(answer, member_of(pair.first), member_of(pair.second));
   collide_scene(nullptr);
 }
 
-void BatchCollider::begin_scene() {
-  scene_.objects.clear();
-  scene_.pairs.clear();
-  members_.clear();
-  member_index_.clear();
-  pending_.clear();
+void BatchCollider::add(Answer& answer, PairMember& a, PairMember& b) {
+  scene_.add(
+      answer, a, b,
+      a.is_placed && b.is_placed && !meshes_.is_refused(a.data) && !meshes_.is_refused(b.data));
 }
 
-void BatchCollider::add_unless_answered(Answer& answer, std::uint32_t a, std::uint32_t b) {
-  if (answer.holds(members_[a], members_[b])) return;
-  if (!in_canonical_order(members_[a], members_[b])) std::swap(a, b);
-  answer.valid = false;
-  answer.members = {members_[a], members_[b]};
-  answer.contacts.clear();
-  for (const std::uint32_t k : {a, b})
-    answer.valid =
-        answer.valid || !is_usable(members_[k].pose) || meshes_.is_refused(members_[k].data);
-  if (answer.valid) return;  // nothing can be said of them
-  scene_.pairs.push_back({a, b});
-  pending_.push_back(&answer);
-}
-
-std::uint32_t BatchCollider::member_of(const PlacedGeom& placed) {
-  const auto known = member_index_.find(placed.geom);
-  if (known != member_index_.end()) return known->second;
+PairMember& BatchCollider::member_of(const PlacedGeom& placed) {
+  PairMember* seen = members_.find(placed.geom);
+  if (seen != nullptr && seen->scene == scene_.number()) return *seen;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
   const auto& mesh = meshes_.refresh(data, look_, pass_);
+  PairMember& member = members_.note(placed.geom, data, mesh, pose_of(placed), pass_);
+  member.scene = scene_.number();
   if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
-  if (!is_usable(placed.pose)) stats_.status |= dBatchStatusPoseRefused;
+  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
   if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
-  return member_of(PairMember{placed.geom, data, mesh, placed.pose});
+  return member;
 }
 
-std::uint32_t BatchCollider::member_of(const PairMember& member) {
-  const auto [place, is_new] =
-      member_index_.try_emplace(member.geom, static_cast<std::uint32_t>(members_.size()));
-  if (is_new) members_.push_back(member);
-  return place->second;
-}
-
-// As the program sees it now. Within a pass every mesh is looked at once.
-PairMember BatchCollider::current_member(dGeomID geom) {
+// Within a pass every mesh is looked at once.
+const PairMember* BatchCollider::current_member(dGeomID geom) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
-  if (depth_ != 0) return {geom, data, meshes_.refresh(data, look_, pass_), pose_of(geom)};
-  return {geom, data, meshes_.known(data, dGeomTriMeshGetTriangleCount(geom)), pose_of(geom)};
+  const std::shared_ptr<const Mesh> mesh =
+      depth_ != 0 ? meshes_.refresh(data, look_, pass_)
+                  : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
+  if (mesh == nullptr) return nullptr;
+  return members_.find_same(geom, data, mesh.get(), pose_of(geom));
+}
+
+bool BatchCollider::holds(const Answer& answer, dGeomID g1, dGeomID g2) {
+  const PairMember* a = current_member(g1);
+  const PairMember* b = a != nullptr ? current_member(g2) : nullptr;
+  return b != nullptr && answer.holds(*a, *b);
+}
+
+// Of one that holds.
+AnswerCopy BatchCollider::copy_of(const Answer& answer) {
+  return {{*members_.find(answer.geoms[0]), *members_.find(answer.geoms[1])}, answer.contacts};
 }
 
 void BatchCollider::collide_scene(PassMemory* memory) {
-  scene_.meshes = meshes_.resident();
-  for (const PairMember& member : members_)
-    scene_.objects.push_back({member.pose, meshes_.index_of(member.mesh.get()),
-                              reinterpret_cast<std::uintptr_t>(member.geom)});
-  const PairContacts& found = collider_.collide(scene_, memory);
-  if (collider_.report().backtracked) return;  // nothing to keep
-  const Stopwatch storing;
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
-    const PairContacts::Range range = found.ranges[i];
-    const auto first = found.contacts.begin() + static_cast<std::ptrdiff_t>(range.first);
-    pending_[i]->contacts.assign(first, first + range.count);
-    pending_[i]->valid = true;
+  const PairContacts& found = scene_.collide(collider_, meshes_, memory);
+  if (collider_.report().backtracked) {  // nothing to keep
+    scene_.drop();
+    return;
   }
+  const Stopwatch storing;
+  scene_.store(found);
   if (memory != nullptr) stats_.ms[dBatchStageExport] = storing.milliseconds();
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
-  Answer asked;  // a copy, for the program's callbacks to be asked without the lock
+  AnswerCopy asked;  // for the program's callbacks to be asked without the lock
   {
     const HeldMessages held;
     const std::lock_guard lock(mutex_);
@@ -290,9 +280,8 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
       return -1;
     }
     if (!has_callbacks(g1, g2, triangle_callbacks_))
-      return export_contacts(known->contacts, known->members[0].geom, g1, g2, limit, contacts,
-                             skip);
-    asked = *known;
+      return export_contacts(known->contacts, known->geoms[0], g1, g2, limit, contacts, skip);
+    asked = copy_of(*known);
   }
   return export_asked(asked, g1, g2, limit, contacts, skip);
 }
@@ -306,16 +295,14 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     known->last_pass = pass_;
     known->passes_unasked = 0;
   }
-  const auto holds = [&] {
-    return known != nullptr && known->holds(current_member(g1), current_member(g2));
-  };
-  if (holds()) return known;
+  const auto holds_now = [&] { return known != nullptr && holds(*known, g1, g2); };
+  if (holds_now()) return known;
   if (depth_ != 0 && failed_) return nullptr;
   try {
     if (was_unasked && is_a_pile_that_wakes(++asked_unasked_, unasked_pairs_.size()) &&
         !unasked_pairs_.empty()) {
       compute_unasked();
-      if (holds()) return known;
+      if (holds_now()) return known;
     }
     count_outside(1);
     known = &answers_.entry(g1, g2);
@@ -330,7 +317,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   return known;
 }
 
-int BatchCollider::export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit,
+int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
                                 dContactGeom* contacts, int skip) const {
   return export_contacts(ask_program(asked, limit, triangle_callbacks_), asked.members[0].geom, g1,
                          g2, limit, contacts, skip);
@@ -340,7 +327,7 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   const Answer* known = answers_.find(g1, g2);
-  return known != nullptr && known->holds(current_member(g1), current_member(g2));
+  return known != nullptr && holds(*known, g1, g2);
 }
 
 int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,
@@ -363,7 +350,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
 
   // What the program's code has a part in waits until the lock is gone: callbacks, and ODE's own
   // collider, which calls them.
-  std::vector<std::pair<std::size_t, Answer>> to_ask;
+  std::vector<std::pair<std::size_t, AnswerCopy>> to_ask;
   bool stock = false;
   {
     const HeldMessages held;
@@ -384,10 +371,10 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
       }
       const Answer& answer = answers_.entry(g1, g2);
       if (has_callbacks(g1, g2, triangle_callbacks_))
-        to_ask.emplace_back(i, answer);
+        to_ask.emplace_back(i, copy_of(answer));
       else
-        note_count(i, export_contacts(answer.contacts, answer.members[0].geom, g1, g2, limit,
-                                      target(i), skip));
+        note_count(
+            i, export_contacts(answer.contacts, answer.geoms[0], g1, g2, limit, target(i), skip));
     }
   }
   for (const auto& [i, answer] : to_ask)
@@ -414,7 +401,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
   if (depth_ == 0) ++look_;
   count_outside(geoms.size() / 2);
-  begin_scene();
+  scene_.begin();
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i];
     const dGeomID g2 = geoms[2 * i + 1];
@@ -422,7 +409,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
     Answer& answer = answers_.entry(g1, g2);
     answer.last_pass = pass_;
     answer.passes_unasked = 0;
-    add_unless_answered(answer, member_of(placed(g1)), member_of(placed(g2)));
+    add(answer, member_of(placed(g1)), member_of(placed(g2)));
   }
   stats_.pairs = static_cast<long long>(geoms.size() / 2);
   collide_scene(nullptr);
@@ -430,6 +417,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
 }
 
 void BatchCollider::fail(const std::exception& error) {
+  scene_.drop();
   stats_.status |= dBatchStatusDeviceFailed;
   set_last_error(error.what());
   if (!failure_said_)

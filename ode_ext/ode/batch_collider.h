@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "ode/answers.h"
+#include "ode/members.h"
 #include "ode/mesh_store.h"
 #include "ode/pair_gather.h"
+#include "ode/pair_scene.h"
 #include "ode/space_memories.h"
 #include "ode_ext/ode_ext.h"
 #include "pipeline/collider.h"
@@ -64,17 +66,19 @@ class BatchCollider {
   const Answer* find_or_compute(dGeomID g1, dGeomID g2);
   void count_outside(std::size_t pairs);
   void compute_alone(Answer& answer, const GatheredPair& pair);
-  PairMember current_member(dGeomID geom);
+  // The geom, if it is as it was when last seen.
+  const PairMember* current_member(dGeomID geom);
+  bool holds(const Answer& answer, dGeomID g1, dGeomID g2);
+  AnswerCopy copy_of(const Answer& answer);
   // An answer after the program's callbacks had their say; without the lock.
-  int export_asked(const Answer& asked, dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts,
-                   int skip) const;
+  int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
+                   dContactGeom* contacts, int skip) const;
 
-  // A scene of what has no valid answer: begin, add, then collide and keep the answers.
-  void begin_scene();
-  void add_unless_answered(Answer& answer, std::uint32_t a, std::uint32_t b);  // members
+  // To the scene, unless it is answered.
+  void add(Answer& answer, PairMember& a, PairMember& b);
   void collide_scene(PassMemory* memory);
-  std::uint32_t member_of(const PlacedGeom& placed);
-  std::uint32_t member_of(const PairMember& member);
+  // A geom as it is, looked at once for each scene.
+  PairMember& member_of(const PlacedGeom& placed);
 
   void begin_stats(bool within_a_pass);
   void note_report();
@@ -85,6 +89,7 @@ class BatchCollider {
   std::mutex mutex_;
   Collider collider_;
   MeshStore meshes_;
+  Members members_;
   Answers answers_;
   const bool triangle_callbacks_;
   SpaceMemories memories_;  // of collider_, and gone before it
@@ -96,16 +101,12 @@ class BatchCollider {
   std::uint64_t asked_outside_ = 0;
   // What the outermost pass met and did not compute ahead, and how often it was asked for.
   std::vector<std::array<dGeomID, 2>> unasked_pairs_;
-  std::unordered_map<dGeomID, PairMember> unasked_members_;
+  std::unordered_map<dGeomID, PairMember> unasked_members_;  // data, mesh and given pose
   std::uint64_t asked_unasked_ = 0;
   bool failed_ = false;        // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;  // one message per run of failures
 
-  // The scene being built. Member i is object i.
-  Scene scene_;
-  std::vector<PairMember> members_;
-  std::unordered_map<dGeomID, std::uint32_t> member_index_;
-  std::vector<Answer*> pending_;  // pair i of the scene is for this entry
+  PairScene scene_;  // that is being built
   dBatchColliderStats stats_{};
 };
 

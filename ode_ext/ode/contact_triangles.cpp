@@ -17,7 +17,7 @@ Vec3d to_local(const Pose& pose, Vec3d point) {
 
 // How far off its edge a contact may be: the device places edges of one mesh in the frame of the
 // other with floats, in fewer than 16 roundings of coordinates of at most this size.
-double rounding(const Answer& answer) {
+double rounding(const AnswerCopy& answer) {
   const auto& [a, b] = answer.members;
   return 16 * 0x1p-24 *
          (length(Vec3d(farthest_corner(a.mesh->box))) +
@@ -62,7 +62,7 @@ bool has_all(const Triangle& triangle, std::span<const std::uint32_t> corners) {
 
 }  // namespace
 
-std::vector<std::uint32_t> triangles_of(const Answer& answer, const Contact& contact,
+std::vector<std::uint32_t> triangles_of(const AnswerCopy& answer, const Contact& contact,
                                         std::size_t side) {
   const PairMember& member = answer.members[side];
   const Mesh& built = topology(*member.mesh);

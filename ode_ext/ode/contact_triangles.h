@@ -13,7 +13,7 @@ namespace ode_ext {
 
 // Those of members[side], the program's indices, ascending; contact.triangles[side] is among them.
 // Looks at every triangle of the mesh, so only for those who ask.
-std::vector<std::uint32_t> triangles_of(const Answer& answer, const Contact& contact,
+std::vector<std::uint32_t> triangles_of(const AnswerCopy& answer, const Contact& contact,
                                         std::size_t side);
 
 }  // namespace ode_ext

@@ -18,34 +18,12 @@ dGeomID geom_inside(dGeomID transform) {
 #pragma GCC diagnostic pop
 }
 
-// Follows geom transforms down to the mesh they hold, composing poses with the arithmetic of ODE's
-// dCollideTransform, so that the result is the pose dCollide will see, bit for bit.
-bool find_mesh(dGeomID geom, PlacedGeom& placed) {
-  if (dGeomGetClass(geom) == dTriMeshClass) {
-    placed = {geom, pose_of(geom)};
-    return true;
-  }
-  if (dGeomGetClass(geom) != dGeomTransformClass) return false;
-  dVector3 position;
-  dMatrix3 rotation;
-  std::copy_n(dGeomGetPosition(geom), 4, position);
-  std::copy_n(dGeomGetRotation(geom), 12, rotation);
-  for (;;) {
-    geom = geom_inside(geom);
-    if (geom == nullptr) return false;
-    const int geom_class = dGeomGetClass(geom);
-    if (geom_class != dTriMeshClass && geom_class != dGeomTransformClass) return false;
-    dVector3 composed;
-    dMultiply0_331(composed, rotation, dGeomGetPosition(geom));
-    for (int k = 0; k < 3; ++k) composed[k] += position[k];
-    dMatrix3 turned;
-    dMultiply0_333(turned, rotation, dGeomGetRotation(geom));
-    std::copy_n(composed, 3, position);
-    std::copy_n(turned, 12, rotation);
-    if (geom_class == dTriMeshClass) break;
-  }
-  placed = {geom, to_pose(position, rotation)};
-  return true;
+// Follows geom transforms down to the mesh they hold.
+bool find_mesh(dGeomID holder, PlacedGeom& placed) {
+  dGeomID geom = holder;
+  while (geom != nullptr && dGeomGetClass(geom) == dGeomTransformClass) geom = geom_inside(geom);
+  placed = {geom, holder};
+  return geom != nullptr && dGeomGetClass(geom) == dTriMeshClass;
 }
 
 // Members of a space, or none if it cannot be listed: dSpaceGetGeom aborts for a quadtree.
@@ -142,6 +120,25 @@ class Gatherer {
 };
 
 }  // namespace
+
+Pose pose_of(const PlacedGeom& placed) {
+  dGeomID geom = placed.holder;
+  dVector3 position;
+  dMatrix3 rotation;
+  std::copy_n(dGeomGetPosition(geom), 4, position);
+  std::copy_n(dGeomGetRotation(geom), 12, rotation);
+  while (geom != placed.geom) {
+    geom = geom_inside(geom);
+    dVector3 composed;
+    dMultiply0_331(composed, rotation, dGeomGetPosition(geom));
+    for (int k = 0; k < 3; ++k) composed[k] += position[k];
+    dMatrix3 turned;
+    dMultiply0_333(turned, rotation, dGeomGetRotation(geom));
+    std::copy_n(composed, 3, position);
+    std::copy_n(turned, 12, rotation);
+  }
+  return to_pose(position, rotation);
+}
 
 bool may_hold_mesh_pair(const PassRoot& root) {
   return count_meshes(root.first) + count_meshes(root.second) >= 2;

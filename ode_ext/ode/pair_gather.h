@@ -11,11 +11,15 @@
 
 namespace ode_ext {
 
-// A mesh geom as dCollide will see it: where it sits in geom transforms, with the composed pose.
+// A mesh geom, and the outermost geom transform that it sits in, or itself.
 struct PlacedGeom {
   dGeomID geom;
-  Pose pose;
+  dGeomID holder;
 };
+
+// Where dCollide will see it: composed with the arithmetic of ODE's dCollideTransform, so that it
+// is that pose bit for bit.
+Pose pose_of(const PlacedGeom& placed);
 
 struct GatheredPair {
   PlacedGeom first, second;

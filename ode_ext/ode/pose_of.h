@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Poses of ODE geoms.
+// Poses of ODE geoms, as ODE has them.
 #pragma once
 
 #include <ode/ode.h>
 
-#include "ode/rotation.h"
 #include "pipeline/scene.h"
 
 namespace ode_ext {
@@ -15,7 +14,6 @@ inline Pose to_pose(const dReal* position, const dReal* rotation) {
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t column = 0; column < 3; ++column)
       pose.rotation[3 * row + column] = rotation[4 * row + column];
-  pose.rotation = nearest_rotation(pose.rotation);
   return pose;
 }
 

@@ -37,7 +37,7 @@ class Judge {
         merge_(dGeomTriMeshGetTriMergeCallback(geom)) {}
 
   // False: the contact is refused, for each of its triangles is. Else `triangle` is what it gets.
-  bool judge(const Answer& answer, const Contact& contact, std::size_t side,
+  bool judge(const AnswerCopy& answer, const Contact& contact, std::size_t side,
              std::uint32_t& triangle) const {
     triangle = contact.triangles[side];
     if (accept_ == nullptr && merge_ == nullptr) return true;
@@ -81,7 +81,7 @@ bool has_callbacks(dGeomID g1, dGeomID g2, bool triangle_callbacks) {
   return false;
 }
 
-std::vector<Contact> ask_program(const Answer& answer, int limit, bool triangle_callbacks) {
+std::vector<Contact> ask_program(const AnswerCopy& answer, int limit, bool triangle_callbacks) {
   const dGeomID first = answer.members[0].geom, second = answer.members[1].geom;
   const std::array judges{Judge(first, second, triangle_callbacks),
                           Judge(second, first, triangle_callbacks)};

@@ -18,6 +18,6 @@ bool has_callbacks(dGeomID g1, dGeomID g2, bool triangle_callbacks);
 // deepest first, with the triangles that merge callbacks made of those a contact stands for. Runs
 // the program's code: hold no lock, and an answer of one's own. What that code throws is noted as
 // the last error and taken for having no opinion.
-std::vector<Contact> ask_program(const Answer& answer, int limit, bool triangle_callbacks);
+std::vector<Contact> ask_program(const AnswerCopy& answer, int limit, bool triangle_callbacks);
 
 }  // namespace ode_ext

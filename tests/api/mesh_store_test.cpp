@@ -81,8 +81,9 @@ TEST(CanonicalOrder, DependsOnTheTrianglesOfMeshesOfOneHash) {
     built.shape_hash = built.content_hash = 1;
     return std::make_shared<const Mesh>(std::move(built));
   };
-  const PairMember cube{nullptr, nullptr, mesh(make_cube(1)), {}};
-  const PairMember ball{nullptr, nullptr, mesh(make_icosphere(1, 1)), {}};
+  PairMember cube, ball;
+  cube.mesh = mesh(make_cube(1));
+  ball.mesh = mesh(make_icosphere(1, 1));
   const auto before = [](PairMember a, PairMember b, bool a_is_lower) {
     int geoms[2];
     a.geom = reinterpret_cast<dGeomID>(geoms + (a_is_lower ? 0 : 1));

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/members.h"
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+
+#include "ode/answers.h"
+#include "ode/rotation.h"
+
+namespace ode_ext {
+namespace {
+
+static_assert(sizeof(Pose) == 12 * sizeof(double), "poses are compared by their bytes");
+
+bool same(const Pose& a, const Pose& b) { return std::memcmp(&a, &b, sizeof(Pose)) == 0; }
+
+// Rotations, and positions a float can hold with room for what is summed of them: differences,
+// turned, over three axes, 36 times as much. Beyond, and for NaN, there is nothing to compute.
+bool is_usable(const Pose& pose) {
+  if (!(off_rotation(pose.rotation) <= kMostOff)) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(std::fabs(pose.position[k]) < 1e36)) return false;
+  return true;
+}
+
+bool is_as(const PairMember& member, dTriMeshDataID data, const Mesh* mesh, const Pose& given) {
+  return member.stamp != 0 && member.data == data && member.mesh.get() == mesh &&
+         same(member.given, given);
+}
+
+}  // namespace
+
+PairMember& Members::note(dGeomID geom, dTriMeshDataID data,
+                          const std::shared_ptr<const Mesh>& mesh, const Pose& given,
+                          std::uint64_t pass) {
+  PairMember& member = map_[geom];
+  member.last_pass = pass;
+  if (is_as(member, data, mesh.get(), given)) return member;
+  member.geom = geom;
+  member.data = data;
+  member.mesh = mesh;
+  member.given = member.pose = given;
+  member.pose.rotation = nearest_rotation(given.rotation);
+  member.is_placed = is_usable(member.pose);
+  member.stamp = ++stamps_;
+  return member;
+}
+
+PairMember* Members::find(dGeomID geom) {
+  const auto found = map_.find(geom);
+  return found == map_.end() ? nullptr : &found->second;
+}
+
+const PairMember* Members::find_same(dGeomID geom, dTriMeshDataID data, const Mesh* mesh,
+                                     const Pose& given) {
+  const PairMember* member = find(geom);
+  return member != nullptr && is_as(*member, data, mesh, given) ? member : nullptr;
+}
+
+void Members::prune(std::uint64_t pass) {
+  std::erase_if(map_,
+                [&](const auto& item) { return item.second.last_pass + kPassesRemembered < pass; });
+}
+
+bool in_canonical_order(const PairMember& a, const PairMember& b) {
+  if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
+  const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
+  if (poses != 0) return poses < 0;
+  if (a.mesh->content_hash != b.mesh->content_hash)
+    return a.mesh->content_hash < b.mesh->content_hash;
+  const int soups = compare_soups(a.mesh->soup, b.mesh->soup);  // hashes can be forged
+  if (soups != 0) return soups < 0;
+  // Copies at one pose: nothing of theirs tells them apart, so their handles have to.
+  return std::less<>()(a.geom, b.geom);
+}
+
+}  // namespace ode_ext

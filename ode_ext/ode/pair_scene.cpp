@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/pair_scene.h"
+
+namespace ode_ext {
+
+void PairScene::begin() {
+  scene_.objects.clear();
+  scene_.pairs.clear();
+  members_.clear();
+  ++number_;
+  colliding_ = 0;
+}
+
+void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_collide) {
+  if (answer.holds(a, b)) {
+    colliding_ += answer.contacts.empty() ? 0 : 1;
+    return;
+  }
+  const bool ordered = in_canonical_order(a, b);
+  PairMember &first = ordered ? a : b, &second = ordered ? b : a;
+  answer.geoms = {first.geom, second.geom};
+  answer.stamps = {first.stamp, second.stamp};
+  answer.contacts.clear();
+  // That there are none is the answer of most pairs, and of those of which nothing can be said. So
+  // it stands, unless the scene fails, and most are not touched again.
+  answer.valid = true;
+  if (!can_collide) return;
+  scene_.pairs.push_back({object_of(first), object_of(second)});
+  pending_.push_back(&answer);
+}
+
+std::uint32_t PairScene::object_of(PairMember& member) {
+  if (member.object_of != number_) {
+    member.object_of = number_;
+    member.object = static_cast<std::uint32_t>(members_.size());
+    members_.push_back(&member);
+  }
+  return member.object;
+}
+
+const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, PassMemory* memory) {
+  scene_.meshes = meshes.resident();
+  for (const PairMember* member : members_)
+    scene_.objects.push_back({member->pose, meshes.index_of(member->mesh.get()),
+                              reinterpret_cast<std::uintptr_t>(member->geom)});
+  return collider.collide(scene_, memory);
+}
+
+void PairScene::store(const PairContacts& found) {
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    const PairContacts::Range range = found.ranges[i];
+    if (range.count == 0) continue;
+    const auto first = found.contacts.begin() + static_cast<std::ptrdiff_t>(range.first);
+    pending_[i]->contacts.assign(first, first + range.count);
+    ++colliding_;
+  }
+  pending_.clear();
+}
+
+void PairScene::drop() {
+  for (Answer* answer : pending_) answer->valid = false;
+  pending_.clear();
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A scene of the pairs that have no answer yet, and the answers that it will be.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ode/answers.h"
+#include "ode/members.h"
+#include "ode/mesh_store.h"
+#include "pipeline/collider.h"
+
+namespace ode_ext {
+
+class PairScene {
+ public:
+  void begin();
+  // Another for each scene begun.
+  std::uint64_t number() const { return number_; }
+  // Unless the answer is one of these two already. can_collide: something can be said of them.
+  // Members and answer have to stay where they are until the scene is collided or dropped.
+  void add(Answer& answer, PairMember& a, PairMember& b, bool can_collide);
+  // Throws DeviceError; the scene is to be dropped then.
+  const PairContacts& collide(Collider& collider, MeshStore& meshes, PassMemory* memory);
+  // Stores what was found.
+  void store(const PairContacts& found);
+  // It will not be collided: its answers do not stand.
+  void drop();
+  // Answers with contacts, those that were there before among them.
+  long long colliding() const { return colliding_; }
+
+ private:
+  std::uint32_t object_of(PairMember& member);
+
+  Scene scene_;
+  std::uint64_t number_ = 0;
+  std::vector<const PairMember*> members_;  // its objects
+  std::vector<Answer*> pending_;            // of its pairs
+  long long colliding_ = 0;
+};
+
+}  // namespace ode_ext
