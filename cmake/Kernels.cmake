@@ -15,7 +15,7 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                shared/nearest shared/full_ray shared/vertex_ray
                paper/types paper/iterative_ray paper/choose paper/cast paper/note_work
                shared/contradiction shared/candidate_order shared/patches shared/meshlet
-               shared/cross shared/edge_pair shared/crossing_order shared/regions shared/pair_hits
+               shared/cross shared/edge_pair shared/crossing_order shared/crossing_table shared/regions shared/pair_hits
                shared/spokesmen shared/edge_axis shared/way_out shared/deform shared/moves)
   set(header ${header}.h)
   if(header IN_LIST headers)

@@ -8,6 +8,7 @@
 // item  1 crossing (grid-stride); 1 pair (of a queue)
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
+#include "shared/crossing_order.h"
 #include "shared/deep_parts.h"
 #include "shared/exit_edge.h"
 #include "shared/open_target.h"
@@ -19,12 +20,12 @@
 // in: crossings. out: those of each pair together, as they are needed, and the first of the orders
 // of them. item: 1 crossing.
 __kernel void crossing_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
-                              __global ox_edge_crossing* gathered, __global uint* order) {
+                              __global ox_pair_crossing* gathered, __global uint* order) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_length(&scene, OX_LIST_CROSSINGS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    ox_edge_crossing crossing = crossings[i];
+    const ox_edge_crossing crossing = crossings[i];
     if (crossing.slot == OX_NONE) continue;
     const uint p = crossing.pair_side >> 1;
     const uint side = crossing.pair_side & 1u;
@@ -37,24 +38,32 @@ __kernel void crossing_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossi
     }
     const float3 d = b - a;
     const float3 position = a + crossing.t * (d / sqrt(ox_dot(d, d)));
-    crossing.position[0] = position.x;
-    crossing.position[1] = position.y;
-    crossing.position[2] = position.z;
-    crossing.facet = facets[crossing.triangle];
-    crossing.other = OX_NONE;
-    crossing.other_t = 0.0f;
-    crossing.region = OX_NONE;
-    crossing.covered = 0u;
-    crossing.paired = 0.0f;
-    crossing.hit = OX_NONE;
+    ox_pair_crossing of_pair;
+    of_pair.flags =
+        (side != 0u ? OX_CROSSING_SIDE : 0u) | (crossing.leaves != 0u ? OX_CROSSING_LEAVES : 0u);
+    of_pair.edge = crossing.edge;
+    of_pair.triangle = crossing.triangle;
+    of_pair.t = crossing.t;
+    of_pair.facet = facets[crossing.triangle];
+    of_pair.at[0] = facets[edge->triangle[0]];
+    of_pair.at[1] = edge->triangle[1] == OX_NONE ? OX_NONE : facets[edge->triangle[1]];
+    of_pair.other = OX_NONE;
+    of_pair.other_t = 0.0f;
+    of_pair.region = OX_NONE;
+    of_pair.position[0] = position.x;
+    of_pair.position[1] = position.y;
+    of_pair.position[2] = position.z;
+    of_pair.paired = 0.0f;
+    of_pair.hit = OX_NONE;
+    of_pair.padding = 0u;
     const uint first = found[p].first_crossing;
-    gathered[first + crossing.slot] = crossing;
+    gathered[first + crossing.slot] = of_pair;
     order[(size_t)OX_ORDERS_PER_CROSSING * first + crossing.slot] = crossing.slot;
   }
 }
 
 // A vertex in contact covers the region it is in.
-static void ox_cover_by_vertices(const ox_edge_pair* p) {
+static void ox_cover_by_vertices(ox_edge_pair* p) {
   if (((p->mesh[0]->flags | p->mesh[1]->flags) & OX_MESH_TWO_SIDED) != 0u) {
     // On which side of a sheet an edge is inside nobody knows.
     ox_link_hits(p, OX_BY_FIRST_VERTEX);
@@ -67,44 +76,45 @@ static void ox_cover_by_vertices(const ox_edge_pair* p) {
     // Inside a closed target every vertex has a hit.
     const bool all = (p->mesh[1u - side]->flags & OX_MESH_CLOSED) != 0u && hits.fallback == 0u;
     for (uint i = 0u; i < p->count; ++i) {
-      __global ox_edge_crossing* c = p->crossings + i;
+      __global ox_pair_crossing* c = p->crossings + i;
       if (ox_side(c) != side) continue;
-      if (all ? ox_inner_vertex(p, c) != OX_NONE : ox_is_inside_hit(p, c->hit)) c->covered = 1u;
+      if (all ? ox_inner_vertex(p, c) != OX_NONE : ox_is_inside_hit(p, c->hit))
+        c->flags |= OX_CROSSING_COVERED;
     }
   }
 }
 
-// Whether the chord of c crosses a facet at `edge` before c too: the pair of edges was looked at
-// there.
-static bool ox_was_paired(const ox_edge_pair* p, __global const ox_edge_crossing* c, uint edge) {
+// Whether the chord of c crosses a facet at the edge of `of` before c too: the pair of edges was
+// looked at there.
+static bool ox_was_paired(const ox_edge_pair* p, __global const ox_pair_crossing* c,
+                          __global const ox_pair_crossing* of) {
   if (c->other == OX_NONE) return false;
-  __global const ox_edge_crossing* other = p->crossings + c->other;
+  __global const ox_pair_crossing* other = p->crossings + c->other;
   return (other->t < c->t || (other->t == c->t && other->triangle < c->triangle)) &&
-         ox_is_at_facet(p, edge, other->facet);
+         ox_is_at_facet(of, other->facet);
 }
 
 // Contacts of an edge of A and one of B each of which crosses a facet at the other.
 static void ox_pair_edges(ox_edge_pair* p) {
   for (uint k = 0u; k < p->count; ++k) {
-    __global ox_edge_crossing* a = p->crossings + p->order[k];
+    __global ox_pair_crossing* a = p->crossings + p->order[k];
     if (ox_side(a) != 0u) return;
     bool met = false;
     ox_wedge wedge_a;
     for (uint f = 0u; f < 2u; ++f) {
-      const uint facet = ox_facet_at(p, a->edge, f);
-      if (facet == OX_NONE || (f == 1u && facet == ox_facet_at(p, a->edge, 0u))) continue;
-      ox_meetings meetings = ox_meetings_of(p, 1u, facet, a->facet);
-      for (uint n = ox_next_meeting(p, &meetings); n != OX_NONE;
-           n = ox_next_meeting(p, &meetings)) {
-        __global ox_edge_crossing* b = p->crossings + n;
-        if (ox_was_paired(p, a, b->edge) || ox_was_paired(p, b, a->edge)) continue;
+      if (a->at[f] == OX_NONE || (f == 1u && a->at[1] == a->at[0])) continue;
+      const ox_crossing_key key = ox_facets_key(0u, a->at[f], a->facet);
+      for (uint n = ox_first_entry(p, key); n != OX_NONE; n = ox_next_entry(p, n)) {
+        __global ox_pair_crossing* b = p->crossings + (n >> 1);
+        if (ox_side(b) == 0u) continue;
+        if (ox_was_paired(p, a, b) || ox_was_paired(p, b, a)) continue;
         if (!met) wedge_a = ox_wedge_of(p, a);
         met = true;
         const ox_wedge wedge_b = ox_wedge_of(p, b);
         ox_point point;
         if (!ox_edge_contact(&wedge_a, &wedge_b, &point)) continue;
-        a->covered = 1u;
-        b->covered = 1u;
+        a->flags |= OX_CROSSING_COVERED;
+        b->flags |= OX_CROSSING_COVERED;
         a->paired = ox_max(a->paired, point.depth);
         b->paired = ox_max(b->paired, point.depth);
         ox_add_point(p, 0u, p->edges[a->edge].triangle[0], p->edges[b->edge].triangle[0], a->region,
@@ -120,12 +130,11 @@ static void ox_pair_edges(ox_edge_pair* p) {
 // (of two ridges across one another the middle would slip off to one side).
 static void ox_cast_middles(ox_edge_pair* p) {
   for (uint k = 0u; k < p->count; ++k) {
-    __global ox_edge_crossing* c = p->crossings + p->order[k];
+    __global ox_pair_crossing* c = p->crossings + p->order[k];
     const uint side = ox_side(c);
-    if (c->leaves != 0u || c->other == OX_NONE ||
-        (p->mesh[1u - side]->flags & OX_MESH_CLOSED) == 0u)
+    if (ox_leaves(c) || c->other == OX_NONE || (p->mesh[1u - side]->flags & OX_MESH_CLOSED) == 0u)
       continue;
-    __global ox_edge_crossing* end = p->crossings + c->other;
+    __global ox_pair_crossing* end = p->crossings + c->other;
     if (end->other != p->order[k]) continue;
     ox_middle middle;
     // As for vertices, not beyond where it leaves its own mesh.
@@ -146,7 +155,7 @@ static void ox_cast_middles(ox_edge_pair* p) {
 #define OX_MOST_CHORDS 8u
 
 static void ox_try_chord(const ox_edge_pair* p, uint region, bool vertices,
-                         __global const ox_edge_crossing* c, ox_way_out* best) {
+                         __global const ox_pair_crossing* c, ox_way_out* best) {
   const uint side = ox_side(c);
   // The faces at its ends are what rays along the chord would meet, were it not too short for them.
   ox_try_way(p, region, vertices, side, c->triangle, best);
@@ -174,8 +183,8 @@ static ox_way_out ox_find_way_out(const ox_edge_pair* p, uint region, bool verti
   ox_way_out best = ox_no_way_out();
   uint looked[2] = {0u, 0u};
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
-    if ((c->leaves != 0u && c->other != OX_NONE) || looked[ox_side(c)] == OX_MOST_CHORDS ||
+    __global const ox_pair_crossing* c = p->crossings + p->by_region[k];
+    if ((ox_leaves(c) && c->other != OX_NONE) || looked[ox_side(c)] == OX_MOST_CHORDS ||
         (p->mesh[1u - ox_side(c)]->flags & OX_MESH_CLOSED) == 0u)
       continue;
     ++looked[ox_side(c)];
@@ -191,7 +200,7 @@ static void ox_leave_region_by(ox_edge_pair* p, uint region, bool vertices,
   if (best->triangle == OX_NONE) return;
   const float3 normal = best->side == 0u ? best->normal : -best->normal;
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    __global const ox_pair_crossing* c = p->crossings + p->by_region[k];
     // A crossing lies on both surfaces, whosever edge it is of. The far end of a chord speaks for
     // itself, and so does a vertex that knows its way out.
     const bool own = ox_side(c) == best->side;
@@ -265,7 +274,7 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
   uint deepest = p->region_first[region];
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
     const uint i = p->by_region[k];
-    __global const ox_edge_crossing* c = p->crossings + i;
+    __global const ox_pair_crossing* c = p->crossings + i;
     const uint side = ox_side(c);
     __global const ox_mesh* target = p->mesh[1u - side];
     if ((target->flags & OX_MESH_CLOSED) != 0u) continue;
@@ -290,7 +299,7 @@ static void ox_push_region_back(ox_edge_pair* p, uint region) {
     }
   }
   if (best == OX_NONE) return;
-  __global const ox_edge_crossing* c = p->crossings + best;
+  __global const ox_pair_crossing* c = p->crossings + best;
   ox_add_point(p, ox_side(c), p->edges[c->edge].triangle[0], c->triangle, region,
                vload3(0, c->position), best_normal, best_depth);
 }
@@ -304,7 +313,7 @@ static void ox_lead_regions_out(ox_edge_pair* p) {
   for (uint region = 0u; region < p->regions; ++region) {
     bool covered = false;
     for (uint k = p->region_first[region]; k < ox_region_end(p, region) && !covered; ++k)
-      covered = p->crossings[p->by_region[k]].covered != 0u;
+      covered = (p->crossings[p->by_region[k]].flags & OX_CROSSING_COVERED) != 0u;
     if (covered) continue;
     const uint before = p->candidate_count;
     // Where it is the only one, all vertices beyond their own exit belong to it.
@@ -381,7 +390,7 @@ static void ox_deepen(ox_edge_pair* p) {
   const uint side = (along->side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
   const uint corner = side == 0u ? extent.lowest : extent.highest;
   if (corner == OX_NONE) return;
-  __global const ox_edge_crossing* at = p->crossings + corner;
+  __global const ox_pair_crossing* at = p->crossings + corner;
   ox_add_point(p, side, ox_side(at) == side ? p->edges[at->edge].triangle[0] : at->triangle,
                along->triangle, 0u, side == 0u ? extent.lowest_corner : extent.highest_corner,
                vload3(0, along->normal), width);
@@ -420,7 +429,7 @@ static void ox_drop_apart(const ox_edge_pair* p) {
 }
 
 // item: 1 pair, of a queue.
-__kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
+__kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_pair_crossing* crossings,
                             __global uint* order, __global ox_candidate* candidates) {
   const ox_scene scene = OX_SCENE;
   for (uint i = ox_next_item(&scene, OX_QUEUE_EDGE_CONTACTS); i < pair_count;
@@ -442,9 +451,6 @@ __kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_edge_crossing* cros
     pair.region_first = pair.by_region + crossed;
     pair.point_of_region = pair.region_first + crossed;
     pair.next_point = pair.point_of_region + crossed;
-    pair.by_facets = pair.next_point;  // not needed at once
-    pair.facet_keys = pair.by_facets + 2u * crossed;
-    pair.by_facets_count = 0u;
     pair.count = crossed;
     pair.regions = 0u;
     pair.candidates = candidates + found[i].first_candidate;
@@ -468,7 +474,9 @@ __kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_edge_crossing* cros
       ox_drop_beyond_border(&pair);
       ox_link_hits(&pair, OX_BY_INNER_VERTEX);
       ox_cover_by_vertices(&pair);
-      ox_index_facets(&pair);
+      const ox_order by_facet = {pair.order, pair.by_region, crossed, OX_BY_FACET};
+      ox_sort_crossings(&pair, &by_facet);
+      ox_tabulate_crossings(&pair, OX_BY_FACETS);
       ox_find_regions(&pair);
       // A sheet has no inside that its edges could be wedges of.
       if (((pair.mesh[0]->flags | pair.mesh[1]->flags) & OX_MESH_TWO_SIDED) == 0u)

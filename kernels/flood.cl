@@ -11,11 +11,11 @@
 // that is taken not to be is lost if none of its edges says otherwise: where they all meet the
 // surface so flat, or run along a ridge so closely, that the order of their crossings rounds.
 //
-// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found, links),
+// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
 //       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (shared/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
-//       crossings: `other`, which strings those of an edge together
+//       crossings: `of_edge`, which strings those of an edge together
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
@@ -30,7 +30,6 @@ typedef struct {
   __global const ox_mesh* source;
   __global const ox_mesh* target;
   __global ox_edge_crossing* crossings;
-  __global const uint* links;
   __global uint* words;
   ox_flood_table table;
   bool leaks;  // the flood got round the border of an open target
@@ -87,7 +86,7 @@ static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
   if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
   const uint word = ox_find_key(s->words, &s->table, key);
-  c->other = s->words[word + 1u];
+  c->of_edge = s->words[word + 1u];
   s->words[word + 1u] = crossing;
   return true;
 }
@@ -105,14 +104,14 @@ static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
   const float sign = end == 0u ? 1.0f : -1.0f;
   for (float passed = -INFINITY;;) {
     float first = INFINITY;
-    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].other) {
+    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].of_edge) {
       const float t = sign * s->crossings[c].t;
       if (t > passed) first = ox_min(first, t);
     }
     if (first == INFINITY) return OX_END_UNPARTED;
     const float last = first + 2.0f * s->pair->epsilon;  // each of two is off by epsilon
     int leaving = 0;
-    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].other) {
+    for (uint c = s->words[word + 1u]; c != OX_NONE; c = s->crossings[c].of_edge) {
       const float t = sign * s->crossings[c].t;
       if (t > passed && t <= last)
         leaving += (s->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
@@ -235,7 +234,7 @@ static bool ox_flood_components(ox_flood_state* s, bool any, uint* next) {
 // False: there is no room, or the flood leaks.
 static bool ox_flood(ox_flood_state* s, uint head) {
   uint count = 0u;
-  for (uint c = head; c != OX_NONE; c = s->links[c]) ++count;
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before) ++count;
   uint places = OX_LEAST_PLACES;
   while (places < 4u * count) places *= 2u;
   s->table.places = s->table.used = s->table.queued = 0u;
@@ -244,31 +243,30 @@ static bool ox_flood(ox_flood_state* s, uint head) {
     if (s->table.places == 0u) return false;
   }
   // Those near the surface first: from them nothing is concluded.
-  for (uint c = head; c != OX_NONE; c = s->links[c])
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
     if (s->crossings[c].edge == OX_NONE && !ox_flood_vertex(s, s->crossings[c].triangle))
       return false;
   uint next = s->table.queued;
-  for (uint c = head; c != OX_NONE; c = s->links[c])
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
     if (s->crossings[c].edge != OX_NONE && !ox_string_crossing(s, c)) return false;
-  for (uint c = head; c != OX_NONE && ox_is_open(s); c = s->links[c])
+  for (uint c = head; c != OX_NONE && ox_is_open(s); c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->crossings[c].edge)) return false;
-  for (uint c = head; c != OX_NONE; c = s->links[c])
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge)) return false;
   const bool any = s->table.queued != next;
   if (!ox_flood_on(s, &next)) return false;
-  for (uint c = head; c != OX_NONE; c = s->links[c])
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
     if (s->crossings[c].edge == OX_NONE && !ox_flood_around(s, s->crossings[c].triangle))
       return false;
   if (!ox_flood_on(s, &next)) return false;
   const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
-  for (uint c = head; c != OX_NONE && many_parts; c = s->links[c])
+  for (uint c = head; c != OX_NONE && many_parts; c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
   return ox_flood_components(s, any, &next);
 }
 
 __kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
-                    __global const uint* links, __global ox_chunk_task* tasks,
-                    __global ox_ray* rays, __global uint* words) {
+                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
   const ox_scene scene = OX_SCENE;
   for (uint i = ox_next_item(&scene, OX_QUEUE_FLOOD); i < 2u * pair_count;
        i = ox_next_item(&scene, OX_QUEUE_FLOOD)) {
@@ -281,7 +279,6 @@ __kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
     state.source = meshes + pair->mesh[i & 1u];
     state.target = meshes + pair->mesh[1u - (i & 1u)];
     state.crossings = crossings;
-    state.links = links;
     state.words = words;
     state.leaks = !ox_is_flooded(&scene, state.source, state.target);
     if (!state.leaks) ox_flood(&state, found[i >> 1].head[i & 1u]);

@@ -10,10 +10,8 @@
 #include "shared/cross.h"
 
 __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
-                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings,
-                    __global uint* links) {
+                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings) {
   const ox_scene scene = OX_SCENE;
-  const ox_crossing_lists to = {crossings, links};
   const uint count = ox_length(&scene, OX_LIST_MESHLETS);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
@@ -47,7 +45,7 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
       if (slot != OX_NONE)
         meshlet_pairs[slot] = both;
       else
-        ox_cross_meshlets(&scene, &to, &both);
+        ox_cross_meshlets(&scene, crossings, &both);
     }
   }
 }

@@ -25,16 +25,16 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                          __global const uint* pair_objects, __global ox_range* pair_ranges,
                          __global ox_meshlet_task* meshlet_tasks,
                          __global ox_meshlet_pair* meshlet_pairs,
-                         __global ox_edge_crossing* crossings, __global uint* links,
-                         __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words,
-                         __global ox_hit* hits, __global ox_candidate* candidates,
-                         __global ox_edge_crossing* gathered, __global uint* order,
-                         uint max_contacts, uint max_deformable, __global ox_contact* contacts) {
+                         __global ox_edge_crossing* crossings, __global ox_chunk_task* tasks,
+                         __global ox_ray* rays, __global uint* words, __global ox_hit* hits,
+                         __global ox_candidate* candidates, __global ox_pair_crossing* gathered,
+                         __global uint* order, uint max_contacts, uint max_deformable,
+                         __global ox_contact* contacts) {
   pair_step(OX_SCENE_ARGUMENTS, objects, pair_objects, pair_ranges);
   cull(OX_SCENE_ARGUMENTS, meshlet_tasks);
-  match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings, links);
-  cross_meshlets(OX_SCENE_ARGUMENTS, meshlet_pairs, crossings, links);
-  flood(OX_SCENE_ARGUMENTS, crossings, links, tasks, rays, words);
+  match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings);
+  cross_meshlets(OX_SCENE_ARGUMENTS, meshlet_pairs, crossings);
+  flood(OX_SCENE_ARGUMENTS, crossings, tasks, rays, words);
   vertex_step(OX_SCENE_ARGUMENTS, tasks, rays);
   ray_step(OX_SCENE_ARGUMENTS, rays, hits);
   contact_place(OX_SCENE_ARGUMENTS);

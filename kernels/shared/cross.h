@@ -45,20 +45,13 @@ static inline bool ox_find_near(__global const ox_pair* pair, uint side,
   return beyond_all == 0;
 }
 
-// Where crossings go: into their list and, of sides that are flooded (flood.cl), one linked to the
-// next from the pair's head on.
-typedef struct {
-  __global ox_edge_crossing* crossings;
-  __global uint* links;
-} ox_crossing_lists;
-
-// `contact`: whether it is of one.
-static inline void ox_append_crossing(const ox_scene* scene, const ox_crossing_lists* to,
+// `contact`: whether it is of one. Those of a flooded side are linked from the pair's head on.
+static inline void ox_append_crossing(const ox_scene* scene, __global ox_edge_crossing* crossings,
                                       uint pair_side, uint edge, uint triangle, float t,
                                       bool leaves, bool contact, bool flooded) {
   const uint slot = ox_append(scene, OX_LIST_CROSSINGS);
   if (slot == OX_NONE) return;
-  __global ox_edge_crossing* crossing = to->crossings + slot;
+  __global ox_edge_crossing* crossing = crossings + slot;
   crossing->pair_side = pair_side;
   crossing->edge = edge;
   crossing->triangle = triangle;
@@ -66,12 +59,12 @@ static inline void ox_append_crossing(const ox_scene* scene, const ox_crossing_l
   crossing->leaves = leaves ? 1u : 0u;
   __global ox_found* found = scene->found + (pair_side >> 1);
   crossing->slot = contact ? atomic_inc(&found->crossings) : OX_NONE;
-  if (flooded) to->links[slot] = atomic_xchg(&found->head[pair_side & 1u], slot);
+  if (flooded) crossing->before = atomic_xchg(&found->head[pair_side & 1u], slot);
 }
 
 // Every place where an edge of the source crosses the target, a little beyond its ends too: edges
 // that meet in a vertex are cast one by one, and none of them may leave it to the other.
-static inline void ox_cross_edges(const ox_scene* scene, const ox_crossing_lists* to,
+static inline void ox_cross_edges(const ox_scene* scene, __global ox_edge_crossing* crossings,
                                   uint pair_side, bool flooded, __global const ox_pair* pair,
                                   __global const ox_meshlet* source,
                                   __global const ox_meshlet* target, const ox_near_points* near) {
@@ -100,7 +93,7 @@ static inline void ox_cross_edges(const ox_scene* scene, const ox_crossing_lists
       ox_store(determinant, 0, determinant_lane);
       for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k)
         if (met_lane[k] != 0)
-          ox_append_crossing(scene, to, pair_side, source->edge[e],
+          ox_append_crossing(scene, crossings, pair_side, source->edge[e],
                              target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
                              determinant_lane[k] < 0.0f, apart, flooded);
     }
@@ -110,7 +103,7 @@ static inline void ox_cross_edges(const ox_scene* scene, const ox_crossing_lists
 // Vertices that may lie on the surface, or beside it past a ridge or a corner: what is within
 // epsilon of a triangle is so of its plane, and within its box and slab. Triangles so small that
 // their area underflows have no plane to compute: all vertices may lie on them.
-static inline void ox_touch_vertices(const ox_scene* scene, const ox_crossing_lists* to,
+static inline void ox_touch_vertices(const ox_scene* scene, __global ox_edge_crossing* crossings,
                                      uint pair_side, __global const ox_pair* pair,
                                      __global const ox_meshlet* source,
                                      __global const ox_meshlet* m, const ox_near_points* near) {
@@ -143,24 +136,24 @@ static inline void ox_touch_vertices(const ox_scene* scene, const ox_crossing_li
     }
   }
   for (; touching != 0u; touching &= touching - 1u)
-    ox_append_crossing(scene, to, pair_side, OX_NONE,
+    ox_append_crossing(scene, crossings, pair_side, OX_NONE,
                        source->vertex_index[31u - clz(touching & (~touching + 1u))], 0.0f, false,
                        false, true);
 }
 
-static inline void ox_cross_side(const ox_scene* scene, const ox_crossing_lists* to, uint pair_side,
-                                 __global const ox_meshlet* source,
+static inline void ox_cross_side(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                                 uint pair_side, __global const ox_meshlet* source,
                                  __global const ox_meshlet* target, const ox_near_points* near) {
   __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
   const uint side = pair_side & 1u;
   const bool flooded =
       ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side]);
-  ox_cross_edges(scene, to, pair_side, flooded, pair, source, target, near);
-  if (flooded) ox_touch_vertices(scene, to, pair_side, pair, source, target, near);
+  ox_cross_edges(scene, crossings, pair_side, flooded, pair, source, target, near);
+  if (flooded) ox_touch_vertices(scene, crossings, pair_side, pair, source, target, near);
 }
 
 // The edges of either meshlet against the triangles of the other.
-static inline void ox_cross_meshlets(const ox_scene* scene, const ox_crossing_lists* to,
+static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
                                      const ox_meshlet_pair* both) {
   __global const ox_pair* pair = scene->pairs + both->pair;
   __global const ox_meshlet* a = scene->surfaces.meshlets + both->meshlet[0];
@@ -168,8 +161,8 @@ static inline void ox_cross_meshlets(const ox_scene* scene, const ox_crossing_li
   ox_near_points near_b;  // vertices of A, in the frame of B
   ox_near_points near_a;
   if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) return;
-  ox_cross_side(scene, to, both->pair << 1, a, b, &near_b);
-  ox_cross_side(scene, to, both->pair << 1 | 1u, b, a, &near_a);
+  ox_cross_side(scene, crossings, both->pair << 1, a, b, &near_b);
+  ox_cross_side(scene, crossings, both->pair << 1 | 1u, b, a, &near_a);
 }
 
 #endif

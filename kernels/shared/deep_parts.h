@@ -8,15 +8,13 @@
 #include "shared/pair_hits.h"
 #include "shared/way_out.h"
 
-// Beside 1u in ox_edge_crossing::covered, of the first of a region.
-#define OX_DEEP 2u  // the region has such a part
-
+// A region that has such a part is marked, in the flags of its first crossing.
 static inline __global uint* ox_mark_of(const ox_edge_pair* p, uint region) {
-  return &p->crossings[p->by_region[p->region_first[region]]].covered;
+  return &p->crossings[p->by_region[p->region_first[region]]].flags;
 }
 
 static inline bool ox_is_marked(const ox_edge_pair* p, uint region) {
-  return (*ox_mark_of(p, region) & OX_DEEP) != 0u;
+  return (*ox_mark_of(p, region) & OX_CROSSING_MARKED) != 0u;
 }
 
 // A vertex beyond its own exit, and not because surfaces run along one another (nearest.h).
@@ -71,7 +69,7 @@ static inline uint ox_crossing_near(const ox_edge_pair* p, uint i) {
   float least = INFINITY;
   // In order, so that the first of equals is always the same.
   for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
+    __global const ox_pair_crossing* c = p->crossings + p->order[k];
     if (c->hit == i) return p->order[k];
     const float3 away = vload3(0, c->position) - point;
     if (!(ox_dot(away, away) < least)) continue;
@@ -91,7 +89,7 @@ static inline void ox_mark_deep_vertices(const ox_edge_pair* p, uint side) {
     if (ox_is_led_out(p, side, position, exit, &leader)) continue;
     const uint region = p->crossings[ox_crossing_near(p, i)].region;
     if (ox_is_marked(p, region)) continue;
-    *ox_mark_of(p, region) |= OX_DEEP;
+    *ox_mark_of(p, region) |= OX_CROSSING_MARKED;
     ++marked;
   }
 }
@@ -105,7 +103,7 @@ typedef struct {
 } ox_middle;
 
 // False: it is not inside, or the edge is concave and has no direction inward.
-static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_edge_crossing* c,
+static inline bool ox_look_from_middle(const ox_edge_pair* p, __global const ox_pair_crossing* c,
                                        ox_middle* middle) {
   const uint side = ox_side(c);
   const ox_wedge wedge = ox_wedge_of(p, c);
@@ -132,9 +130,8 @@ static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side) {
   if ((p->mesh[0]->flags & p->mesh[1]->flags & OX_MESH_CLOSED) == 0u) return;
   uint leader = 0u;
   for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->order[k];
-    if (ox_side(c) != side || (c->leaves != 0u && c->other != OX_NONE) ||
-        ox_is_marked(p, c->region))
+    __global const ox_pair_crossing* c = p->crossings + p->order[k];
+    if (ox_side(c) != side || (ox_leaves(c) && c->other != OX_NONE) || ox_is_marked(p, c->region))
       continue;
     // Mostly some contacts lead out both ends, and what is between them with them. How thick the
     // source is there is not asked: that would take a ray for every chord.
@@ -144,14 +141,14 @@ static inline void ox_mark_deep_chords(const ox_edge_pair* p, uint side) {
     ox_middle middle;
     if (ox_look_from_middle(p, c, &middle) &&
         middle.exit_t > middle.own_t + 2.0f * p->pair->epsilon)
-      *ox_mark_of(p, c->region) |= OX_DEEP;
+      *ox_mark_of(p, c->region) |= OX_CROSSING_MARKED;
   }
 }
 
 // Whether the region was marked; no more then.
 static inline bool ox_take_mark(const ox_edge_pair* p, uint region) {
   const bool marked = ox_is_marked(p, region);
-  *ox_mark_of(p, region) &= ~OX_DEEP;
+  *ox_mark_of(p, region) &= ~OX_CROSSING_MARKED;
   return marked;
 }
 

@@ -15,7 +15,7 @@ typedef struct {
   float3 into[2];  // unit, from the edge into the face, along the face
 } ox_wedge;
 
-static inline ox_wedge ox_wedge_of(const ox_edge_pair* p, __global const ox_edge_crossing* c) {
+static inline ox_wedge ox_wedge_of(const ox_edge_pair* p, __global const ox_pair_crossing* c) {
   ox_wedge wedge;
   const uint mesh = ox_side(c);
   wedge.line = ox_line_of(p, mesh, c->edge);

@@ -11,6 +11,13 @@
 #include "shared/append.h"
 #include "shared/full_ray.h"
 
+// See crossing_table.h.
+typedef struct {
+  __global uint* slots;
+  __global uint* next;
+  uint by;
+} ox_crossing_table;
+
 typedef struct {
   __global const ox_pair* pair;
   __global const ox_mesh* mesh[2];
@@ -18,18 +25,17 @@ typedef struct {
   __global const ox_edge* edges;
   ox_surfaces surfaces;
   __global const uint* facets;
-  __global ox_edge_crossing* crossings;
+  __global ox_pair_crossing* crossings;
   __global uint* order;         // of the crossings (crossing_order.h)
   __global uint* by_region;     // the same, those of a region together
   __global uint* region_first;  // where they start there
-  __global uint* by_facets;     // OX_BY_FACETS; none where no facet is crossed often
-  __global uint* facet_keys;    // of that order, or, where there is none, of that by facet
-  uint by_facets_count;
+  ox_crossing_table table;      // that is needed now
   uint count;
   uint regions;
   __global ox_candidate* candidates;
   uint hits;  // of vertices: the first of the candidates, all others are points
   uint candidate_count, most_candidates;
+  // In the room of the table, when that is not needed any more.
   __global uint* point_of_region;  // the first of them; OX_NONE: none (reconcile.h)
   __global uint* next_point;       // of its region, of each point
 } ox_edge_pair;
@@ -38,8 +44,12 @@ static inline uint ox_region_end(const ox_edge_pair* p, uint region) {
   return region + 1u < p->regions ? p->region_first[region + 1u] : p->count;
 }
 
-static inline uint ox_side(__global const ox_edge_crossing* crossing) {
-  return crossing->pair_side & 1u;
+static inline uint ox_side(__global const ox_pair_crossing* crossing) {
+  return crossing->flags & OX_CROSSING_SIDE;
+}
+
+static inline bool ox_leaves(__global const ox_pair_crossing* crossing) {
+  return (crossing->flags & OX_CROSSING_LEAVES) != 0u;
 }
 
 static inline float3 ox_vertex_in_b(const ox_edge_pair* p, uint mesh, uint vertex) {
@@ -67,29 +77,24 @@ static inline ox_line ox_line_of(const ox_edge_pair* p, uint mesh, uint edge) {
   return line;
 }
 
-static inline uint ox_facet_at(const ox_edge_pair* p, uint edge, uint k) {
-  const uint triangle = p->edges[edge].triangle[k];
-  return triangle == OX_NONE ? OX_NONE : p->facets[triangle];
-}
-
-static inline bool ox_is_at_facet(const ox_edge_pair* p, uint edge, uint facet) {
-  return ox_facet_at(p, edge, 0u) == facet || ox_facet_at(p, edge, 1u) == facet;
+static inline bool ox_is_at_facet(__global const ox_pair_crossing* c, uint facet) {
+  return c->at[0] == facet || c->at[1] == facet;
 }
 
 // The stretch of each edge inside the target: from where it enters to where it leaves next, or to
 // the end of the edge. Needs the order by edge.
 static inline void ox_find_chords(const ox_edge_pair* p) {
   for (uint first = 0u, next; first < p->count; first = next) {
-    __global const ox_edge_crossing* begin = p->crossings + p->order[first];
+    __global const ox_pair_crossing* begin = p->crossings + p->order[first];
     for (next = first + 1u; next < p->count; ++next) {
-      __global const ox_edge_crossing* c = p->crossings + p->order[next];
+      __global const ox_pair_crossing* c = p->crossings + p->order[next];
       if (c->edge != begin->edge || ox_side(c) != ox_side(begin)) break;
     }
     const ox_line line = ox_line_of(p, ox_side(begin), begin->edge);
     uint entry = OX_NONE;
     for (uint i = first; i < next; ++i) {
-      __global ox_edge_crossing* c = p->crossings + p->order[i];
-      if (c->leaves == 0u) {
+      __global ox_pair_crossing* c = p->crossings + p->order[i];
+      if (!ox_leaves(c)) {
         entry = p->order[i];
         continue;
       }
@@ -98,8 +103,8 @@ static inline void ox_find_chords(const ox_edge_pair* p) {
     }
     uint exit = OX_NONE;
     for (uint i = next; i-- > first;) {
-      __global ox_edge_crossing* c = p->crossings + p->order[i];
-      if (c->leaves != 0u) {
+      __global ox_pair_crossing* c = p->crossings + p->order[i];
+      if (ox_leaves(c)) {
         exit = p->order[i];
         continue;
       }

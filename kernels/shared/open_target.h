@@ -19,7 +19,7 @@ static inline float ox_distance2_to_segment(float3 point, float3 a, float3 b) {
 }
 
 static inline bool ox_is_of_border(const ox_edge_pair* p, uint target,
-                                   __global const ox_edge_crossing* c) {
+                                   __global const ox_pair_crossing* c) {
   return ox_side(c) == target && p->edges[c->edge].triangle[1] == OX_NONE;
 }
 
@@ -36,7 +36,7 @@ static inline bool ox_goes_on(const ox_edge_pair* p, uint target, bool border, f
   if (p->count == 0u) return false;  // what of it is inside is inside with its border
   if (distance > p->mesh[target]->radius) return false;
   for (uint i = 0u; i < p->count && border; ++i) {
-    __global const ox_edge_crossing* c = p->crossings + i;
+    __global const ox_pair_crossing* c = p->crossings + i;
     if (ox_is_of_border(p, target, c) &&
         ox_distance2_to_segment(point, ox_chord_end(p, c, 0u), ox_chord_end(p, c, 1u)) <
             distance * distance)

@@ -4,7 +4,7 @@
 #define ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 
 #include "shared/candidate_order.h"
-#include "shared/crossing_order.h"
+#include "shared/crossing_table.h"
 
 // What the hits of the vertices of one mesh say.
 typedef struct {
@@ -27,21 +27,18 @@ static inline bool ox_is_inside_hit(const ox_edge_pair* p, uint hit) {
 }
 
 // By the vertices at an end of their edges, tells crossings which hits those have; by others than
-// the inner ones, that they are covered. Before there are regions, in the room of their order.
-static inline void ox_link_hits(const ox_edge_pair* p, uint by) {
-  const ox_order order = {p->by_region, p->region_first, p->count, by};
-  for (uint i = 0u; i < p->count; ++i) order.entries[i] = i;
-  ox_sort_crossings(p, &order);
+// the inner ones, that they are covered.
+static inline void ox_link_hits(ox_edge_pair* p, uint by) {
+  ox_tabulate_crossings(p, by);
   for (uint i = 0u; i < p->hits; ++i) {
     const uint side = (p->candidates[i].side_kind & OX_HIT_SIDE) != 0u ? 1u : 0u;
-    const uint key = ox_key_of(side, p->candidates[i].vertex);
-    for (uint k = ox_first_with(order.keys, p->count, key); k < p->count && order.keys[k] == key;
-         ++k) {
-      __global ox_edge_crossing* c = p->crossings + order.entries[k];
+    const ox_crossing_key key = ox_vertex_key(side, p->candidates[i].vertex);
+    for (uint n = ox_first_entry(p, key); n != OX_NONE; n = ox_next_entry(p, n)) {
+      __global ox_pair_crossing* c = p->crossings + (n >> 1);
       if (by == OX_BY_INNER_VERTEX)
         c->hit = i;
       else if (ox_is_inside_hit(p, i))
-        c->covered = 1u;
+        c->flags |= OX_CROSSING_COVERED;
     }
   }
 }

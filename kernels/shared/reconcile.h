@@ -127,12 +127,12 @@ static inline ox_way_out ox_find_way_along(const ox_edge_pair* p, uint region, f
   ox_way_out best = ox_no_way_out();
   uint looks[2] = {0u, 0u};
   for (uint k = p->region_first[region]; k < ox_region_end(p, region); ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    __global const ox_pair_crossing* c = p->crossings + p->by_region[k];
     const uint side = ox_side(c);
     ox_try_way_along(p, region, normal, side, c->triangle, &best);
     for (uint f = 0u; f < 2u; ++f)
       ox_try_way_along(p, region, normal, 1u - side, p->edges[c->edge].triangle[f], &best);
-    if ((c->leaves != 0u && c->other != OX_NONE) || looks[side] == OX_MOST_LOOKS) continue;
+    if ((ox_leaves(c) && c->other != OX_NONE) || looks[side] == OX_MOST_LOOKS) continue;
     ++looks[side];
     const float3 middle = 0.5f * (ox_chord_end(p, c, 0u) + ox_chord_end(p, c, 1u));
     ox_try_way_along(p, region, normal, side,

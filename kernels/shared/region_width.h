@@ -13,7 +13,7 @@
 
 // The corners of a convex region are its crossings and the vertices inside at the ends of its
 // chords: so many at each crossing.
-static inline uint ox_corners_at(__global const ox_edge_crossing* c) {
+static inline uint ox_corners_at(__global const ox_pair_crossing* c) {
   return c->other == OX_NONE ? 2u : 1u;
 }
 
@@ -34,7 +34,7 @@ static inline ox_extent ox_extent_of(const ox_edge_pair* p, float3 direction) {
   extent.highest_corner = (float3)(0.0f);
   for (uint k = 0u; k < p->count; ++k) {
     const uint i = p->order[k];
-    __global const ox_edge_crossing* c = p->crossings + i;
+    __global const ox_pair_crossing* c = p->crossings + i;
     for (uint end = 0u; end < ox_corners_at(c); ++end) {
       const float3 corner = ox_chord_end(p, c, end);
       const float at = ox_dot(corner, direction);
@@ -56,7 +56,7 @@ static inline ox_extent ox_extent_of(const ox_edge_pair* p, float3 direction) {
 // Whether all of it lies behind the plane of every face at its crossings.
 static inline bool ox_is_convex(const ox_edge_pair* p) {
   for (uint k = 0u; k < p->count; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + k;
+    __global const ox_pair_crossing* c = p->crossings + k;
     const float3 position = vload3(0, c->position);
     for (uint f = 0u; f < 3u; ++f) {
       const uint face = f == 2u ? c->triangle : p->edges[c->edge].triangle[f];
@@ -64,7 +64,7 @@ static inline bool ox_is_convex(const ox_edge_pair* p) {
       const float3 normal = ox_normal_in_b(p, f == 2u ? 1u - ox_side(c) : ox_side(c), face);
       const float limit = ox_dot(position, normal) + p->pair->epsilon;
       for (uint i = 0u; i < p->count; ++i) {
-        __global const ox_edge_crossing* d = p->crossings + i;
+        __global const ox_pair_crossing* d = p->crossings + i;
         for (uint end = 0u; end < ox_corners_at(d); ++end)
           if (ox_dot(ox_chord_end(p, d, end), normal) > limit) return false;
       }

@@ -15,8 +15,8 @@ static inline uint ox_deepest_hit(const ox_edge_pair* p, uint region) {
   uint looked = 0u;
   for (uint k = p->region_first[region]; k < ox_region_end(p, region) && looked < OX_MOST_SPOKESMEN;
        ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
-    if (c->covered == 0u || !ox_is_inside_hit(p, c->hit)) continue;
+    __global const ox_pair_crossing* c = p->crossings + p->by_region[k];
+    if ((c->flags & OX_CROSSING_COVERED) == 0u || !ox_is_inside_hit(p, c->hit)) continue;
     ++looked;
     if (best == OX_NONE || p->candidates[c->hit].depth > p->candidates[best].depth) best = c->hit;
   }

@@ -282,10 +282,9 @@ typedef struct {
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 
-// Where an edge of one mesh crosses the surface of the other. The first six fields are what the
-// search finds; the rest is filled in where the crossings of a pair are brought together. Those
-// without a slot are of no contact: of an edge within a facet; or, without an edge, a vertex
-// (`triangle`) that may lie on the surface.
+// Where an edge of one mesh crosses the surface of the other, as it is found. Those without a slot
+// are of no contact: of an edge within a facet; or, without an edge, a vertex (`triangle`) that may
+// lie on the surface.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 edge;
@@ -293,23 +292,40 @@ typedef struct {
   ox_f32 t;         // [m] along the edge, from its first vertex
   ox_u32 leaves;    // whether the edge leaves the target here: a back face
   ox_u32 slot;      // how many crossings of this pair were appended before it; OX_NONE: see above
+  ox_u32 before;    // of flooded sides: the crossing of the side that was found before it; OX_NONE
+  ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
+} ox_edge_crossing;
+OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
+
+#define OX_CROSSING_SIDE 1u     // of an edge of mesh B
+#define OX_CROSSING_LEAVES 2u   // the edge leaves the target here
+#define OX_CROSSING_COVERED 4u  // a contact speaks for it
+#define OX_CROSSING_MARKED 8u   // of the first of a region: see deep_parts.h
+
+// A crossing among those of its pair.
+typedef struct {
+  ox_u32 flags;  // OX_CROSSING_...
+  ox_u32 edge;
+  ox_u32 triangle;  // crossed, over all triangles
+  ox_f32 t;         // [m] along the edge, from its first vertex
   ox_u32 facet;     // of the triangle
+  ox_u32 at[2];     // the facets at the edge; the second is OX_NONE at a border
   ox_u32 other;     // the crossing at the other end of its chord, among those of the pair; OX_NONE
   ox_f32 other_t;   // [m] the other end of the chord, the stretch of the edge inside the target
   ox_u32 region;    // of overlap, counted from 0 in every pair; OX_NONE: not known yet
   ox_f32 position[3];  // in the frame of B
-  ox_u32 covered;      // whether a contact speaks for it
   ox_f32 paired;       // [m] the depth of the deepest contact of two edges here; 0: none
   ox_u32 hit;          // the candidate of the vertex inside at the end of its chord; OX_NONE: none
-} ox_edge_crossing;
-OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 64, ox_edge_crossing_is_64_bytes);
+  ox_u32 padding;
+} ox_pair_crossing;
+OX_STATIC_ASSERT(sizeof(ox_pair_crossing) == 64, ox_pair_crossing_is_64_bytes);
 
 // Room for what edges add to the candidates of a pair.
 #define OX_POINTS_PER_CROSSING 4u
 // Room for the orders of the crossings of a pair and of those points: by edge and then by facet; by
-// region; where each region starts; its first point; the next point of each point, and before there
-// are points the order by both facets and its keys. The keys of the other orders lie in rooms not
-// yet in use (edge_contact.cl).
+// region; where each region starts; its first point; the next point of each point. Before there are
+// points the room of those two is that of a table of crossings (shared/crossing_table.h), and the
+// keys of orders lie in rooms not yet in use (edge_contact.cl).
 #define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
 
 // A hit among those of its pair, in the frame of B.

@@ -62,7 +62,7 @@ static inline uint ox_exit_face(const ox_edge_pair* p, uint side, float3 from, f
   return nearest.back_t < nearest.front_t ? nearest.back : OX_NONE;
 }
 
-static inline float3 ox_chord_end(const ox_edge_pair* p, __global const ox_edge_crossing* c,
+static inline float3 ox_chord_end(const ox_edge_pair* p, __global const ox_pair_crossing* c,
                                   uint end) {
   if (end == 0u) return vload3(0, c->position);
   const ox_line line = ox_line_of(p, ox_side(c), c->edge);
@@ -79,7 +79,7 @@ static inline bool ox_is_fallback(const ox_edge_pair* p, uint i, uint side) {
 // other way: what is there would follow, so that leaving by `way` does not end there (a corner that
 // runs right through a plate).
 static inline bool ox_goes_through(const ox_edge_pair* p, const ox_way_out* way,
-                                   __global const ox_edge_crossing* c) {
+                                   __global const ox_pair_crossing* c) {
   const uint target = 1u - way->side;
   if (ox_side(c) == way->side)
     return ox_dot(ox_normal_in_b(p, target, c->triangle), way->normal) < -0.1f;
@@ -94,7 +94,7 @@ static inline bool ox_goes_through(const ox_edge_pair* p, const ox_way_out* way,
 // How deep the source is below the way at a crossing, which lies on both surfaces: there, and at a
 // vertex at the end of its chord.
 static inline float ox_depth_at(const ox_edge_pair* p, const ox_way_out* way,
-                                __global const ox_edge_crossing* c) {
+                                __global const ox_pair_crossing* c) {
   const float depth = ox_depth_below(way, vload3(0, c->position));
   return c->other == OX_NONE && ox_side(c) == way->side
              ? ox_max(depth, ox_depth_below(way, ox_chord_end(p, c, 1u)))
@@ -113,7 +113,7 @@ static inline void ox_measure(const ox_edge_pair* p, uint region, bool vertices,
                               const ox_way_out* best, ox_way_out* way) {
   const uint end = region == OX_NONE ? 0u : ox_region_end(p, region);
   for (uint k = region == OX_NONE ? 0u : p->region_first[region]; k < end; ++k) {
-    __global const ox_edge_crossing* c = p->crossings + p->by_region[k];
+    __global const ox_pair_crossing* c = p->crossings + p->by_region[k];
     way->depth = ox_max(way->depth, ox_depth_at(p, way, c));
     way->through = way->through || ox_goes_through(p, way, c);
     if (ox_is_beaten(way, best)) return;

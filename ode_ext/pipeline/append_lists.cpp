@@ -28,8 +28,8 @@ constexpr ArrowCounts kRecordBytes = [] {
   bytes[OX_LIST_MESHLETS] = sizeof(ox_meshlet_task);
   bytes[OX_LIST_MESHLET_PAIRS] = sizeof(ox_meshlet_pair);
   bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
-  bytes[OX_LIST_CROSSINGS] = 2 * sizeof(ox_edge_crossing) +
-                             (1 + OX_ORDERS_PER_CROSSING) * sizeof(ox_u32) +
+  bytes[OX_LIST_CROSSINGS] = sizeof(ox_edge_crossing) + sizeof(ox_pair_crossing) +
+                             OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
                              OX_POINTS_PER_CROSSING * sizeof(ox_candidate);
   bytes[OX_LIST_FLOOD_WORDS] = sizeof(ox_u32);
   bytes[OX_LIST_CONTACTS] = sizeof(ox_contact);
@@ -61,7 +61,6 @@ AppendLists::AppendLists(Device& device)
       hits_(device),
       candidates_(device),
       crossings_(device),
-      crossing_links_(device),
       gathered_crossings_(device),
       crossing_order_(device),
       flood_words_(device),
@@ -93,7 +92,7 @@ void AppendLists::release() {
   capacities_ = {};
   for (Buffer* buffer :
        {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_, &crossings_,
-        &crossing_links_, &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_})
+        &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_})
     buffer->release();
 }
 
@@ -136,8 +135,7 @@ void AppendLists::resize(const ArrowCounts& capacities) {
     candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
                         sizeof(ox_candidate));
     crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-    crossing_links_.reserve(ends.crossings * sizeof(ox_u32));
-    gathered_crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
+    gathered_crossings_.reserve(ends.crossings * sizeof(ox_pair_crossing));
     crossing_order_.reserve(OX_ORDERS_PER_CROSSING * ends.crossings * sizeof(ox_u32));
     flood_words_.reserve(ends.flood_words * sizeof(ox_u32));
     contacts_.reserve(ends.contacts * sizeof(ox_contact));

@@ -68,7 +68,6 @@ class AppendLists {
   // One per hit, OX_POINTS_PER_CROSSING per crossing.
   const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
-  const Buffer& crossing_links() const { return crossing_links_; }          // one per crossing
   const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
   const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& flood_words() const { return flood_words_; }
@@ -91,7 +90,7 @@ class AppendLists {
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
-      crossings_, crossing_links_, gathered_crossings_, crossing_order_, flood_words_, contacts_;
+      crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_;
 };
 
 }  // namespace ode_ext

@@ -29,17 +29,16 @@ void Steps::cull(Launch per_pair, const StepData& data) {
 
 void Steps::match(Launch per_meshlet, const StepData& data) {
   data.launch(match_, per_meshlet, data.lists.meshlets(), data.lists.meshlet_pairs(),
-              data.lists.crossings(), data.lists.crossing_links());
+              data.lists.crossings());
 }
 
 void Steps::cross(Launch per_meshlet_pair, const StepData& data) {
-  data.launch(cross_, per_meshlet_pair, data.lists.meshlet_pairs(), data.lists.crossings(),
-              data.lists.crossing_links());
+  data.launch(cross_, per_meshlet_pair, data.lists.meshlet_pairs(), data.lists.crossings());
 }
 
 void Steps::flood(Launch per_side, const StepData& data) {
-  data.launch(flood_, per_side, data.lists.crossings(), data.lists.crossing_links(),
-              data.lists.tasks(), data.lists.rays(), data.lists.flood_words());
+  data.launch(flood_, per_side, data.lists.crossings(), data.lists.tasks(), data.lists.rays(),
+              data.lists.flood_words());
 }
 
 void Steps::choose_vertices(Launch per_vertex, const StepData& data) {
@@ -70,10 +69,10 @@ void Steps::reduce(Launch per_pair, const StepData& data) {
 void Steps::run_whole(const StepData& data) {
   const auto& [meshes, pairs, lists, settings] = data;
   data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
-              lists.meshlet_pairs(), lists.crossings(), lists.crossing_links(), lists.tasks(),
-              lists.rays(), lists.flood_words(), lists.hits(), lists.candidates(),
-              lists.gathered_crossings(), lists.crossing_order(), settings.max_contacts,
-              settings.max_contacts_deformable, lists.contacts());
+              lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
+              lists.flood_words(), lists.hits(), lists.candidates(), lists.gathered_crossings(),
+              lists.crossing_order(), settings.max_contacts, settings.max_contacts_deformable,
+              lists.contacts());
 }
 
 void Steps::take_milliseconds(StageTimes& ms) {

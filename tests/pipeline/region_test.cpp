@@ -21,7 +21,7 @@ TEST(EdgeRegions, AreAsManyAsPostsInAFaceHoweverManyTheyAre) {
     scene.add_pair(scene.add_mesh(posts), {}, block, {});
     const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
     std::set<std::uint32_t> regions;
-    for (const ox_edge_crossing& c : records.gathered_crossings) {
+    for (const ox_pair_crossing& c : records.gathered_crossings) {
       EXPECT_LT(c.region, static_cast<std::uint32_t>(count));
       regions.insert(c.region);
     }

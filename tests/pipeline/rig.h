@@ -32,7 +32,8 @@ struct StepRecords {
   std::vector<ox_meshlet> meshlets;  // likewise
   std::vector<ox_meshlet_task> meshlet_tasks;
   std::vector<ox_meshlet_pair> meshlet_pairs;
-  std::vector<ox_edge_crossing> crossings, gathered_crossings;
+  std::vector<ox_edge_crossing> crossings;
+  std::vector<ox_pair_crossing> gathered_crossings;
 };
 
 class Rig {

@@ -213,24 +213,21 @@ TEST(Search, GathersCrossingsByPair) {
   const TestScene scene = random_scene(200, 79);
   for (const Organisation organisation : kBoth) {
     const StepRecords records = Rig::shared().run_with_edges(scene.scene, organisation);
-    using Bits = std::tuple<ox_u32, ox_u32, ox_u32, ox_f32, ox_u32>;
-    const auto bits = [](const ox_edge_crossing& c) {
-      return Bits{c.pair_side, c.edge, c.triangle, c.t, c.leaves};
-    };
+    using Bits = std::tuple<ox_u32, ox_u32, ox_u32, ox_f32, bool>;
     std::multiset<Bits> found, gathered;
-    for (const ox_edge_crossing& c : records.crossings) found.insert(bits(c));
+    for (const ox_edge_crossing& c : records.crossings)
+      found.insert({c.pair_side, c.edge, c.triangle, c.t, c.leaves != 0});
     std::set<std::size_t> places;
     for (ox_u32 i = 0; i < scene.pairs.size(); ++i) {
       const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
       for (ox_u32 k = 0; k < records.found[i].crossings; ++k) {
         const std::size_t place = records.found[i].first_crossing + k;
         EXPECT_TRUE(places.insert(place).second);
-        const ox_edge_crossing& c = records.gathered_crossings.at(place);
-        EXPECT_EQ(c.pair_side >> 1, i);
-        EXPECT_EQ(c.slot, k);
-        gathered.insert(bits(c));
+        const ox_pair_crossing& c = records.gathered_crossings.at(place);
+        const ox_u32 side = c.flags & OX_CROSSING_SIDE;
+        gathered.insert(
+            {i << 1 | side, c.edge, c.triangle, c.t, (c.flags & OX_CROSSING_LEAVES) != 0});
         // Its place is on the edge, in the frame of B.
-        const std::size_t side = c.pair_side & 1;
         const std::uint32_t mesh = scene.objects[scene.pairs[i][side]].mesh;
         Point ends[2];
         for (std::size_t e = 0; e < 2; ++e) {
