@@ -8,6 +8,22 @@
 // may overflow: OX_LIST_MESHLETS
 #include "shared/meshlet.h"
 
+typedef struct {
+  uint count;
+  uint meshlet[OX_MOST_AT_ONCE];
+} ox_kept_meshlets;
+
+static void ox_store_meshlets(const ox_scene* scene, uint pair_side, ox_kept_meshlets* kept,
+                              __global ox_meshlet_task* tasks) {
+  uint stored;
+  const uint first = ox_append_many(scene, OX_LIST_MESHLETS, kept->count, &stored);
+  for (uint i = 0u; i < stored; ++i) {
+    tasks[first + i].pair_side = pair_side;
+    tasks[first + i].meshlet = kept->meshlet[i];
+  }
+  kept->count = 0u;
+}
+
 __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
   const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
@@ -27,14 +43,14 @@ __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
     ox_box box;
     box.lo = there - reach;
     box.hi = there + reach;
+    ox_kept_meshlets kept;
+    kept.count = 0u;
     ox_box_walk walk = ox_begin_box_walk(source);
     while (walk.count != 0u) {
       const uint child = walk.child[--walk.count];
       if ((child & OX_CHILD_MESHLET) != 0u) {
-        const uint slot = ox_append(&scene, OX_LIST_MESHLETS);
-        if (slot == OX_NONE) continue;
-        tasks[slot].pair_side = p << 1 | side;
-        tasks[slot].meshlet = source->meshlet_first + (child >> 1);
+        kept.meshlet[kept.count++] = source->meshlet_first + (child >> 1);
+        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(&scene, p << 1 | side, &kept, tasks);
         continue;
       }
       __global const ox_meshlet_node* node =
@@ -52,5 +68,6 @@ __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
         }
       }
     }
+    if (kept.count != 0u) ox_store_meshlets(&scene, p << 1 | side, &kept, tasks);
   }
 }

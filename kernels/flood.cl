@@ -158,6 +158,7 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
     const uint vertex = ox_queue(s->words, &s->table)[*next];
     for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
       const ox_neighbour neighbour = s->scene.rings[i];
+      if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
       if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
     }
   }

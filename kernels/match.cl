@@ -9,6 +9,31 @@
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
 #include "shared/cross.h"
 
+typedef struct {
+  uint count;
+  uint meshlet[OX_MOST_AT_ONCE];  // of the other mesh
+} ox_met_meshlets;
+
+static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, ox_met_meshlets* met,
+                           __global ox_meshlet_pair* meshlet_pairs,
+                           __global ox_edge_crossing* crossings) {
+  const uint side = task->pair_side & 1u;
+  uint stored;
+  const uint first = ox_append_many(scene, OX_LIST_MESHLET_PAIRS, met->count, &stored);
+  for (uint i = 0u; i < met->count; ++i) {
+    ox_meshlet_pair both;
+    both.pair = task->pair_side >> 1;
+    both.meshlet[side] = task->meshlet;
+    both.meshlet[1u - side] = met->meshlet[i];
+    both.padding = 0u;
+    if (i < stored)
+      meshlet_pairs[first + i] = both;
+    else
+      ox_cross_meshlets(scene, crossings, &both);
+  }
+  met->count = 0u;
+}
+
 __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
                     __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings) {
   const ox_scene scene = OX_SCENE;
@@ -21,6 +46,8 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
     const ox_slab slab = ox_slab_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
+    ox_met_meshlets met;
+    met.count = 0u;
     ox_box_walk walk = ox_begin_box_walk(target);
     while (walk.count != 0u) {
       const uint child = walk.child[--walk.count];
@@ -29,23 +56,17 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
             meshlet_nodes + target->meshlet_node_first + (child >> 1);
         for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
           const uint block = first / OX_VECTOR_WIDTH;
-          uint met = ox_children_in_box(&box, node, block);
-          if (met != 0u) met &= ox_children_in_slab(&slab, node, block);
-          for (; met != 0u; met &= met - 1u)
-            walk.child[walk.count++] = node->child[first + ox_lowest(met)];
+          uint children = ox_children_in_box(&box, node, block);
+          if (children != 0u) children &= ox_children_in_slab(&slab, node, block);
+          for (; children != 0u; children &= children - 1u)
+            walk.child[walk.count++] = node->child[first + ox_lowest(children)];
         }
         continue;
       }
-      ox_meshlet_pair both;
-      both.pair = task.pair_side >> 1;
-      both.meshlet[side] = task.meshlet;
-      both.meshlet[1u - side] = target->meshlet_first + (child >> 1);
-      both.padding = 0u;
-      const uint slot = ox_append(&scene, OX_LIST_MESHLET_PAIRS);
-      if (slot != OX_NONE)
-        meshlet_pairs[slot] = both;
-      else
-        ox_cross_meshlets(&scene, crossings, &both);
+      met.meshlet[met.count++] = target->meshlet_first + (child >> 1);
+      if (met.count == OX_MOST_AT_ONCE)
+        ox_store_pairs(&scene, &task, &met, meshlet_pairs, crossings);
     }
+    if (met.count != 0u) ox_store_pairs(&scene, &task, &met, meshlet_pairs, crossings);
   }
 }

@@ -16,6 +16,18 @@ static inline uint ox_append(const ox_scene* scene, uint list) {
   return slot < scene->lists[list].capacity ? scene->lists[list].first + slot : OX_NONE;
 }
 
+// The same for so many at once: a counter that all threads add to is what appending one by one
+// waits for. `stored` becomes how many of them there is room for, from the place on that it gives.
+#define OX_MOST_AT_ONCE 16u
+static inline uint ox_append_many(const ox_scene* scene, uint list, uint count, uint* stored) {
+  __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
+  const uint first = atomic_add(counter, count);
+  if (first >= OX_MOST_COUNTED) atomic_sub(counter, count);
+  const uint capacity = scene->lists[list].capacity;
+  *stored = first < capacity ? min(count, capacity - first) : 0u;
+  return scene->lists[list].first + first;
+}
+
 static inline uint ox_length(const ox_scene* scene, uint list) {
   return min(scene->counters[list * OX_COUNTER_STRIDE], scene->lists[list].capacity);
 }

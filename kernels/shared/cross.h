@@ -45,28 +45,68 @@ static inline bool ox_find_near(__global const ox_pair* pair, uint side,
   return beyond_all == 0;
 }
 
-// `contact`: whether it is of one. Those of a flooded side are linked from the pair's head on.
-static inline void ox_append_crossing(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                      uint pair_side, uint edge, uint triangle, float t,
-                                      bool leaves, bool contact, bool flooded) {
-  const uint slot = ox_append(scene, OX_LIST_CROSSINGS);
-  if (slot == OX_NONE) return;
-  __global ox_edge_crossing* crossing = crossings + slot;
-  crossing->pair_side = pair_side;
-  crossing->edge = edge;
-  crossing->triangle = triangle;
-  crossing->t = t;
-  crossing->leaves = leaves ? 1u : 0u;
-  __global ox_found* found = scene->found + (pair_side >> 1);
-  crossing->slot = contact ? atomic_inc(&found->crossings) : OX_NONE;
-  if (flooded) crossing->before = atomic_xchg(&found->head[pair_side & 1u], slot);
+#define OX_NEW_LEAVES 1u
+#define OX_NEW_CONTACT 2u  // it is of one
+#define OX_NEW_FLOODED 4u  // of a side that is flooded: linked from the pair's head on
+
+// Crossings of a pair that are yet to be stored.
+typedef struct {
+  const ox_scene* scene;
+  __global ox_edge_crossing* crossings;  // where to
+  uint pair;
+  uint count;
+  uint flags[OX_MOST_AT_ONCE];  // OX_NEW_..., and the side above them
+  uint edge[OX_MOST_AT_ONCE];
+  uint triangle[OX_MOST_AT_ONCE];
+  float t[OX_MOST_AT_ONCE];
+} ox_new_crossings;
+#define OX_NEW_SIDE_SHIFT 3u
+
+static inline void ox_store_crossings(ox_new_crossings* fresh) {
+  if (fresh->count == 0u) return;
+  uint stored;
+  const uint first = ox_append_many(fresh->scene, OX_LIST_CROSSINGS, fresh->count, &stored);
+  __global ox_found* found = fresh->scene->found + fresh->pair;
+  uint contacts = 0u;
+  for (uint i = 0u; i < stored; ++i) contacts += (fresh->flags[i] & OX_NEW_CONTACT) != 0u ? 1u : 0u;
+  uint slot = contacts == 0u ? 0u : atomic_add(&found->crossings, contacts);
+  uint head[2] = {OX_NONE, OX_NONE};
+  uint tail[2] = {OX_NONE, OX_NONE};
+  for (uint i = 0u; i < stored; ++i) {
+    const uint flags = fresh->flags[i];
+    const uint side = flags >> OX_NEW_SIDE_SHIFT;
+    __global ox_edge_crossing* crossing = fresh->crossings + first + i;
+    crossing->pair_side = fresh->pair << 1 | side;
+    crossing->edge = fresh->edge[i];
+    crossing->triangle = fresh->triangle[i];
+    crossing->t = fresh->t[i];
+    crossing->leaves = flags & OX_NEW_LEAVES;
+    crossing->slot = (flags & OX_NEW_CONTACT) != 0u ? slot++ : OX_NONE;
+    if ((flags & OX_NEW_FLOODED) == 0u) continue;
+    if (head[side] == OX_NONE) tail[side] = first + i;
+    crossing->before = head[side];
+    head[side] = first + i;
+  }
+  for (uint side = 0u; side < 2u; ++side)
+    if (head[side] != OX_NONE)
+      fresh->crossings[tail[side]].before = atomic_xchg(&found->head[side], head[side]);
+  fresh->count = 0u;
+}
+
+static inline void ox_add_crossing(ox_new_crossings* fresh, uint side, uint edge, uint triangle,
+                                   float t, uint flags) {
+  const uint i = fresh->count++;
+  fresh->flags[i] = flags | side << OX_NEW_SIDE_SHIFT;
+  fresh->edge[i] = edge;
+  fresh->triangle[i] = triangle;
+  fresh->t[i] = t;
+  if (fresh->count == OX_MOST_AT_ONCE) ox_store_crossings(fresh);
 }
 
 // Every place where an edge of the source crosses the target, a little beyond its ends too: edges
 // that meet in a vertex are cast one by one, and none of them may leave it to the other.
-static inline void ox_cross_edges(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                  uint pair_side, bool flooded, __global const ox_pair* pair,
-                                  __global const ox_meshlet* source,
+static inline void ox_cross_edges(ox_new_crossings* fresh, uint side, bool flooded,
+                                  __global const ox_pair* pair, __global const ox_meshlet* source,
                                   __global const ox_meshlet* target, const ox_near_points* near) {
   const float from = -pair->epsilon;
   for (uint e = 0u; e < source->edge_count; ++e) {
@@ -74,6 +114,7 @@ static inline void ox_cross_edges(const ox_scene* scene, __global ox_edge_crossi
     const uint q = OX_END(source->ends, e, 1u);
     const bool apart = (source->edges_apart >> e & 1u) != 0u;
     if ((near->beyond[p] & near->beyond[q]) != 0 || !(apart || flooded)) continue;
+    const uint flags = (apart ? OX_NEW_CONTACT : 0u) | (flooded ? OX_NEW_FLOODED : 0u);
     const float3 start = (float3)(near->x[p], near->y[p], near->z[p]);
     const float3 along = (float3)(near->x[q], near->y[q], near->z[q]) - start;
     const float length = sqrt(ox_dot(along, along));
@@ -93,9 +134,9 @@ static inline void ox_cross_edges(const ox_scene* scene, __global ox_edge_crossi
       ox_store(determinant, 0, determinant_lane);
       for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k)
         if (met_lane[k] != 0)
-          ox_append_crossing(scene, crossings, pair_side, source->edge[e],
-                             target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
-                             determinant_lane[k] < 0.0f, apart, flooded);
+          ox_add_crossing(fresh, side, source->edge[e],
+                          target->triangle_first + OX_VECTOR_WIDTH * block + k, t_lane[k],
+                          flags | (determinant_lane[k] < 0.0f ? OX_NEW_LEAVES : 0u));
     }
   }
 }
@@ -103,8 +144,8 @@ static inline void ox_cross_edges(const ox_scene* scene, __global ox_edge_crossi
 // Vertices that may lie on the surface, or beside it past a ridge or a corner: what is within
 // epsilon of a triangle is so of its plane, and within its box and slab. Triangles so small that
 // their area underflows have no plane to compute: all vertices may lie on them.
-static inline void ox_touch_vertices(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                     uint pair_side, __global const ox_pair* pair,
+static inline void ox_touch_vertices(ox_new_crossings* fresh, uint side,
+                                     __global const ox_pair* pair,
                                      __global const ox_meshlet* source,
                                      __global const ox_meshlet* m, const ox_near_points* near) {
   uint asked = 0u;
@@ -136,20 +177,19 @@ static inline void ox_touch_vertices(const ox_scene* scene, __global ox_edge_cro
     }
   }
   for (; touching != 0u; touching &= touching - 1u)
-    ox_append_crossing(scene, crossings, pair_side, OX_NONE,
-                       source->vertex_index[31u - clz(touching & (~touching + 1u))], 0.0f, false,
-                       false, true);
+    ox_add_crossing(fresh, side, OX_NONE,
+                    source->vertex_index[31u - clz(touching & (~touching + 1u))], 0.0f,
+                    OX_NEW_FLOODED);
 }
 
-static inline void ox_cross_side(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                 uint pair_side, __global const ox_meshlet* source,
+static inline void ox_cross_side(ox_new_crossings* fresh, uint side, __global const ox_pair* pair,
+                                 __global const ox_meshlet* source,
                                  __global const ox_meshlet* target, const ox_near_points* near) {
-  __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
-  const uint side = pair_side & 1u;
+  __global const ox_mesh* meshes = fresh->scene->meshes;
   const bool flooded =
-      ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side]);
-  ox_cross_edges(scene, crossings, pair_side, flooded, pair, source, target, near);
-  if (flooded) ox_touch_vertices(scene, crossings, pair_side, pair, source, target, near);
+      ox_is_flooded(fresh->scene, meshes + pair->mesh[side], meshes + pair->mesh[1u - side]);
+  ox_cross_edges(fresh, side, flooded, pair, source, target, near);
+  if (flooded) ox_touch_vertices(fresh, side, pair, source, target, near);
 }
 
 // The edges of either meshlet against the triangles of the other.
@@ -161,8 +201,14 @@ static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_cro
   ox_near_points near_b;  // vertices of A, in the frame of B
   ox_near_points near_a;
   if (!ox_find_near(pair, 0u, a, b, &near_b) || !ox_find_near(pair, 1u, b, a, &near_a)) return;
-  ox_cross_side(scene, crossings, both->pair << 1, a, b, &near_b);
-  ox_cross_side(scene, crossings, both->pair << 1 | 1u, b, a, &near_a);
+  ox_new_crossings fresh;
+  fresh.scene = scene;
+  fresh.crossings = crossings;
+  fresh.pair = both->pair;
+  fresh.count = 0u;
+  ox_cross_side(&fresh, 0u, pair, a, b, &near_b);
+  ox_cross_side(&fresh, 1u, pair, b, a, &near_a);
+  ox_store_crossings(&fresh);
 }
 
 #endif

@@ -9,7 +9,7 @@
 #include "shared/edge_pair.h"
 
 // What an entry of the table is by: crossing << 1 | k.
-#define OX_BY_FACETS                                                                            \
+#define OX_BY_FACETS \
   0u                           // a pair of facets that the curve runs through: the one that is \
                                // crossed, and the one at the edge, k
 #define OX_BY_INNER_VERTEX 1u  // the vertex inside at the end of the chord
