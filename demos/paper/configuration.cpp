@@ -8,13 +8,14 @@
 namespace paper {
 namespace {
 
-constexpr std::array<std::pair<Word, const char*>, 7> kWords{{{kChecked, "checked"},
+constexpr std::array<std::pair<Word, const char*>, 8> kWords{{{kChecked, "checked"},
                                                               {kBasic, "basic"},
                                                               {kMonolithic, "monolithic"},
                                                               {kExact, "exact"},
                                                               {kPlain, "plain"},
                                                               {kIgnore, "ignore"},
-                                                              {kCount, "count"}}};
+                                                              {kCount, "count"},
+                                                              {kEdges, "edges"}}};
 
 [[noreturn]] void refuse(std::string_view name, const std::string& why) {
   std::string words;
@@ -63,7 +64,7 @@ dBatchColliderParams Configuration::params(const std::string& device) const {
     params.misprediction = dBatchMispredictionIgnore;
     params.confidence = static_cast<dReal>(kPapersConfidence);
   }
-  params.edges = dBatchEdgesOff;  // the paper has none
+  params.edges = has(kEdges) ? dBatchEdgesOn : dBatchEdgesOff;  // the paper has none
   params.count_work = has(kCount);
   return params;
 }
@@ -99,7 +100,7 @@ std::vector<Configuration> default_configurations(std::string_view scene) {
   if (scene == "rigid-deformable") {
     // The paper's three algorithms, and with a refitted BVH in place of the basic one. Of the full
     // rays the paper says nothing here: they are the reference.
-    add(Rays::kFull, 0, {0});
+    add(Rays::kFull, 0, {0, kEdges});
     add(Rays::kIterative, 0, timed);
     add(Rays::kIterative, kBasic, {0, kMonolithic, kExact});
     result.push_back({Rays::kIterative, kChecked});
@@ -107,6 +108,7 @@ std::vector<Configuration> default_configurations(std::string_view scene) {
     add(Rays::kIterative, kBasic, counted);
   } else {
     add(Rays::kFull, 0, timed);
+    add(Rays::kFull, 0, {kEdges});
     add(Rays::kIterative, 0, timed);
     result.push_back({Rays::kIterative, kChecked});
     add(Rays::kFull, 0, counted);

@@ -24,6 +24,7 @@ enum Word : unsigned {
   kPlain = 1 << 4,       // dBatchPredictionPlain: Eq. 2
   kIgnore = 1 << 5,      // dBatchMispredictionIgnore, with the paper's confidence
   kCount = 1 << 6,       // count_work
+  kEdges = 1 << 7,       // dBatchEdgesOn; with full rays the library as it is by default
 };
 
 struct Configuration {
@@ -33,7 +34,7 @@ struct Configuration {
   bool operator==(const Configuration&) const = default;
   bool has(Word word) const { return (words & word) != 0; }
   Configuration without(Word word) const { return {rays, words & ~unsigned{word}}; }
-  // Gives the same bytes as every other one of which this is true.
+  // Gives the same bytes as every other one of which this is true that has edges too, or neither.
   bool is_lossless() const { return !follows_papers_rule() && !has(kIgnore); }
   // No temporal data, no ray; what the walk finds is believed. It depends on the steps before.
   bool follows_papers_rule() const { return rays == Rays::kIterative && !has(kChecked); }

@@ -29,6 +29,7 @@ Configurations are 'full' or 'iterative' (rays), then any of
   plain        predictions by Eq. 2 instead of Eq. 1
   ignore       what exceeds a prediction is lost; confidence 1.02, as in the paper
   count        the work of every work-item is counted
+  edges        crossings of edges are searched; 'full-edges' is the library as it is by default
 Those with basic or count are so slow that they are measured in every K-th step only (--every K);
 they collide in the two steps before too, so that temporal data and predictions are as always.
 

@@ -12,6 +12,8 @@ import numpy
 KERNEL_STAGES = ("deform_step", "pair_step", "vertex_step", "iterative_rays", "bvh_rays",
                  "basic_rays", "monolithic", "contact_step")
 RAY_BUFFERS = ("rays_iterative", "rays_bvh", "rays_basic")
+PRODUCT_BUFFERS = ("meshlets", "meshlet_pairs", "crossings", "flood_words", "rays_bvh", "hits",
+                   "contacts")
 BUFFERS = ("chunks_small", "chunks_high", "chunks_deformable") + RAY_BUFFERS + ("hits", "contacts")
 PAPER_CONFIDENCE = 1.02  # GRAPP section 5.4
 

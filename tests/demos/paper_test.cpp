@@ -70,6 +70,8 @@ TEST(PaperConfiguration, SetsEveryParameterItNames) {
   EXPECT_EQ(p.deformable_target, dBatchDeformableRefit);
   EXPECT_EQ(p.count_work, 0);
   EXPECT_EQ(p.device, nullptr);
+  EXPECT_EQ(p.edges, dBatchEdgesOff);
+  EXPECT_EQ(parse_configuration("full-edges").params("").edges, dBatchEdgesOn);
   const std::string device = "pocl";
   p = parse_configuration("iterative-checked-basic-monolithic-exact-plain-ignore-count")
           .params(device);
