@@ -444,7 +444,6 @@ __kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_pair_crossing* cros
     pair.vertices = vertices;
     pair.edges = edges;
     pair.surfaces = scene.surfaces;
-    pair.facets = facets;
     pair.crossings = crossings + found[i].first_crossing;
     pair.order = order + (size_t)OX_ORDERS_PER_CROSSING * found[i].first_crossing;
     pair.by_region = pair.order + crossed;

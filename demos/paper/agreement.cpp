@@ -43,7 +43,9 @@ Agreement::Agreement(const std::vector<Configuration>& configurations, std::size
     if (papers && configurations[i].is_sampled()) continue;
     for (const Claim& claim : claims_of(configurations[i])) {
       const auto found = std::find(configurations.begin(), configurations.end(), claim.counterpart);
-      if (found == configurations.end() && papers) continue;
+      if (found == configurations.end() &&
+          (papers || configurations[i].has(kEdges) != configurations[driver].has(kEdges)))
+        continue;
       const std::size_t other = found != configurations.end()
                                     ? static_cast<std::size_t>(found - configurations.begin())
                                     : driver;

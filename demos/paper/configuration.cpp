@@ -87,6 +87,10 @@ Configuration parse_configuration(std::string_view name) {
   }
   if (configuration.has(kChecked) && configuration.rays == Rays::kFull)
     refuse(name, "only iterative rays can be checked");
+  if (configuration.has(kEdges) && (configuration.words & ~unsigned{kEdges | kPlain | kExact}) != 0)
+    refuse(name, "edges go with 'plain' and 'exact' alone");
+  if (configuration.has(kEdges) && configuration.rays != Rays::kFull)
+    refuse(name, "edges go with full rays alone");
   return configuration;
 }
 

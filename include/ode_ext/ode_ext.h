@@ -76,13 +76,13 @@ enum {
   dBatchPredictionPlain = 1       /**< Eq. 2: last count * confidence */
 };
 
-/** Which rays are cast (GRAPP section 3). Full and iterative give the same bytes, but where an open
-    mesh is in a body and meets none of its edges: there rays of all vertices find some of the body
-    behind it. */
+/** Which rays are cast (GRAPP section 3). By default those of vertices inside, where crossings of
+    edges tell which these are; with any other choice of rays, deformable_target, organisation,
+    misprediction (than redo), edges or count_work those of all vertices, as in the paper. Both give
+    the same bytes, but where an open mesh is in a body and meets none of its edges: there rays of
+    all vertices find some of the body behind it. */
 enum {
-  dBatchRaysFull = 0,      /**< every ray in full; with edges, redone mispredictions and in the
-                                  pipelined organisation only those of vertices inside, where
-                                  crossings of edges tell which these are (default) */
+  dBatchRaysFull = 0,      /**< every ray in full (default) */
   dBatchRaysIterative = 1, /**< where a pair moved little, from the triangle met in the last pass;
                                   what lies before what that finds is looked at */
   dBatchRaysIterativePaper = 2 /**< as the paper: where a pair moved little, a vertex without
@@ -91,7 +91,7 @@ enum {
 };
 
 /** How rays at a deformable mesh are cast. Both give the same bytes, unless rays are the paper's or
-    mispredictions are ignored. */
+    mispredictions are ignored, and but for what is said above of rays of all vertices. */
 enum {
   dBatchDeformableRefit = 0, /**< through a BVH refitted on the device in every pass (default) */
   dBatchDeformableBasic = 1  /**< against every triangle, as the paper */
@@ -156,7 +156,7 @@ typedef struct dBatchColliderParams {
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
   int count_work;         /**< nonzero: count the work of every work-item of vertices and their rays
-                             (see dBatchWork); slow */
+                             (see dBatchWork), of all vertices (see dBatchRays...); slow */
   int edges;              /**< dBatchEdges... */
   int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
                              above); 0 (default): as in ODE it is not asked */
@@ -261,9 +261,10 @@ enum {
 
 /** The append buffers, in the order of the pipeline. */
 enum {
-  /* pair step -> vertex step: runs of up to 16 vertices, by the category of their pair */
+  /* pair step or flood -> vertex step: runs of up to 16 vertices; where rays are of all vertices
+     (see dBatchRays...) by the category of their pair, else all in the second */
   dBatchBufferChunksSmall = 0,      /**< rigid, small displacement */
-  dBatchBufferChunksHigh = 1,       /**< rigid, high displacement */
+  dBatchBufferChunksHigh = 1,       /**< rigid, high displacement; or all */
   dBatchBufferChunksDeformable = 2, /**< one of the two is deformable */
   /* vertex step -> ray step, by algorithm */
   dBatchBufferRaysIterative = 3, /**< from the triangle met last */
@@ -284,8 +285,8 @@ enum {
 
 /** The timed stages of a pass. */
 enum {
-  dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase) and their poses, host */
-  dBatchStageMeshes = 1,     /**< comparing, and rebuilding the meshes that changed, host */
+  dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase), host */
+  dBatchStageMeshes = 1,     /**< poses; comparing, and rebuilding the meshes that changed, host */
   dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
                                   next thirteen */
   dBatchStagePairStep = 3,
@@ -338,7 +339,8 @@ typedef struct dBatchColliderStats {
   int synchronizations;      /**< waits for the device in the last pass */
   long long pairs;           /**< mesh pairs gathered in the last pass */
   long long pairs_computed;  /**< of those, computed now (the others had a valid answer) */
-  long long pairs_colliding; /**< of those gathered, with at least one contact */
+  long long pairs_colliding; /**< of those gathered, with at least one contact; of pairs that the
+                                program does not ask for, as far as it is still known */
   long long pairs_bounded;   /**< of those computed, whose bounding volumes overlap */
   long long predicted[dBatchBufferCount]; /**< entries expected */
   long long actual[dBatchBufferCount];    /**< entries produced */

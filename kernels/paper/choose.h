@@ -19,7 +19,7 @@ typedef struct {
 } ox_choice;
 
 // How far a vertex moved in the frame of the target since the last step, at most [m]. For rigid
-// pairs the pair step has judged that already.
+// pairs chunk_tasks.cl has judged that already.
 static inline float ox_displacement(__global const ox_pair* pair, uint side,
                                     __global const ox_mesh* target,
                                     __global const ox_vertex* vertex) {

@@ -24,7 +24,6 @@ typedef struct {
   __global const ox_vertex* vertices;
   __global const ox_edge* edges;
   ox_surfaces surfaces;
-  __global const uint* facets;
   __global ox_pair_crossing* crossings;
   __global uint* order;         // of the crossings (crossing_order.h)
   __global uint* by_region;     // the same, those of a region together

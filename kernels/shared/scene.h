@@ -32,7 +32,8 @@ typedef struct {
   ox_surfaces surfaces;
 } ox_scene;
 
-// In the order of StepData::launch (pipeline/step_data.h). `pairs` are written by the pair step.
+// In the order of StepData::launch (pipeline/step_data.h). `pairs` are written by the pair step,
+// and by paper/chunk_tasks.cl.
 #define OX_SCENE_PARAMETERS                                                                     \
   __global volatile uint *counters, __global const ox_list *lists, uint modes, uint pair_count, \
       __global ox_pair *pairs, __global ox_found *found, __global const ox_mesh *meshes,        \

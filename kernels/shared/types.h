@@ -215,9 +215,10 @@ typedef struct {
 } ox_triangle;
 OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
 
-// What the pair step finds for a pair of objects A = object[0], B = object[1]. Side 0 takes points
-// of A into the frame of B, side 1 points of B into the frame of A: target = rotation[side] *
-// source + offset[side]. rotation[1] is the transpose of rotation[0].
+// What the pair step finds for a pair of objects A = object[0], B = object[1]; displacements are
+// found by paper/chunk_tasks.cl. Side 0 takes points of A into the frame of B, side 1 points of B
+// into the frame of A: target = rotation[side] * source + offset[side]. rotation[1] is the
+// transpose of rotation[0].
 typedef struct {
   ox_f32 rotation[2][9];
   ox_f32 offset[2][3];

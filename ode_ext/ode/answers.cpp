@@ -46,15 +46,15 @@ Answers::Slot& Answers::slot_of(const Key& key) {
   }
 }
 
-void Answers::resize(std::size_t count) {
-  std::vector<Slot> before(count);
+void Answers::grow() {
+  std::vector<Slot> before(std::max(kLeastSlots, 2 * slots_.size()));
   before.swap(slots_);
   for (const Slot& slot : before)
     if (slot.answer != nullptr) slot_of(slot.key) = slot;
 }
 
 Answer& Answers::entry(dGeomID a, dGeomID b) {
-  if (2 * (size() + 1) > slots_.size()) resize(std::max(kLeastSlots, 2 * slots_.size()));
+  if (2 * (size() + 1) > slots_.size()) grow();
   const Key wanted = key(a, b);
   Slot& slot = slot_of(wanted);
   if (slot.answer != nullptr) return *slot.answer;
@@ -75,15 +75,34 @@ Answer* Answers::find(dGeomID a, dGeomID b) {
 void Answers::prune(std::uint64_t pass) {
   if (pass < pruned_pass_ + kPassesRemembered) return;
   pruned_pass_ = pass;
-  bool any = false;
-  for (Slot& slot : slots_) {
-    if (slot.answer == nullptr || slot.answer->last_pass + kPassesRemembered >= pass) continue;
-    slot.answer->contacts = {};
-    free_.push_back(slot.answer);
-    slot.answer = nullptr;
-    any = true;
+  const auto is_old = [&](const Slot& slot) {
+    return slot.answer->last_pass + kPassesRemembered < pass;
+  };
+  std::vector<Slot> kept;
+  for (const Slot& slot : slots_)
+    if (slot.answer != nullptr && !is_old(slot)) kept.push_back(slot);
+  if (kept.size() == size()) return;
+  // Open addressing finds nothing behind a slot that became free: what is kept is put in anew.
+  std::size_t count = kLeastSlots;
+  while (count < 2 * (kept.size() + 1)) count *= 2;
+  std::vector<Slot> slots(count);
+  std::vector<Answer*> free;
+  if (8 * kept.size() < answers_.size()) {
+    std::deque<Answer> together;
+    for (Slot& slot : kept) slot.answer = &together.emplace_back(*slot.answer);
+    answers_.swap(together);
+  } else {
+    free = free_;
+    free.reserve(free.size() + size() - kept.size());
+    for (const Slot& slot : slots_) {
+      if (slot.answer == nullptr || !is_old(slot)) continue;
+      slot.answer->contacts = {};
+      free.push_back(slot.answer);
+    }
   }
-  if (any) resize(slots_.size());  // what was pushed aside may be nearer now
+  free_.swap(free);
+  slots_.swap(slots);
+  for (const Slot& slot : kept) slot_of(slot.key) = slot;
 }
 
 void Answers::clear() {

@@ -15,8 +15,8 @@
 
 namespace ode_ext {
 
-// Passes after which an answer nobody gathered or asked for is forgotten, and after which a pair
-// nobody asks for is no longer computed ahead.
+// Passes after which an answer nobody gathered or asked for is soon forgotten, and after which a
+// pair nobody asks for is no longer computed ahead.
 inline constexpr std::uint64_t kPassesRemembered = 8;
 
 struct Answer {
@@ -44,7 +44,8 @@ class Answers {
   // The entry of the pair; created empty. Stays where it is until it is forgotten.
   Answer& entry(dGeomID a, dGeomID b);
   Answer* find(dGeomID a, dGeomID b);
-  // Forgets those that no pass met of late. Looks every so many passes.
+  // Forgets those that no pass met of late, and moves the others together where few are left. Looks
+  // every so many passes.
   void prune(std::uint64_t pass);
   void clear();
   std::size_t size() const { return answers_.size() - free_.size(); }
@@ -58,7 +59,7 @@ class Answers {
   static Key key(dGeomID a, dGeomID b);
   // Where the key is, or would be.
   Slot& slot_of(const Key& key);
-  void resize(std::size_t slots);
+  void grow();
 
   std::vector<Slot> slots_;  // a power of two, at most half of them taken
   std::deque<Answer> answers_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -13,7 +12,6 @@
 #include "ode/pass_stats.h"
 #include "ode/pose_of.h"
 #include "ode/program_callbacks.h"
-#include "ode/rotation.h"
 #include "ode/stock_collider.h"
 #include "ode/trace.h"
 
@@ -146,6 +144,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   for (const GatheredPair& pair : pairs)
     entries.push_back(&answers_.entry(pair.first.geom, pair.second.geom));
   std::size_t gathered = 0;
+  long long unasked_colliding = 0;  // as far as is known
   bool familiar = pairs.empty();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch();
@@ -158,16 +157,18 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     if (answer.gathered_pass != pass_) ++answer.passes_unasked;
     answer.gathered_pass = answer.last_pass = pass_;
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
-    if (answer.passes_unasked <= kPassesRemembered)
+    if (answer.passes_unasked <= kPassesRemembered) {
       add(answer, member_of(pair.first), member_of(pair.second));
-    else
+    } else {
       note_unasked(answer, pair);
+      unasked_colliding += answer.valid && !answer.contacts.empty() ? 1 : 0;
+    }
   }
   stats_.pairs = static_cast<long long>(gathered);
   stats_.ms[dBatchStageMeshes] = reading.milliseconds();
   collide_scene(&memories_.of(root, pass_, familiar));
   note_report();
-  stats_.pairs_colliding = scene_.colliding();
+  stats_.pairs_colliding = scene_.colliding() + unasked_colliding;
 }
 
 // Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
@@ -178,6 +179,7 @@ void BatchCollider::note_unasked(Answer& answer, const GatheredPair& pair) {
   for (const PlacedGeom& placed : {pair.first, pair.second}) {
     const auto [place, is_new] = unasked_members_.try_emplace(placed.geom);
     if (!is_new) continue;
+    members_.find(placed.geom, pass_);  // its answers may be asked for again
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     place->second.data = data;
     place->second.mesh = meshes_.keep(data, pass_);
@@ -225,7 +227,7 @@ void BatchCollider::add(Answer& answer, PairMember& a, PairMember& b) {
 }
 
 PairMember& BatchCollider::member_of(const PlacedGeom& placed) {
-  PairMember* seen = members_.find(placed.geom);
+  PairMember* seen = members_.find(placed.geom, pass_);
   if (seen != nullptr && seen->scene == scene_.number()) return *seen;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
   const auto& mesh = meshes_.refresh(data, look_, pass_);
@@ -244,7 +246,7 @@ const PairMember* BatchCollider::current_member(dGeomID geom) {
       depth_ != 0 ? meshes_.refresh(data, look_, pass_)
                   : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
-  return members_.find_same(geom, data, mesh.get(), pose_of(geom));
+  return members_.find_same(geom, data, mesh.get(), pose_of(geom), pass_);
 }
 
 bool BatchCollider::holds(const Answer& answer, dGeomID g1, dGeomID g2) {
@@ -255,7 +257,9 @@ bool BatchCollider::holds(const Answer& answer, dGeomID g1, dGeomID g2) {
 
 // Of one that holds.
 AnswerCopy BatchCollider::copy_of(const Answer& answer) {
-  return {{*members_.find(answer.geoms[0]), *members_.find(answer.geoms[1])}, answer.contacts};
+  return {{members_.at(answer.geoms[0], answer.stamps[0]),
+           members_.at(answer.geoms[1], answer.stamps[1])},
+          answer.contacts};
 }
 
 void BatchCollider::collide_scene(PassMemory* memory) {

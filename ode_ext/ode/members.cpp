@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <utility>
 
 #include "ode/answers.h"
 #include "ode/rotation.h"
@@ -34,33 +35,51 @@ bool is_as(const PairMember& member, dTriMeshDataID data, const Mesh* mesh, cons
 PairMember& Members::note(dGeomID geom, dTriMeshDataID data,
                           const std::shared_ptr<const Mesh>& mesh, const Pose& given,
                           std::uint64_t pass) {
-  PairMember& member = map_[geom];
-  member.last_pass = pass;
-  if (is_as(member, data, mesh.get(), given)) return member;
-  member.geom = geom;
-  member.data = data;
-  member.mesh = mesh;
-  member.given = member.pose = given;
-  member.pose.rotation = nearest_rotation(given.rotation);
-  member.is_placed = is_usable(member.pose);
-  member.stamp = ++stamps_;
-  return member;
+  auto& [now, before] = map_[geom];
+  if (!is_as(now, data, mesh.get(), given)) {
+    const bool is_back = is_as(before, data, mesh.get(), given);
+    std::swap(now, before);
+    if (!is_back) {
+      now = {};
+      now.geom = geom;
+      now.data = data;
+      now.mesh = mesh;
+      now.given = now.pose = given;
+      now.pose.rotation = nearest_rotation(given.rotation);
+      now.is_placed = is_usable(now.pose);
+      now.stamp = ++stamps_;
+    }
+    now.scene = before.scene;
+    now.object_of = before.object_of;
+    now.object = before.object;
+  }
+  now.last_pass = pass;
+  return now;
 }
 
-PairMember* Members::find(dGeomID geom) {
+PairMember* Members::find(dGeomID geom, std::uint64_t pass) {
   const auto found = map_.find(geom);
-  return found == map_.end() ? nullptr : &found->second;
+  if (found == map_.end()) return nullptr;
+  found->second.now.last_pass = pass;
+  return &found->second.now;
 }
 
 const PairMember* Members::find_same(dGeomID geom, dTriMeshDataID data, const Mesh* mesh,
-                                     const Pose& given) {
-  const PairMember* member = find(geom);
-  return member != nullptr && is_as(*member, data, mesh, given) ? member : nullptr;
+                                     const Pose& given, std::uint64_t pass) {
+  if (find(geom, pass) == nullptr) return nullptr;
+  const auto& [now, before] = map_.at(geom);
+  if (is_as(now, data, mesh, given)) return &now;
+  return is_as(before, data, mesh, given) ? &before : nullptr;
+}
+
+const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
+  const auto& [now, before] = map_.at(geom);
+  return now.stamp == stamp ? now : before;
 }
 
 void Members::prune(std::uint64_t pass) {
-  std::erase_if(map_,
-                [&](const auto& item) { return item.second.last_pass + kPassesRemembered < pass; });
+  std::erase_if(
+      map_, [&](const auto& item) { return item.second.now.last_pass + kPassesRemembered < pass; });
 }
 
 bool in_canonical_order(const PairMember& a, const PairMember& b) {

@@ -22,7 +22,7 @@ struct PairMember {
   Pose given;             // as ODE has it
   bool is_placed = true;  // a pose that contacts can be computed of
   std::uint64_t stamp = 0;
-  std::uint64_t last_pass = 0;  // that saw it
+  std::uint64_t last_pass = 0;  // that it was seen in
   std::uint64_t scene = 0;      // the last one that it was seen for,
   std::uint64_t object_of = 0;  // the last one that it is an object of,
   std::uint32_t object = 0;     // and which
@@ -33,17 +33,23 @@ class Members {
   // The geom as it is now. Stays where it is until pruned.
   PairMember& note(dGeomID geom, dTriMeshDataID data, const std::shared_ptr<const Mesh>& mesh,
                    const Pose& given, std::uint64_t pass);
-  // Null: it was never seen.
-  PairMember* find(dGeomID geom);
-  // The geom, if it is now as it was last seen; null: it is not.
+  // As it was last noted. Null: it never was.
+  PairMember* find(dGeomID geom, std::uint64_t pass);
+  // The geom, if it is now as it was when last noted, or as the time before: a program may move a
+  // geom, collide it, and move it back. Null: it is not.
   const PairMember* find_same(dGeomID geom, dTriMeshDataID data, const Mesh* mesh,
-                              const Pose& given);
-  // Forgets those that no pass saw of late.
+                              const Pose& given, std::uint64_t pass);
+  // As it was with this stamp, one of the last two.
+  const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
+  // Forgets those that nobody asked for of late.
   void prune(std::uint64_t pass);
   void clear() { map_.clear(); }
 
  private:
-  std::unordered_map<dGeomID, PairMember> map_;
+  struct Seen {
+    PairMember now, before;
+  };
+  std::unordered_map<dGeomID, Seen> map_;
   std::uint64_t stamps_ = 0;  // given so far
 };
 

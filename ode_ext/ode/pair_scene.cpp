@@ -21,12 +21,14 @@ void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_colli
   answer.geoms = {first.geom, second.geom};
   answer.stamps = {first.stamp, second.stamp};
   answer.contacts.clear();
-  // That there are none is the answer of most pairs, and of those of which nothing can be said. So
-  // it stands, unless the scene fails, and most are not touched again.
+  answer.valid = false;
+  if (can_collide) {
+    scene_.pairs.push_back({object_of(first), object_of(second)});
+    pending_.push_back(&answer);
+  }
+  // That there are no contacts is the answer of most pairs, and of those of which nothing can be
+  // said. So it stands, unless the scene fails, and most are not touched again.
   answer.valid = true;
-  if (!can_collide) return;
-  scene_.pairs.push_back({object_of(first), object_of(second)});
-  pending_.push_back(&answer);
 }
 
 std::uint32_t PairScene::object_of(PairMember& member) {

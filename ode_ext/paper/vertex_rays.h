@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From pairs to hits by rays of vertices, as the paper has it (GRAPP section 3): the pair step says
-// which vertices are to be looked at, the vertex step which of them get a ray, and of which kind,
-// the ray step casts them; or one kernel does all of it. In place of the flood.
+// From pairs to hits by rays of vertices, as the paper has it (GRAPP section 3): which vertices are
+// to be looked at, which of them get a ray, and of which kind, and what the rays hit; or one kernel
+// does the last two. In place of the flood.
 #pragma once
 
 #include <vector>

@@ -185,6 +185,34 @@ TEST_F(ApiAnswers, AfterMovingThereAndBackAreTheOldOnes) {
   EXPECT_EQ(difference_with_geoms(collide(g1, g2), before), "");
 }
 
+TEST_F(ApiAnswers, OfOtherPairsStayWhereAGeomIsMovedThereAndBack) {
+  const Collected collected = collider.pass(space);
+  const auto [g1, g2] = rich_pair(collected);
+  const TestPose pose = pose_of(g1);
+  set_pose(g1, at(50, 0, 0));
+  EXPECT_TRUE(collide(g1, g2).empty());
+  set_pose(g1, pose);
+  ASSERT_EQ(collider.stats().pairs_alone, 1);
+  std::size_t others = 0;
+  for (const auto& [pair, contacts] : collected.contacts) {
+    if (pair == GeomPair{g1, g2} || (pair.first != g1 && pair.second != g1)) continue;
+    EXPECT_EQ(difference_with_geoms(collide(pair.first, pair.second), contacts), "");
+    ++others;
+  }
+  EXPECT_GT(others, 1u);
+  EXPECT_EQ(collider.stats().pairs_alone, 1);
+}
+
+TEST_F(ApiAnswers, OfGeomsInNoPassStayWhileTheyAreAskedFor) {
+  const OdeMesh& mesh = world.mesh(make_cube(1));
+  const dGeomID a = world.geom(mesh, at(90, 0, 0)), b = world.geom(mesh, at(90.9, 0, 0));
+  for (int i = 0; i < 30; ++i) {
+    collider.pass(space);
+    EXPECT_FALSE(collide(a, b).empty());
+  }
+  EXPECT_EQ(collider.stats().pairs_alone, 1);
+}
+
 TEST_F(ApiAnswers, OfASecondPassOverUnmovedGeomsAreReused) {
   const Collected first = collider.pass(space), second = collider.pass(space);
   EXPECT_EQ(difference_with_geoms(first, second), "");

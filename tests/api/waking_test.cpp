@@ -45,6 +45,18 @@ TEST_F(ApiWaking, ComputesAllButTheFirstFewPairsInOneBatch) {
   EXPECT_EQ(difference_with_geoms(awake, fresh.pass(space)), "");
 }
 
+TEST_F(ApiWaking, ComputesNothingOfWhatHasNotMoved) {
+  const Collected before = collider.pass(space);
+  const long long colliding = collider.stats().pairs_colliding;
+  ASSERT_GT(colliding, 0);
+  sleep(30);
+  EXPECT_EQ(collider.stats().pairs_colliding, colliding);
+  const Collected awake = collider.pass(space);
+  EXPECT_EQ(collider.stats().pairs_alone, 0);
+  EXPECT_EQ(collider.stats().pairs_computed, 0);
+  EXPECT_EQ(difference_with_geoms(awake, before), "");
+}
+
 TEST_F(ApiWaking, DoesNotStallAfterTheLongestSleep) {
   collider.pass(space);
   sleep(700);  // longer than meshes that nobody meets are kept

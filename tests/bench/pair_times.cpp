@@ -47,6 +47,7 @@ constexpr std::size_t kBatch = 0, kAlone = 1, kOde = 2;  // rivals follow
 struct Result {
   std::vector<Contestant> contestants;
   int colliding = 0;
+  double crossings = 0, rays = 0;  // a pair
 };
 
 Result measure(const bench::PairCase& pair_case, const Options& options) {
@@ -93,6 +94,11 @@ Result measure(const bench::PairCase& pair_case, const Options& options) {
       dBatchColliderCollidePairs(collider, geoms.data(), static_cast<int>(count), kContacts,
                                  contacts.data(), sizeof(dContactGeom), counts.data());
     }));
+    const dBatchColliderStats found = collider.stats();
+    result.crossings =
+        static_cast<double>(found.actual[dBatchBufferCrossings]) / static_cast<double>(count);
+    result.rays =
+        static_cast<double>(found.actual[dBatchBufferRaysBvh]) / static_cast<double>(count);
     result.colliding =
         static_cast<int>(std::count_if(counts.begin(), counts.end(), [](int n) { return n != 0; }));
     stir(3 * r + 4);
@@ -136,7 +142,8 @@ void run(const Options& options) {
     csv = std::fopen(options.csv.c_str(), "w");
     if (csv == nullptr) throw std::runtime_error("cannot write '" + options.csv + "'");
     std::fprintf(csv,
-                 "shape,triangles_a,triangles_b,depth,pairs,colliding,collider,ms,ode_over_it\n");
+                 "shape,triangles_a,triangles_b,depth,pairs,colliding,crossings,rays,collider,ms,"
+                 "ode_over_it\n");
   }
   std::printf("ms a pair, medians of %d; %d pairs a batch, fewer of large meshes\n\n",
               options.repetitions, options.pairs);
@@ -151,11 +158,12 @@ void run(const Options& options) {
           measure(bench::make_case(name, shape.a, shape.b, depth, count, 1), options);
       const std::vector<Contestant>& all = result.contestants;
       if (!std::exchange(named, true)) {
-        std::printf("%-24s %9s", "", "colliding");
+        std::printf("%-24s %9s %9s %9s", "", "colliding", "crossings", "rays");
         for (const Contestant& one : all) std::printf(" %9s", one.name.c_str());
         std::printf(" %10s %10s\n", "ODE/batch", "ODE/alone");
       }
-      std::printf("%-24s %5d/%3d", name.c_str(), result.colliding, count);
+      std::printf("%-24s %5d/%3d %9.1f %9.1f", name.c_str(), result.colliding, count,
+                  result.crossings, result.rays);
       for (const Contestant& one : all) std::printf(" %9.4f", median(one.ms));
       const auto ode_over = [&](const Contestant& one) {
         return median(bench::ratios(all[kOde].ms, one.ms));
@@ -164,9 +172,10 @@ void run(const Options& options) {
       std::fflush(stdout);
       if (csv == nullptr) continue;
       for (const Contestant& one : all)
-        std::fprintf(csv, "%s,%d,%d,%s,%d,%d,%s,%g,%g\n", shape.name.c_str(),
+        std::fprintf(csv, "%s,%d,%d,%s,%d,%d,%g,%g,%s,%g,%g\n", shape.name.c_str(),
                      shape.a.triangle_count(), shape.b.triangle_count(), depth.name.c_str(), count,
-                     result.colliding, one.name.c_str(), median(one.ms), ode_over(one));
+                     result.colliding, result.crossings, result.rays, one.name.c_str(),
+                     median(one.ms), ode_over(one));
     }
   if (csv != nullptr) std::fclose(csv);
 }

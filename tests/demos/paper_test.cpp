@@ -49,8 +49,9 @@ TEST(PaperConfiguration, TakesItsWordsInAnyOrder) {
 }
 
 TEST(PaperConfiguration, IsRefusedWithTheListOfWords) {
-  for (const char* name : {"", "fast", "full-fast", "full-", "full--exact", "full-exact-exact",
-                           "exact-full", "full-checked"}) {
+  for (const char* name :
+       {"", "fast", "full-fast", "full-", "full--exact", "full-exact-exact", "exact-full",
+        "full-checked", "full-edges-monolithic", "iterative-edges"}) {
     try {
       parse_configuration(name);
       ADD_FAILURE() << "'" << name << "' was taken";
