@@ -300,7 +300,7 @@ OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
 
 #define OX_CROSSING_SIDE 1u     // of an edge of mesh B
 #define OX_CROSSING_LEAVES 2u   // the edge leaves the target here
-#define OX_CROSSING_COVERED 4u  // a contact speaks for it
+#define OX_CROSSING_COVERED 4u  // a contact is there, or its vertex has one
 #define OX_CROSSING_MARKED 8u   // of the first of a region: see deep_parts.h
 
 // A crossing among those of its pair.
