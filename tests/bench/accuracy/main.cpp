@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/accuracy/markdown.h"
+#include "bench/accuracy/reference_contestant.h"
 #include "bench/accuracy/report.h"
 
 namespace {
@@ -29,8 +30,19 @@ Exit codes: 0 done, 1 something failed, or a target was missed with --check.)";
 struct Settings {
   Options options;
   std::string json, markdown;
+  std::string collider = "ode_ext";
+  ode_ext::test::ContactOptions reference;
   bool check = false;
 };
+
+Outcome measure_collider(const Measure& measure, const Settings& settings) {
+  if (settings.collider == "reference") {
+    ReferenceContestant reference(settings.reference);
+    return measure(reference);
+  }
+  BatchOde batch;
+  return measure(batch);
+}
 
 Result run(const Trial& trial, const Settings& settings) {
   std::fprintf(stderr, "%s: making the scenes\n", trial.name);
@@ -39,9 +51,8 @@ Result run(const Trial& trial, const Settings& settings) {
   std::fprintf(stderr, "%s: stock ODE\n", trial.name);
   StockOde stock;
   const Outcome of_stock = measure(stock);
-  std::fprintf(stderr, "%s: ode_ext\n", trial.name);
-  BatchOde batch;
-  return {&trial, measure(batch), of_stock, stock.pairs_given_up()};
+  std::fprintf(stderr, "%s: %s\n", trial.name, settings.collider.c_str());
+  return {&trial, measure_collider(measure, settings), of_stock, stock.pairs_given_up()};
 }
 
 int run(const std::vector<const Trial*>& trials, const Settings& settings) {
@@ -80,6 +91,24 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--json", settings.json, "File for all figures and details");
   app.add_option("--markdown", settings.markdown, "File for the table, or a page with its markers");
+  app.add_option("--collider", settings.collider,
+                 "ode_ext, or in its place the reference of its contacts (tests/reference)")
+      ->check(CLI::IsMember({"ode_ext", "reference"}))
+      ->capture_default_str();
+  app.add_option("--prefer-faces", settings.reference.prefer_faces,
+                 "Of the reference: by how much shallower a pair of edges must be than a face")
+      ->capture_default_str();
+  app.add_option("--walk", settings.reference.walk, "Of the reference: see ContactOptions")
+      ->capture_default_str();
+  app.add_option("--all-edge-pairs", settings.reference.all_edge_pairs, "The same")
+      ->capture_default_str();
+  app.add_option("--check-ways", settings.reference.check_ways, "The same")->capture_default_str();
+  app.add_option("--edge-tie", settings.reference.edge_tie, "The same");
+  app.add_option("--hold-along-edges", settings.reference.hold_along_edges, "The same");
+  app.add_option("--support-all", settings.reference.support_all, "The same")
+      ->capture_default_str();
+  app.add_option("--by-component", settings.reference.by_component, "The same")
+      ->capture_default_str();
   app.add_flag("--check", settings.check, "Fail where ode_ext misses a target");
   const CLI::App* all = app.add_subcommand("all", "All of the following");
   std::vector<std::pair<const Trial*, const CLI::App*>> commands;

@@ -3,9 +3,12 @@
 
 #include <ode_ext/ode_ext.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <utility>
+
+#include "reference/reference_collider.h"
 
 namespace ode_ext::audit {
 namespace {
@@ -84,6 +87,20 @@ PairContacts ask_batch(const Geoms& geoms, const Trial& trial) {
   return result;
 }
 
+PairContacts ask_reference(const Geoms& geoms, const Trial& trial) {
+  PairContacts result(geoms.all().size() / 2, trial.max_contacts);
+  ContactOptions options;
+  options.max_contacts = result.limit;
+  for (std::size_t i = 0; i < result.counts.size(); ++i) {
+    const Contacts found =
+        ReferenceCollider::collide(geoms.all()[2 * i], geoms.all()[2 * i + 1], options);
+    std::copy(found.begin(), found.end(), result.first_of(i));
+    result.counts[i] = static_cast<int>(found.size());
+  }
+  ReferenceCollider::forget();
+  return result;
+}
+
 }  // namespace
 
 KindPair::KindPair(const Body& a, const Body& b, std::uint64_t seed)
@@ -120,7 +137,9 @@ std::array<Tally, 3> KindPair::run(const Trial& trial,
     geoms.add(body(0, pairs.back().approach).ode, pairs.back().a);
     geoms.add(body(1, pairs.back().approach).ode, pairs.back().b);
   }
-  const PairContacts stock = ask_stock(geoms, trial), batch = ask_batch(geoms, trial);
+  const PairContacts stock = ask_stock(geoms, trial);
+  const PairContacts batch =
+      trial.reference ? ask_reference(geoms, trial) : ask_batch(geoms, trial);
 
   std::array<Tally, 3> tallies;
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -37,7 +37,8 @@ struct Trial {
   int poses = 2000;
   std::uint64_t seed = 1;
   int max_contacts = 16;
-  std::string device;  // as in ODE_EXT_DEVICE; empty: the library's choice
+  std::string device;      // as in ODE_EXT_DEVICE; empty: the library's choice
+  bool reference = false;  // the reference contacts (tests/reference) in the library's place
 };
 
 class KindPair {

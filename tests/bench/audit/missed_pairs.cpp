@@ -150,6 +150,9 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--device", options.trial.device, "OpenCL device, as in ODE_EXT_DEVICE");
+  app.add_flag("--reference", options.trial.reference,
+               "The reference of the contacts (tests/reference) in the collider's place, for the "
+               "pairs; not for the pile");
   app.add_option("--json", options.json, "Writes the table to this file as well");
   app.add_flag("--check", options.check, "Exit code 1 unless nothing is missed or false");
   CLI11_PARSE(app, argc, argv);

@@ -24,6 +24,8 @@ dMass mass_of(const Shape& shape, dGeomID geom) {
 
 Point point(const dReal* v) { return {v[0], v[1], v[2]}; }
 
+std::optional<ContactOptions> reference_options;
+
 }  // namespace
 
 const char* name_of(Collider collider) {
@@ -38,8 +40,13 @@ const char* name_of(Collider collider) {
   return "";
 }
 
+void use_reference(const ContactOptions& options) { reference_options = options; }
+
 Bench::Bench(const Conditions& conditions) : conditions_(conditions) {
-  if (conditions_.collider == Collider::kExt) {
+  if (conditions_.collider == Collider::kExt && reference_options) {
+    reference_options->max_contacts = static_cast<std::size_t>(conditions_.max_contacts);
+    reference_.emplace(*reference_options);
+  } else if (conditions_.collider == Collider::kExt) {
     // Only while it exists are mesh pairs not ODE's own business.
     dBatchColliderParams params;
     dBatchColliderParamsInit(&params);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/stability/shape.h"
+#include "reference/reference_collider.h"
 #include "support/ode_world.h"
 
 namespace ode_ext::stability {
@@ -37,6 +38,9 @@ struct Conditions {
   int max_contacts = 16;
   std::uint64_t seed = 1;  // of the order in which QuickStep takes its rows
 };
+
+// From now on kExt is collided by the reference contacts (tests/reference) in ode_ext's place.
+void use_reference(const ContactOptions& options);
 
 class Bench {
  public:
@@ -84,6 +88,7 @@ class Bench {
   Session session_;
   std::vector<std::pair<const Shape*, dTriMeshDataID>> meshes_;
   dBatchColliderID batch_ = nullptr;
+  std::optional<ReferenceCollider> reference_;
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID joints_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/stability/bench.h"
 #include "bench/stability/trials.h"
 #include "falling_objects/collision.h"
 
@@ -50,7 +51,8 @@ int main(int argc, char** argv) {
   using namespace ode_ext::stability;
   TrialOptions options;
   std::string json;
-  bool check = false;
+  bool check = false, reference = false;
+  ode_ext::test::ContactOptions reference_options;
   CLI::App app(
       "Runs the same bodies with the contacts of ode_ext, of ODE's own mesh collider and "
       "of ODE's box geoms.",
@@ -72,11 +74,22 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--quick", options.quick, "Fewer and shorter runs");
   app.add_option("--json", json, "Write all figures to this file");
+  app.add_flag("--reference", reference,
+               "The reference of the contacts (tests/reference) in ode_ext's place; not for "
+               "settled");
+  app.add_option("--prefer-faces", reference_options.prefer_faces,
+                 "Of the reference: by how much shallower a pair of edges must be than a face")
+      ->capture_default_str();
+  app.add_option("--edge-tie", reference_options.edge_tie, "The same");
+  app.add_flag("--hold-along-edges", reference_options.hold_along_edges, "The same");
+  app.add_flag("--support-all", reference_options.support_all,
+               "Of the reference: see ContactOptions");
   app.add_flag("--check", check, "Exit with 1 where a target is missed");
   for (const Trial& trial : trials()) app.add_subcommand(trial.name, trial.help);
   app.add_subcommand("all", "All of them");
   CLI11_PARSE(app, argc, argv);
   try {
+    if (reference) use_reference(reference_options);
     Report report(std::cout);
     const bool all = app.got_subcommand("all");
     for (const Trial& trial : trials()) {

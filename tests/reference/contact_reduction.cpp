@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <set>
+
+#include "reference/contact_constants.h"
+#include "reference/reference_contacts.h"
+
+namespace ode_ext::test {
+namespace {
+
+// What faces one way is compared across the normal: how far one is in front of the other spreads
+// nothing.
+double apart(const ReferenceContact& a, const ReferenceContact& b) {
+  const Point d = a.position - b.position;
+  if (!(dot(a.normal, b.normal) > kSamePatch)) return length(d);
+  return length(d - dot(d, a.normal) * a.normal);
+}
+
+}  // namespace
+
+std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
+                                      std::size_t max_contacts, double merge) {
+  std::vector<ReferenceContact> kept;
+  std::vector<bool> taken(all.size(), false);
+  std::vector<double> gaps(all.size(), ContactBox::infinity);  // to the nearest that is kept
+  std::set<std::size_t> regions, manifolds;
+  const auto take = [&](std::size_t i) {
+    taken[i] = true;
+    kept.push_back(all[i]);
+    regions.insert(all[i].region);
+    manifolds.insert(all[i].manifold);
+    for (std::size_t k = 0; k < all.size(); ++k) gaps[k] = std::min(gaps[k], apart(all[k], all[i]));
+  };
+  for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
+    if (regions.count(all[i].region) == 0) take(i);
+  for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
+    if (manifolds.count(all[i].manifold) == 0) {
+      if (gaps[i] > merge) take(i);
+      manifolds.insert(all[i].manifold);
+    }
+  while (kept.size() < max_contacts) {
+    std::size_t farthest = all.size();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!taken[i] && gaps[i] > merge && (farthest == all.size() || gaps[i] > gaps[farthest]))
+        farthest = i;
+    if (farthest == all.size()) break;
+    take(farthest);
+  }
+  return kept;
+}
+
+}  // namespace ode_ext::test
