@@ -5,18 +5,22 @@
 
 set(kernels_dir ${PROJECT_SOURCE_DIR}/kernels)
 file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/shared/*.h
-     ${kernels_dir}/paper/*.h)
+     ${kernels_dir}/paper/*.h ${kernels_dir}/contacts/*.h)
 file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl
-     ${kernels_dir}/paper/*.cl)
+     ${kernels_dir}/paper/*.cl ${kernels_dir}/contacts/*.cl)
 
 set(ODE_EXT_KERNEL_FILES)
-foreach(header shared/types shared/scene shared/transform shared/append shared/flooded shared/cull
-               shared/lanes shared/ray_triangle shared/ray_meshlet shared/meshlet_tree
-               shared/nearest shared/full_ray shared/vertex_ray
-               paper/types paper/iterative_ray paper/choose paper/cast paper/note_work
-               shared/contradiction shared/candidate_order shared/patches shared/meshlet
-               shared/cross shared/edge_pair shared/crossing_order shared/crossing_table shared/regions shared/pair_hits
-               shared/spokesmen shared/edge_axis shared/way_out shared/deform shared/moves)
+foreach(header shared/types shared/scene shared/transform shared/append shared/flooded
+               shared/general_position shared/cull shared/lanes shared/ray_triangle
+               shared/ray_meshlet shared/meshlet_tree shared/nearest shared/closest shared/full_ray
+               shared/vertex_ray paper/types paper/iterative_ray paper/choose paper/cast
+               paper/note_work contacts/types shared/contact_store shared/contradiction shared/candidate_order
+               shared/patches shared/meshlet shared/exact_sign shared/intersect shared/cross contacts/cross
+               shared/edge_pair shared/crossing_order shared/crossing_table shared/regions
+               shared/pair_hits contacts/feature contacts/feature_table contacts/face_table
+               contacts/plane contacts/region contacts/whole_region contacts/units
+               contacts/candidates shared/spokesmen shared/edge_axis shared/way_out
+               shared/deform shared/moves)
   set(header ${header}.h)
   if(header IN_LIST headers)
     list(APPEND ODE_EXT_KERNEL_FILES ${header})

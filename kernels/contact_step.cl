@@ -6,6 +6,7 @@
 // Hits arrive in no particular order. Every choice (shared/patches.h) is a maximum under a total
 // order that ends with side, position, vertex and, of points, the order in which they were added:
 // the result is what hits sorted in that order would give.
+#ifndef OX_PLANES
 #include "shared/append.h"
 #include "shared/patches.h"
 
@@ -176,3 +177,4 @@ __kernel void contact_reduce(OX_SCENE_PARAMETERS, __global ox_candidate* candida
       ox_store_contact(mine + taken[k], contacts + pair_ranges[p].first + k);
   }
 }
+#endif

@@ -7,6 +7,7 @@
 //       that is flooded, one after the other
 // item  1 pair of meshlets (grid-stride); an edge against sixteen triangles at a time
 // may overflow: OX_LIST_CROSSINGS
+#include "contacts/cross.h"
 #include "shared/cross.h"
 
 __kernel void cross_meshlets(OX_SCENE_PARAMETERS, __global const ox_meshlet_pair* meshlet_pairs,

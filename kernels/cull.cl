@@ -34,7 +34,7 @@ __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
         meshes[pair->mesh[1]].meshlet_count > meshes[pair->mesh[0]].meshlet_count ? 1u : 0u;
     __global const ox_mesh* source = meshes + pair->mesh[side];
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-    const float margin = ox_search_margin(pair);
+    const float margin = pair->margin;
     const float3 middle = vload3(0, target->box_centre);
     const float3 half_size = vload3(0, target->box_half);
     // The box of the target in the frame of the source: cheaper to ask, and says less.

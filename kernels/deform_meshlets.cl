@@ -59,6 +59,7 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
         meshlet->corner[1][axis][k] = used ? t->b[axis] : t->a[axis];
         meshlet->corner[2][axis][k] = used ? t->c[axis] : t->a[axis];
         meshlet->vertex[axis][k] = v->position[axis];
+        meshlet->normal[axis][k] = -v->direction[axis];
       }
     }
     for (uint axis = 0u; axis < 3u; ++axis) {

@@ -37,13 +37,13 @@ static float3 ox_rest(float3 a, float3 b, float3 difference) {
 typedef struct {
   float3 normal;  // unit; 0: no area
   float area;     // twice the area
-} ox_face;
+} ox_deformed_face;
 
 // As good as in double precision: edges are kept with what their rounding takes off, so the cross
 // product carries, besides 3 roundings of its own, only products of two roundings: per component 4
 // of the low terms, 2 that are left out and 4 of their sums, 10 * 2^-48 of the lengths, times
 // sqrt(3) less than 2^-43. A smaller one is noise, and the area zero.
-static ox_face ox_face_of(float3 a, float3 b, float3 c) {
+static ox_deformed_face ox_face_of(float3 a, float3 b, float3 c) {
   const float3 u = b - a;
   const float3 v = c - a;
   const float3 u_low = ox_rest(b, a, u);
@@ -52,7 +52,7 @@ static ox_face ox_face_of(float3 a, float3 b, float3 c) {
                               (u.z * v_low.x - u.x * v_low.z) + (u_low.z * v.x - u_low.x * v.z),
                               (u.x * v_low.y - u.y * v_low.x) + (u_low.x * v.y - u_low.y * v.x));
   const float3 n = ox_cross(u, v) + low;
-  ox_face face;
+  ox_deformed_face face;
   face.area = ox_norm(n);
   face.normal = (float3)(0.0f);
   // Below the smallest normal float a product has lost digits.
@@ -103,7 +103,7 @@ __kernel void deform_triangles(__global const ox_move* moves, uint move_count,
     const float3 b = ox_position(move, positions, corners[1]);
     const float3 c = ox_position(move, positions, corners[2]);
     const float scale = move->scale;
-    const ox_face face = ox_face_of(scale * a, scale * b, scale * c);
+    const ox_deformed_face face = ox_face_of(scale * a, scale * b, scale * c);
     const bool flat = face.area == 0.0f;
     vstore3(a, 0, triangle->a);
     vstore3(flat ? a : b, 0, triangle->b);

@@ -8,6 +8,7 @@
 // item  1 crossing (grid-stride); 1 pair (of a queue)
 // may overflow: none; a pair has room for OX_POINTS_PER_CROSSING candidates per crossing, and the
 // last points beyond that are left out: ways out of regions that have contacts already
+#ifndef OX_PLANES
 #include "shared/crossing_order.h"
 #include "shared/deep_parts.h"
 #include "shared/exit_edge.h"
@@ -491,3 +492,4 @@ __kernel void edge_contacts(OX_SCENE_PARAMETERS, __global ox_pair_crossing* cros
     found[i].hits = pair.candidate_count;
   }
 }
+#endif

@@ -19,6 +19,7 @@
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
+#ifndef OX_PLANES
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
 #include "shared/vertex_ray.h"
@@ -289,3 +290,4 @@ __kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
       ox_cast_queue(&state, rays);
   }
 }
+#endif

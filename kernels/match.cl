@@ -7,6 +7,7 @@
 //       predicted and no further, and what it cannot take is crossed at once (cross.cl)
 // item  1 meshlet of the list (grid-stride)
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
+#include "contacts/cross.h"
 #include "shared/cross.h"
 
 typedef struct {
@@ -44,8 +45,8 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
     const uint side = task.pair_side & 1u;
     __global const ox_pair* pair = pairs + (task.pair_side >> 1);
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-    const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
-    const ox_slab slab = ox_slab_there(pair, side, meshlets + task.meshlet, ox_search_margin(pair));
+    const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, pair->margin);
+    const ox_slab slab = ox_slab_there(pair, side, meshlets + task.meshlet, pair->margin);
     ox_met_meshlets met;
     met.count = 0u;
     ox_box_walk walk = ox_begin_box_walk(target);

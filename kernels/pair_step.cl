@@ -7,7 +7,7 @@
 // item  1 pair (grid-stride)
 // may overflow: none
 #include "shared/append.h"
-#include "shared/transform.h"
+#include "shared/general_position.h"
 
 // Separating axes of two oriented boxes (Gottschalk 1996) in the frame of B. Rounding is covered by
 // epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike
@@ -75,12 +75,19 @@ __kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
+#ifdef OX_PLANES
+    found[p].features = 0u;
+    found[p].first = 0u;
+    found[p].placed = 0u;
+    found[p].candidates = 0u;
+#else
     found[p].hits = 0u;
     found[p].crossings = 0u;
-    found[p].head[0] = OX_NONE;
-    found[p].head[1] = OX_NONE;
     found[p].first_candidate = 0u;
     found[p].first_crossing = 0u;
+#endif
+    found[p].head[0] = OX_NONE;
+    found[p].head[1] = OX_NONE;
     pair_ranges[p].first = 0u;
     pair_ranges[p].count = 0u;
     pairs[p].near = 0u;
@@ -101,11 +108,21 @@ __kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
     const float distance = fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]);
     const float epsilon = 0x1p-20f * (distance + mesh_a->extent + mesh_b->extent);
     pair->epsilon = epsilon;
+#ifdef OX_PLANES
+    pair->margin = OX_MARGIN * epsilon;
+    const float apart = pair->margin;
+#else
+    // What crosses where is decided within epsilon of either end of an edge, by coordinates that
+    // carry as much rounding.
+    pair->margin = 2.0f * epsilon;
+    const float apart = epsilon;
+#endif
+    pair->snap = ox_snap_of(distance + mesh_a->extent + mesh_b->extent + pair->margin);
     // Inside a closed target is inside its box, and the rays of a closed source end within it; but
     // those of an open one that meet another may leave its box.
     const bool both_open = ((mesh_a->flags | mesh_b->flags) & OX_MESH_CLOSED) == 0u;
     const float reach = both_open ? ox_max(mesh_a->reach, mesh_b->reach) : 0.0f;
-    if (!ox_boxes_overlap(pair, mesh_a, mesh_b, epsilon + reach)) continue;
+    if (!ox_boxes_overlap(pair, mesh_a, mesh_b, apart + reach)) continue;
     pair->near = 1u;
     ox_count(&scene, OX_COUNTER_BOUNDED);
   }

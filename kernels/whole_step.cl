@@ -11,6 +11,10 @@
 #ifdef OX_WHOLE_STEP
 #ifndef OX_WHOLE_PROGRAM
 #include "contact_step.cl"
+#include "contacts/choose.cl"
+#include "contacts/features.cl"
+#include "contacts/flood.cl"
+#include "contacts/reduce.cl"
 #include "cross.cl"
 #include "cull.cl"
 #include "edge_contact.cl"
@@ -21,6 +25,39 @@
 #include "vertex_step.cl"
 #endif
 
+#ifdef OX_PLANES
+__kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
+                         __global const uint* pair_objects, __global ox_range* pair_ranges,
+                         __global ox_meshlet_task* meshlet_tasks,
+                         __global ox_meshlet_pair* meshlet_pairs,
+                         __global ox_edge_crossing* crossings, __global ox_chunk_task* tasks,
+                         __global ox_ray* rays, __global uint* words, __global ox_hit* hits,
+                         __global ox_candidate* candidates, uint max_contacts, uint max_deformable,
+                         __global ox_contact* contacts, __global ox_feature* features,
+                         __global uint* slots, __global ox_region* regions,
+                         __global ox_member* members, __global ox_face* faces,
+                         __global ox_plane_record* planes) {
+  pair_step(OX_SCENE_ARGUMENTS, objects, pair_objects, pair_ranges);
+  cull(OX_SCENE_ARGUMENTS, meshlet_tasks);
+  match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings);
+  cross_meshlets(OX_SCENE_ARGUMENTS, meshlet_pairs, crossings);
+  flood(OX_SCENE_ARGUMENTS, crossings, tasks, rays, words);
+  vertex_step(OX_SCENE_ARGUMENTS, tasks, rays);
+  ray_step(OX_SCENE_ARGUMENTS, rays, hits);
+  feature_gather(OX_SCENE_ARGUMENTS, crossings, hits, features);
+  feature_place(OX_SCENE_ARGUMENTS, slots, faces);
+  feature_link(OX_SCENE_ARGUMENTS, features, slots);
+  feature_join(OX_SCENE_ARGUMENTS, crossings, features, slots);
+  region_begin(OX_SCENE_ARGUMENTS, features, regions);
+  region_count(OX_SCENE_ARGUMENTS, features, regions);
+  region_place(OX_SCENE_ARGUMENTS, regions);
+  region_fill(OX_SCENE_ARGUMENTS, features, regions, members, faces);
+  region_propose(OX_SCENE_ARGUMENTS, features, regions, faces, planes);
+  choose_planes(OX_SCENE_ARGUMENTS, features, regions, members, faces, planes, candidates);
+  reduce_candidates(OX_SCENE_ARGUMENTS, candidates, max_contacts, max_deformable, pair_ranges,
+                    contacts);
+}
+#else
 __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                          __global const uint* pair_objects, __global ox_range* pair_ranges,
                          __global ox_meshlet_task* meshlet_tasks,
@@ -44,5 +81,6 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   contact_reduce(OX_SCENE_ARGUMENTS, candidates, max_contacts, max_deformable, pair_ranges,
                  contacts);
 }
+#endif
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The candidates of a pair in the order of their depths, so that what is looked for among all of
 // them is found without a look at all. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_CANDIDATE_ORDER_H
 #define ODE_EXT_KERNELS_SHARED_CANDIDATE_ORDER_H
 
@@ -81,4 +82,5 @@ static inline uint ox_order_by_depth(__global ox_candidate* candidates, uint cou
   return ordered;
 }
 
+#endif
 #endif

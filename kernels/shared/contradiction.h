@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which of two candidates comes first, and which cannot both stand. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_CONTRADICTION_H
 #define ODE_EXT_KERNELS_SHARED_CONTRADICTION_H
 
@@ -42,4 +43,5 @@ static inline bool ox_contradicts(__global const ox_candidate* a, __global const
   return fabs(apart) <= ox_max(a->depth, b->depth) + epsilon;
 }
 
+#endif
 #endif

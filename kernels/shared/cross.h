@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edges of one meshlet against the triangles of another. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_CROSS_H
 #define ODE_EXT_KERNELS_SHARED_CROSS_H
 
@@ -18,7 +19,7 @@ typedef struct {
 static inline bool ox_find_near(__global const ox_pair* pair, uint side,
                                 __global const ox_meshlet* source,
                                 __global const ox_meshlet* target, ox_near_points* near) {
-  const float margin = ox_search_margin(pair);
+  const float margin = pair->margin;
   const float3 lo = vload3(0, target->lo) - margin;
   const float3 hi = vload3(0, target->hi) + margin;
   const float3 n = vload3(0, target->slab_normal);
@@ -211,4 +212,5 @@ static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_cro
   ox_store_crossings(&fresh);
 }
 
+#endif
 #endif

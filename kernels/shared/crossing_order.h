@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Orders of the crossings of a pair, by side first. What is sorted has its key beside it, so that
 // few crossings have to be looked up. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_CROSSING_ORDER_H
 #define ODE_EXT_KERNELS_SHARED_CROSSING_ORDER_H
 
@@ -67,4 +68,5 @@ static inline void ox_sort_crossings(const ox_edge_pair* p, const ox_order* orde
   }
 }
 
+#endif
 #endif

@@ -3,6 +3,7 @@
 // chains. Device only.
 //
 // Room: three slots and two links for each crossing.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_CROSSING_TABLE_H
 #define ODE_EXT_KERNELS_SHARED_CROSSING_TABLE_H
 
@@ -92,4 +93,5 @@ static inline void ox_tabulate_crossings(ox_edge_pair* p, uint by) {
   }
 }
 
+#endif
 #endif

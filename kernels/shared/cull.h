@@ -6,6 +6,13 @@
 
 #include "shared/transform.h"
 
+// [m] what is not known of where the vertices of a pair are.
+#ifdef OX_PLANES
+#define OX_CULL_MARGIN(pair) ((pair)->margin)
+#else
+#define OX_CULL_MARGIN(pair) ((pair)->epsilon)
+#endif
+
 // Whether a vertex of the chunk can be in contact with the target.
 static inline bool ox_keep_chunk(__global const ox_pair* pair, uint side,
                                  __global const ox_mesh* target, __global const ox_chunk* chunk) {
@@ -14,7 +21,7 @@ static inline bool ox_keep_chunk(__global const ox_pair* pair, uint side,
   const float3 middle = ox_place(pair, side, vload3(0, chunk->centre));
   const float3 d = fabs(middle - vload3(0, target->box_centre));
   const float3 limit = ox_turn_extents(pair, side, vload3(0, chunk->half_size)) +
-                       vload3(0, target->box_half) + (pair->epsilon + reach);
+                       vload3(0, target->box_half) + (OX_CULL_MARGIN(pair) + reach);
   return d.x <= limit.x && d.y <= limit.y && d.z <= limit.z;
 }
 
@@ -50,14 +57,14 @@ static inline bool ox_keep_vertex(__global const ox_pair* pair, uint side,
   const float3 p = ox_place(pair, side, vload3(0, vertex->position));
   if ((target->flags & OX_MESH_CLOSED) != 0u) {
     const float3 d = fabs(p - vload3(0, target->box_centre));
-    const float3 limit = vload3(0, target->box_half) + pair->epsilon;
+    const float3 limit = vload3(0, target->box_half) + OX_CULL_MARGIN(pair);
     return d.x <= limit.x && d.y <= limit.y && d.z <= limit.z;
   }
   if (vertex->exit == INFINITY) return false;  // its ray would never end
   const float3 direction = ox_turn(pair, side, vload3(0, vertex->direction));
   const bool both_ways = (meshes[pair->mesh[side]].flags & OX_MESH_TWO_SIDED) != 0u;
-  return ox_reaches_box(target, p, direction, vertex->exit + pair->epsilon, both_ways,
-                        pair->epsilon);
+  return ox_reaches_box(target, p, direction, vertex->exit + OX_CULL_MARGIN(pair), both_ways,
+                        OX_CULL_MARGIN(pair));
 }
 
 #endif

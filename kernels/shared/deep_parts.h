@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Thin parts deep in the target: what is farther from the target's surface than from the other side
 // of its own mesh, and that no contact leads out. Frame of B. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_DEEP_PARTS_H
 #define ODE_EXT_KERNELS_SHARED_DEEP_PARTS_H
 
@@ -152,4 +153,5 @@ static inline bool ox_take_mark(const ox_edge_pair* p, uint region) {
   return marked;
 }
 
+#endif
 #endif

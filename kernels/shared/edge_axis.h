@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The contact of two edges that cross one another's faces: a separating axis test of the two wedges
 // (Gottschalk 1996; Ericson 2005, section 5.2.1, for whole boxes). Frame of B. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_EDGE_AXIS_H
 #define ODE_EXT_KERNELS_SHARED_EDGE_AXIS_H
 
@@ -144,4 +145,5 @@ static inline bool ox_edge_contact(const ox_wedge* a, const ox_wedge* b, ox_poin
          point->depth <= 1.01f * face_depth;
 }
 
+#endif
 #endif

@@ -5,6 +5,7 @@
 // The curve runs through pairs of facets, one of each mesh. It leaves such a pair where an edge of
 // either facet crosses the other facet; so two crossings follow one another on the curve if they
 // have a pair of facets in common.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_EDGE_PAIR_H
 #define ODE_EXT_KERNELS_SHARED_EDGE_PAIR_H
 
@@ -131,4 +132,5 @@ static inline void ox_add_point(ox_edge_pair* p, uint side, uint source, uint ta
   candidate->listed = 0u;
 }
 
+#endif
 #endif

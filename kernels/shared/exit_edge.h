@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertices whose ray leaves the target through an edge of it. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_EXIT_EDGE_H
 #define ODE_EXT_KERNELS_SHARED_EXIT_EDGE_H
 
@@ -65,4 +66,5 @@ static inline void ox_choose_exits(const ox_edge_pair* p) {
   }
 }
 
+#endif
 #endif

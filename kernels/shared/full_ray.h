@@ -4,6 +4,7 @@
 #ifndef ODE_EXT_KERNELS_SHARED_FULL_RAY_H
 #define ODE_EXT_KERNELS_SHARED_FULL_RAY_H
 
+#include "shared/general_position.h"
 #include "shared/meshlet_tree.h"
 #include "shared/nearest.h"
 #include "shared/ray_meshlet.h"
@@ -82,6 +83,7 @@ static inline ox_query ox_asking_query(uint k, float3 origin, float epsilon) {
   query.t_max = INFINITY;
   query.behind = 0.0f;
   query.two_sided = false;
+  query.known = false;
   return query;
 }
 
@@ -141,9 +143,11 @@ static inline bool ox_winds_about(float3 point, float epsilon, __global const ox
 // The ray of a vertex, in the frame of the target.
 typedef struct {
   float3 origin, direction;
-  float exit;  // [m] where it leaves its own mesh
+  float ahead;  // [m] how far before its vertex it starts: as in general position
+  float exit;   // [m] where it leaves its own mesh
   float epsilon;
   bool both_ways;  // the source is a sheet: along -direction too, and the shallower exit counts
+  bool known;      // its vertex is inside
 } ox_vertex_ray;
 
 static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
@@ -152,17 +156,24 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   __global const ox_mesh* source = meshes + pair->mesh[side];
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
   ox_vertex_ray ray;
-  ray.origin = ox_place(pair, side, vload3(0, vertex->position));
   ray.direction = ox_turn(pair, side, vload3(0, vertex->direction));
+#ifdef OX_PLANES
+  ray.ahead = OX_INFLATION * pair->epsilon;
+#else
+  ray.ahead = 0.0f;
+#endif
+  ray.origin = ox_place(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
   ray.epsilon = pair->epsilon;
   ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;
   ray.exit = vertex->exit;
+  ray.known = false;
   const bool closed = (target->flags & OX_MESH_CLOSED) != 0u;
   // A sheet's thickness says nothing about how deep it is in a solid. A sheet that cuts through a
   // solid source parts the vertex's way through it in two: what is on the shorter part is beyond.
   if (ray.both_ways && closed) ray.exit = INFINITY;
   if ((target->flags & OX_MESH_TWO_SIDED) != 0u && (source->flags & OX_MESH_CLOSED) != 0u)
     ray.exit = 0.5f * ray.exit;
+  ray.exit += ray.ahead;
   return ray;
 }
 
@@ -177,15 +188,18 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
   // Against an open target nothing beyond the source's own exit can be told to be inside.
   query.t_max = closed ? INFINITY : ray->exit + ray->epsilon;
   query.behind = behind;
+  query.known = ray->known;
   query.two_sided = (mesh->flags & OX_MESH_TWO_SIDED) != 0u;
   ox_outcome best = ox_miss();
   *remember = OX_NONE;
   for (uint way = 0u; way < (ray->both_ways ? 2u : 1u); ++way) {
     query.direction = way == 0u ? ray->direction : -ray->direction;
-    query.cast = ox_cast_from(ray->origin, query.direction);
+    const float3 origin =
+        way == 0u ? ray->origin : ray->origin + 2.0f * ray->ahead * ray->direction;
+    query.cast = ox_cast_from(origin, query.direction);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, seed, work);
     bool inside = false;
-    if (closed && ox_grazes(&nearest, query.epsilon))
+    if (closed && !ray->known && ox_grazes(&nearest, query.epsilon))
       inside = ox_is_inside(basic, &query, mesh, surfaces, work);
     const ox_outcome outcome = ox_judge(&query, &nearest, inside, ray->exit, surfaces->triangles);
     const uint kind = outcome.kind & OX_HIT_KIND;

@@ -41,6 +41,17 @@ typedef int ox_ints;
 // loaded in halves.
 #define ox_load(block, p) (((__global const ox_floats*)(p))[block])
 
+// The same of a private array.
+#if OX_VECTOR_WIDTH == 16
+#define ox_load_private(block, p) vload16(block, p)
+#elif OX_VECTOR_WIDTH == 8
+#define ox_load_private(block, p) vload8(block, p)
+#elif OX_VECTOR_WIDTH == 4
+#define ox_load_private(block, p) vload4(block, p)
+#else
+#define ox_load_private(block, p) ((p)[block])
+#endif
+
 // All lanes by one operator: `op(a, b)`.
 #define OX_OR(a, b) ((a) | (b))
 #define OX_AND(a, b) ((a) & (b))

@@ -60,8 +60,4 @@ static inline ox_slab ox_slab_there(__global const ox_pair* pair, uint side,
   return slab;
 }
 
-// What crosses where is decided within epsilon of either end of an edge, by coordinates that carry
-// as much rounding (pair_step.cl): so far apart nothing does.
-static inline float ox_search_margin(__global const ox_pair* pair) { return 2.0f * pair->epsilon; }
-
 #endif

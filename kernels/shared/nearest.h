@@ -17,6 +17,7 @@ typedef struct {
   float t_max;     // [m] nothing beyond exists
   float behind;    // [m] how far back the line is looked at, for temporal data
   bool two_sided;  // the target has no inside: every face is met from behind
+  bool known;      // it is inside, whatever is met first: the first back face is its way out
 } ox_query;
 
 // A distance is finite exactly where there is a triangle: ox_consider_met sets both, of finite ones
@@ -114,7 +115,8 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
 // How far it is worth looking: within epsilon of the nearest hit another may decide what the
 // nearest means. What lies beyond changes nothing.
 static inline float ox_limit(const ox_query* query, const ox_nearest* nearest) {
-  return ox_min(query->t_max, ox_min(nearest->front_t, nearest->back_t) + query->epsilon);
+  const float first = query->known ? nearest->back_t : ox_min(nearest->front_t, nearest->back_t);
+  return ox_min(query->t_max, first + query->epsilon);
 }
 
 // A front and a back face at one distance: the ray grazes a ridge from outside, or leaves and
@@ -158,6 +160,7 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
   // A hit beyond the source's exit counts for proving the vertex inside. On the surface it is not:
   // it may be the far side of a plate thinner than epsilon.
   if (nearest->entered && !(nearest->back_t <= exit + query->epsilon)) inside = false;
+  if (query->known) inside = nearest->back != OX_NONE;
   if (inside) {
     const float slope = ox_dot(query->direction, vload3(0, triangles[nearest->back].normal));
     const bool reversed = query->two_sided && slope < 0.0f;

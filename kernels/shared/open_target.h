@@ -5,6 +5,7 @@
 // something is behind a surface is known no farther off than the surface goes on to all sides;
 // beyond, it may have come around the border. There the shorter part of a vertex's way through the
 // source counts, as with a sheet. Else a patch that dips into a body would lead its far side out.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_OPEN_TARGET_H
 #define ODE_EXT_KERNELS_SHARED_OPEN_TARGET_H
 
@@ -67,4 +68,5 @@ static inline void ox_drop_beyond_border(const ox_edge_pair* p) {
   }
 }
 
+#endif
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The hits of the vertices of a pair, among its candidates. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 #define ODE_EXT_KERNELS_SHARED_PAIR_HITS_H
 
@@ -43,4 +44,5 @@ static inline void ox_link_hits(ox_edge_pair* p, uint by) {
   }
 }
 
+#endif
 #endif

@@ -2,6 +2,7 @@
 // Patches: the candidates of a kind that face one way, that of the deepest that is in no other,
 // within acos 0.9 = 25.8 degrees. What is looked for is looked for among those in no patch yet, in
 // one patch, or among the few of it that may become contacts: seldom among all. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_PATCHES_H
 #define ODE_EXT_KERNELS_SHARED_PATCHES_H
 
@@ -271,4 +272,5 @@ static inline bool ox_drop_contradicted(ox_patches* p, uint i, uint left) {
   return true;
 }
 
+#endif
 #endif

@@ -4,6 +4,7 @@
 // each by the face that is nearer to it), a rigid body leaves all of it the same way, the way that
 // stands. Where that is far (a foot on the floor, the head at the ceiling) both stand. Frame of B.
 // Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_RECONCILE_H
 #define ODE_EXT_KERNELS_SHARED_RECONCILE_H
 
@@ -152,4 +153,5 @@ static inline void ox_settle_region(const ox_edge_pair* p, uint region, bool sta
   }
 }
 
+#endif
 #endif

@@ -2,6 +2,7 @@
 // How wide a region of overlap is. Two convex bodies that overlap have to move along a direction by
 // at least as much as their overlap is wide along it for a plane across that direction to part
 // them; a contact that says less was made where they are not deepest. Frame of B. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_REGION_WIDTH_H
 #define ODE_EXT_KERNELS_SHARED_REGION_WIDTH_H
 
@@ -119,4 +120,5 @@ static inline uint ox_narrowest(const ox_edge_pair* p, ox_extent* least) {
   return narrowest;
 }
 
+#endif
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which crossings of a pair have a pair of facets in common, and so which regions of overlap there
 // are. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_REGIONS_H
 #define ODE_EXT_KERNELS_SHARED_REGIONS_H
 
@@ -50,4 +51,5 @@ static inline void ox_find_regions(ox_edge_pair* p) {
   p->region_first[0] = 0u;
 }
 
+#endif
 #endif

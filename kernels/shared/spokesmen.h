@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Who speaks for which region of overlap. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_SPOKESMEN_H
 #define ODE_EXT_KERNELS_SHARED_SPOKESMEN_H
 
@@ -37,4 +38,5 @@ static inline void ox_choose_spokesmen(const ox_edge_pair* p) {
     if (spokesman[region] != OX_NONE) p->candidates[spokesman[region]].region = region;
 }
 
+#endif
 #endif

@@ -4,6 +4,9 @@
 #ifndef ODE_EXT_KERNELS_SHARED_TYPES_H
 #define ODE_EXT_KERNELS_SHARED_TYPES_H
 
+// A program is built with OX_PLANES where contacts are those of separating planes
+// (kernels/contacts), which stand beside the assembly that they are to replace (edge_contact.cl,
+// contact_step.cl). Records that differ have the same size in both.
 #ifdef __OPENCL_C_VERSION__
 // A fused multiply-subtract is not antisymmetric: two triangles would disagree about the side of
 // their shared edge on which a ray passes, and it would slip through. Holds to the end of the
@@ -49,7 +52,11 @@ typedef float ox_f32;
 #define OX_QUEUE_FLOOD 17u       // how many items the work-items have taken (ox_next_item)
 #define OX_QUEUE_EDGE_CONTACTS 18u
 #define OX_QUEUE_REDUCE 19u
-#define OX_COUNTER_COUNT 20u
+// Of contacts by separating planes (kernels/contacts).
+#define OX_COUNTER_FEATURES 20u  // room for them handed out to pairs
+#define OX_COUNTER_REGIONS 21u
+#define OX_QUEUE_REGIONS 22u
+#define OX_COUNTER_COUNT 23u
 
 // Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
 typedef struct {
@@ -143,6 +150,7 @@ OX_STATIC_ASSERT(sizeof(ox_neighbour) == 8, ox_neighbour_is_8_bytes);
 typedef struct {
   // What is asked of every meshlet that may meet another, together,
   ox_f32 vertex[3][OX_LANES];  // x, y, z
+  ox_f32 normal[3][OX_LANES];  // of the vertices: unit, or 0 where none is known
   ox_f32 lo[3], hi[3];         // of its vertices
   ox_f32 slab_normal[3];       // unit, or 0: the mean of its triangles' by area
   ox_f32 slab_lo, slab_hi;     // [m] along it, of its vertices
@@ -156,14 +164,20 @@ typedef struct {
   // and of edges that cross it.
   ox_u32 edge[OX_MESHLET_EDGES];
   ox_u32 vertex_index[OX_LANES];
+  ox_u32
+      places[OX_LANES];  // of the corners of a triangle in `vertex`: OX_CORNER(places, k, corner)
 } ox_meshlet;
-OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1088, ox_meshlet_is_1088_bytes);
-// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 320.
+OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1344, ox_meshlet_is_1344_bytes);
+// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 512.
 OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 
 // Where edge e of a meshlet begins or ends: eight bits each, two edges a word.
 #define OX_END_SHIFT(e, end) (16u * ((e)&1u) + 8u * (end))
 #define OX_END(ends, e, end) ((ends)[(e) / 2u] >> OX_END_SHIFT(e, end) & 255u)
+
+// Eight bits each.
+#define OX_CORNER_SHIFT(corner) (8u * (corner))
+#define OX_CORNER(places, k, corner) ((places)[k] >> OX_CORNER_SHIFT(corner) & 255u)
 
 // A meshlet that can meet the other mesh of its pair. Of each pair they are those of one mesh.
 typedef struct {
@@ -227,11 +241,24 @@ typedef struct {
   // Paper: [m] per side, how far a vertex of the source moved in the frame of the target at most
   // since the last step; infinite: not known.
   ox_f32 displacement[2];
-  ox_u32 near;  // whether the oriented boxes of the meshes overlap; else the rest may be void
-  ox_u32 padding[2];
+  ox_u32 near;    // whether the oriented boxes of the meshes overlap; else the rest may be void
+  ox_f32 margin;  // [m] farther apart nothing of it meets
+  ox_f32 snap;    // shared/general_position.h
 } ox_pair;
 OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
 
+#ifdef OX_PLANES
+// What has been found of a pair so far.
+typedef struct {
+  ox_u32 head[2];   // per side the last of its crossings, which links lead on from; OX_NONE: none
+  ox_u32 features;  // how many; the first of its members and candidates is
+  ox_u32 first;     // this, void where there are no features
+  ox_u32 placed;    // of its members, so far
+  ox_u32 candidates;
+  ox_u32 padding[2];
+} ox_found;
+OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
+#else
 // What has been found of a pair so far.
 typedef struct {
   ox_u32 hits;       // later: candidates
@@ -241,6 +268,7 @@ typedef struct {
   ox_u32 padding[2];
 } ox_found;
 OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
+#endif
 
 // Vertices to be looked at. pair_side = pair << 1 | side; side 0: vertices of A against B, side 1:
 // of B against A. The last two fields are the paper's (paper/types.h).
@@ -261,6 +289,11 @@ typedef struct {
 } ox_ray;
 OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 
+// `memory` of a ray: its vertex is inside, whatever it meets; and of a part of its mesh that no
+// crossing tells of, so that nothing but its vertices says where the surface is.
+#define OX_RAY_INSIDE 1u
+#define OX_RAY_CONTAINED 2u
+
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit
 #define OX_HIT_TOUCHING 2u  // on the surface, depth 0
@@ -271,6 +304,32 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 #define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own
 #define OX_HIT_STANDS 32u   // of a candidate: without it its region has nothing (reconcile.h)
 
+#ifdef OX_PLANES
+// A vertex that is inside, and what its ray meets.
+typedef struct {
+  ox_u32 pair_side;
+  ox_u32 vertex;
+  ox_u32 triangle;  // index into all triangles, in the order of the leaves; OX_NONE: none is known
+  ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
+  ox_f32 depth;     // [m] to the plane of the triangle
+  ox_f32 t;         // [m] along the ray
+  ox_u32 padding[2];
+} ox_hit;
+OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
+
+// Where an edge of one mesh crosses the surface of the other, as it is found.
+typedef struct {
+  ox_u32 pair_side;
+  ox_u32 edge;
+  ox_u32 triangle;  // crossed, over all triangles
+  ox_f32 t;         // [m] along the edge, from its first vertex
+  ox_f32 blur;      // [m] what rounding may have moved it along the edge
+  ox_u32 leaves;    // whether the edge leaves the target here: a back face
+  ox_u32 before;    // of flooded sides: the crossing of the side that was found before it; OX_NONE
+  ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
+} ox_edge_crossing;
+OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
+#else
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
@@ -297,6 +356,7 @@ typedef struct {
   ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
+#endif
 
 #define OX_CROSSING_SIDE 1u     // of an edge of mesh B
 #define OX_CROSSING_LEAVES 2u   // the edge leaves the target here
@@ -329,6 +389,23 @@ OX_STATIC_ASSERT(sizeof(ox_pair_crossing) == 64, ox_pair_crossing_is_64_bytes);
 // keys of orders lie in rooms not yet in use (edge_contact.cl).
 #define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
 
+#ifdef OX_PLANES
+// What may become a contact, in the frame of B.
+typedef struct {
+  ox_f32 position[3];
+  ox_f32 depth;
+  ox_f32 normal[3];  // into A
+  ox_f32 distance2;  // [m^2] to the nearest contact already taken
+  ox_u32 side_kind;  // OX_HIT_REVERSED, OX_HIT_SIDE, OX_HIT_POINT
+  ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
+  ox_u32 triangle;
+  ox_u32 manifold;  // the plane that it is a contact of, among all
+  ox_u32 region;
+  ox_u32 taken;  // contacts/reduce.cl
+  ox_u32 padding[2];
+} ox_candidate;
+OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
+#else
 // A hit among those of its pair, in the frame of B.
 typedef struct {
   ox_f32 position[3];
@@ -346,6 +423,7 @@ typedef struct {
   ox_u32 ordered;  // of the i-th candidate of a pair: which is the i-th of the order or heap in use
 } ox_candidate;
 OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
+#endif
 
 typedef struct {
   ox_u32 side_kind;  // as in ox_candidate, and so are the others

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way out of the target for a part of the source of which no contact says one: the face below
 // which its deepest point is least deep. Frame of B. Device only.
+#ifndef OX_PLANES
 #ifndef ODE_EXT_KERNELS_SHARED_WAY_OUT_H
 #define ODE_EXT_KERNELS_SHARED_WAY_OUT_H
 
@@ -157,4 +158,5 @@ static inline void ox_lead_vertices_out(const ox_edge_pair* p, const ox_way_out*
   }
 }
 
+#endif
 #endif

@@ -150,6 +150,8 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
         std::min<dReal>(p.displacement_limit, std::numeric_limits<float>::max()));
   options.count_work = p.count_work != 0;
   options.edges = p.edges == dBatchEdgesOn;
+  const char* contacts = std::getenv("ODE_EXT_CONTACTS");
+  options.planes = contacts != nullptr && std::string(contacts) == "planes";
   if (p.work_group_size != 0)
     options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
   if (p.initial_capacity != 0)

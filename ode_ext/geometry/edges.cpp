@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/edges.h"
 
+#include <tuple>
 #include <utility>
 
 #include "geometry/directed_edges.h"
@@ -9,9 +10,16 @@
 #include "geometry/runs.h"
 
 namespace ode_ext {
+namespace {
+
+bool comes_before(const Vec3f& a, const Vec3f& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+}  // namespace
 
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
-                 const std::vector<std::uint32_t>& facets) {
+                 const std::vector<std::uint32_t>& facets, bool all) {
   Edges edges;
   std::vector<Edge> found;
   std::vector<Vec3f> middles;
@@ -22,6 +30,10 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>
     Edge edge{{a.low, a.high}, {a.side / 3, paired ? sides[i + 1].side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
     if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
+    if (all && comes_before(vertices[a.high], vertices[a.low])) {
+      std::swap(edge.vertices[0], edge.vertices[1]);
+      if (paired) std::swap(edge.triangles[0], edge.triangles[1]);
+    }
     i += paired ? 2 : 1;
     if (paired && !facets.empty() && facets[edge.triangles[0]] == facets[edge.triangles[1]]) {
       edges.flat.push_back(edge);
@@ -35,7 +47,7 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>
     return joined.join(edge.vertices[0], edge.vertices[1]);
   };
   for (const Edge& edge : found) join(edge);
-  std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
+  if (!all) std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
   if (facets.empty()) {
     edges.apart = std::move(found);
     return edges;

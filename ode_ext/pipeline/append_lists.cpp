@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "contacts/types.h"
+
 namespace ode_ext {
 namespace {
 
@@ -36,11 +38,11 @@ constexpr ArrowCounts kRecordBytes = [] {
   return bytes;
 }();
 
-std::uint64_t bytes_of(const ArrowCounts& counts) {
-  std::uint64_t bytes = 0;
-  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * kRecordBytes[i];
-  return bytes;
-}
+// What becomes of a feature, a crossing or a hit [bytes].
+constexpr std::size_t kFeatureBytes = sizeof(ox_feature) + sizeof(ox_region) + sizeof(ox_member) +
+                                      sizeof(ox_candidate) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
+                                      OX_FACES_PER_FEATURE * sizeof(ox_face) +
+                                      OX_PLANES_PER_FEATURE * sizeof(ox_plane_record);
 
 // Memory goes back where for this many steps, a few seconds of simulation, less than a quarter of
 // it was of use; what is less than the floor is not worth the growing again.
@@ -64,7 +66,13 @@ AppendLists::AppendLists(Device& device)
       gathered_crossings_(device),
       crossing_order_(device),
       flood_words_(device),
-      contacts_(device) {
+      contacts_(device),
+      features_(device),
+      feature_slots_(device),
+      regions_(device),
+      members_(device),
+      faces_(device),
+      planes_(device) {
   read_counters_.reserve(kCounterBytes);
   counters_.reserve(kCounterBytes);
   lists_.reserve(sizeof(host_lists_));
@@ -78,13 +86,25 @@ void AppendLists::reserve(const ArrowCounts& counts) {
   resize(grown);
 }
 
+std::uint64_t AppendLists::record_bytes(std::size_t list) const {
+  if (keeps_features_ && list == OX_LIST_HITS) return sizeof(ox_hit) + kFeatureBytes;
+  if (keeps_features_ && list == OX_LIST_CROSSINGS) return sizeof(ox_edge_crossing) + kFeatureBytes;
+  return kRecordBytes[list];
+}
+
+std::uint64_t AppendLists::bytes_of(const ArrowCounts& counts) const {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * record_bytes(i);
+  return bytes;
+}
+
 void AppendLists::limit(const ArrowCounts& counts) { resize(counts); }
 
 ArrowCounts AppendLists::affordable(const ArrowCounts& expected) const {
   const std::uint64_t cheap = device_->info().largest_buffer / 16;  // [bytes]
   ArrowCounts counts{};
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / kRecordBytes[i]));
+    counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / record_bytes(i)));
   return counts;
 }
 
@@ -92,7 +112,8 @@ void AppendLists::release() {
   capacities_ = {};
   for (Buffer* buffer :
        {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_, &crossings_,
-        &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_})
+        &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_, &features_,
+        &feature_slots_, &regions_, &members_, &faces_, &planes_})
     buffer->release();
 }
 
@@ -132,18 +153,32 @@ void AppendLists::resize(const ArrowCounts& capacities) {
     meshlets_.reserve(ends.meshlets * sizeof(ox_meshlet_task));
     meshlet_pairs_.reserve(ends.meshlet_pairs * sizeof(ox_meshlet_pair));
     hits_.reserve(ends.hits * sizeof(ox_hit));
-    candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
-                        sizeof(ox_candidate));
     crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
-    gathered_crossings_.reserve(ends.crossings * sizeof(ox_pair_crossing));
-    crossing_order_.reserve(OX_ORDERS_PER_CROSSING * ends.crossings * sizeof(ox_u32));
     flood_words_.reserve(ends.flood_words * sizeof(ox_u32));
     contacts_.reserve(ends.contacts * sizeof(ox_contact));
+    if (keeps_features_) {
+      reserve_features(ends.crossings + ends.hits);
+    } else {
+      candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
+                          sizeof(ox_candidate));
+      gathered_crossings_.reserve(ends.crossings * sizeof(ox_pair_crossing));
+      crossing_order_.reserve(OX_ORDERS_PER_CROSSING * ends.crossings * sizeof(ox_u32));
+    }
   } catch (...) {
     release();
     throw;
   }
   capacities_ = capacities;
+}
+
+void AppendLists::reserve_features(std::uint64_t count) {
+  features_.reserve(count * sizeof(ox_feature));
+  regions_.reserve(count * sizeof(ox_region));
+  members_.reserve(count * sizeof(ox_member));
+  candidates_.reserve(count * sizeof(ox_candidate));
+  feature_slots_.reserve(OX_SLOTS_PER_FEATURE * count * sizeof(ox_u32));
+  faces_.reserve(OX_FACES_PER_FEATURE * count * sizeof(ox_face));
+  planes_.reserve(OX_PLANES_PER_FEATURE * count * sizeof(ox_plane_record));
 }
 
 bool AppendLists::overflowed(const ArrowCounts& counts) const {

@@ -39,6 +39,8 @@ class AppendLists {
   std::uint64_t first(Arrow list) const {
     return host_lists_[static_cast<std::size_t>(list)].first;
   }
+  // Crossings and hits become features (kernels/contacts), in place of what else becomes of them.
+  void keep_features() { keeps_features_ = true; }
   bool overflowed(const ArrowCounts& counts) const;
   // Records of all lists of vertex chunks of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
@@ -72,6 +74,13 @@ class AppendLists {
   const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& flood_words() const { return flood_words_; }
   const Buffer& contacts() const { return contacts_; }
+  // For each crossing and hit, as kernels/shared/types.h says.
+  const Buffer& features() const { return features_; }
+  const Buffer& feature_slots() const { return feature_slots_; }
+  const Buffer& regions() const { return regions_; }
+  const Buffer& members() const { return members_; }
+  const Buffer& faces() const { return faces_; }
+  const Buffer& planes() const { return planes_; }
 
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
@@ -80,6 +89,10 @@ class AppendLists {
   };
   Ends lay_out(const ArrowCounts& room);
   void resize(const ArrowCounts& capacities);
+  void reserve_features(std::uint64_t count);
+  // What a record of a list takes in all buffers together [bytes].
+  std::uint64_t record_bytes(std::size_t list) const;
+  std::uint64_t bytes_of(const ArrowCounts& counts) const;
 
   Device* device_;
   ArrowCounts capacities_{};
@@ -89,8 +102,10 @@ class AppendLists {
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
+  bool keeps_features_ = false;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
-      crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_;
+      crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_, features_,
+      feature_slots_, regions_, members_, faces_, planes_;
 };
 
 }  // namespace ode_ext

@@ -8,10 +8,28 @@
 namespace ode_ext {
 namespace {
 
-static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, corner) % 64 == 0,
+static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, normal) % 64 == 0 &&
+                  offsetof(ox_meshlet, corner) % 64 == 0,
               "shared/lanes.h loads them whole");
 static_assert(kMeshletTriangles == OX_LANES && kMeshletVertices == OX_LANES &&
               kMeshletEdges == OX_MESHLET_EDGES);
+
+// Lanes beyond its vertices repeat the first.
+std::uint32_t vertex_index(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
+  return mesh.meshlets.vertices[meshlet.vertex_first + (k < meshlet.vertex_count ? k : 0)];
+}
+
+// Where the corners of a triangle of a meshlet are among its vertices.
+ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
+  const auto first = mesh.meshlets.vertices.begin() + meshlet.vertex_first;
+  ox_u32 places = 0;
+  for (std::uint32_t corner = 0; corner < 3; ++corner) {
+    const auto place =
+        std::find(first, first + meshlet.vertex_count, mesh.triangles[triangle][corner]) - first;
+    places |= static_cast<ox_u32>(place) << OX_CORNER_SHIFT(corner);
+  }
+  return places;
+}
 
 void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces& places,
                    ox_meshlet& record) {
@@ -19,10 +37,10 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces
   record.triangle_count = meshlet.triangle_count;
   record.vertex_count = meshlet.vertex_count;
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
-    const std::uint32_t used = k < meshlet.vertex_count ? k : 0;
-    record.vertex_index[k] =
-        places.vertex_first + mesh.meshlets.vertices[meshlet.vertex_first + used];
+    record.vertex_index[k] = places.vertex_first + vertex_index(mesh, meshlet, k);
   }
+  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k)
+    record.places[k] = corner_places(mesh, meshlet, mesh.bvh.order[meshlet.triangle_first + k]);
   record.edge_count = meshlet.edge_count;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
     const MeshletEdge& edge = mesh.meshlets.edges[meshlet.edge_first + k];
@@ -34,8 +52,7 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces
 }
 
 Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
-  const std::uint32_t used = k < meshlet.vertex_count ? k : 0;
-  return mesh.vertices[mesh.meshlets.vertices[meshlet.vertex_first + used]];
+  return mesh.vertices[vertex_index(mesh, meshlet, k)];
 }
 
 void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
@@ -44,10 +61,12 @@ void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) 
     const std::uint32_t triangle = mesh.bvh.order[meshlet.triangle_first + (used ? k : 0)];
     const bool flat = !used || mesh.face_normals[triangle] == Vec3f{};
     const Vec3f vertex = vertex_of(mesh, meshlet, k);
+    const Vec3f normal = mesh.normals[vertex_index(mesh, meshlet, k)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t c = 0; c < 3; ++c)
         record.corner[c][axis][k] = mesh.vertices[mesh.triangles[triangle][flat ? 0 : c]][axis];
       record.vertex[axis][k] = vertex[axis];
+      record.normal[axis][k] = normal[axis];
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -29,7 +29,10 @@ struct ColliderOptions {
   std::uint64_t initial_capacity = 16384;  // [records] of each append list
   std::uint32_t walk_limit = 32;           // triangles an iterative ray crosses at most
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
-  bool edges = true;                       // crossings of edges are searched too
+  // Contacts by separating planes (docs/contacts.md), which stand beside the assembly that they are
+  // to replace. Not with what follows the paper.
+  bool planes = false;
+  bool edges = true;               // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
   bool count_work = false;
   // On a processor no more than so many pairs of small meshes are collided by one launch
@@ -48,6 +51,10 @@ inline bool follows_paper(const ColliderOptions& options) {
          options.deformable_target != DeformableTarget::kRefit ||
          options.organisation != Organisation::kPipelined ||
          options.misprediction != Misprediction::kRedo || options.count_work;
+}
+
+inline bool has_planes(const ColliderOptions& options) {
+  return options.planes && !follows_paper(options);
 }
 
 // The largest max_contacts (OX_MAX_CONTACTS in kernels/shared/patches.h).

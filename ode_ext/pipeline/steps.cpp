@@ -3,19 +3,22 @@
 
 namespace ode_ext {
 
-Steps::Steps(Program& program, bool has_whole)
+Steps::Assembly::Assembly(Program& program)
+    : place(program, "contact_place"),
+      gather(program, "contact_gather"),
+      gather_crossings(program, "crossing_gather"),
+      edge_contacts(program, "edge_contacts"),
+      reduce(program, "contact_reduce") {}
+
+Steps::Steps(Program& program, bool has_whole, bool assembles)
     : pair_step_(program, "pair_step"),
       cull_(program, "cull"),
       match_(program, "match"),
       cross_(program, "cross_meshlets"),
       flood_(program, "flood"),
       vertex_step_(program, "vertex_step"),
-      ray_step_(program, "ray_step"),
-      place_(program, "contact_place"),
-      gather_(program, "contact_gather"),
-      gather_crossings_(program, "crossing_gather"),
-      edge_contacts_(program, "edge_contacts"),
-      reduce_(program, "contact_reduce") {
+      ray_step_(program, "ray_step") {
+  if (assembles) assembly_.emplace(program);
   if (has_whole) whole_.emplace(program, "whole_step");
 }
 
@@ -50,29 +53,37 @@ void Steps::cast(Launch per_ray, const StepData& data) {
 }
 
 void Steps::gather(Launch per_pair, Launch per_hit, const StepData& data) {
-  data.launch(place_, per_pair);
-  data.launch(gather_, per_hit, data.lists.hits(), data.lists.candidates());
+  data.launch(assembly_->place, per_pair);
+  data.launch(assembly_->gather, per_hit, data.lists.hits(), data.lists.candidates());
 }
 
 void Steps::add_edge_contacts(Launch per_pair, Launch per_crossing, const StepData& data) {
-  data.launch(gather_crossings_, per_crossing, data.lists.crossings(),
+  data.launch(assembly_->gather_crossings, per_crossing, data.lists.crossings(),
               data.lists.gathered_crossings(), data.lists.crossing_order());
-  data.launch(edge_contacts_, per_pair, data.lists.gathered_crossings(),
+  data.launch(assembly_->edge_contacts, per_pair, data.lists.gathered_crossings(),
               data.lists.crossing_order(), data.lists.candidates());
 }
 
 void Steps::reduce(Launch per_pair, const StepData& data) {
-  data.launch(reduce_, per_pair, data.lists.candidates(), data.settings.max_contacts,
+  data.launch(assembly_->reduce, per_pair, data.lists.candidates(), data.settings.max_contacts,
               data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
 }
 
 void Steps::run_whole(const StepData& data) {
   const auto& [meshes, pairs, lists, settings] = data;
-  data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
-              lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
-              lists.flood_words(), lists.hits(), lists.candidates(), lists.gathered_crossings(),
-              lists.crossing_order(), settings.max_contacts, settings.max_contacts_deformable,
-              lists.contacts());
+  if (assembly_)
+    data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
+                lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
+                lists.flood_words(), lists.hits(), lists.candidates(), lists.gathered_crossings(),
+                lists.crossing_order(), settings.max_contacts, settings.max_contacts_deformable,
+                lists.contacts());
+  else
+    data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
+                lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
+                lists.flood_words(), lists.hits(), lists.candidates(), settings.max_contacts,
+                settings.max_contacts_deformable, lists.contacts(), lists.features(),
+                lists.feature_slots(), lists.regions(), lists.members(), lists.faces(),
+                lists.planes());
 }
 
 void Steps::take_milliseconds(StageTimes& ms) {
@@ -83,9 +94,12 @@ void Steps::take_milliseconds(StageTimes& ms) {
   add_time(ms, Stage::kFlood, flood_);
   add_time(ms, Stage::kVertexStep, vertex_step_);
   add_time(ms, Stage::kBvhRays, ray_step_);
-  for (Kernel* kernel : {&gather_crossings_, &edge_contacts_})
-    add_time(ms, Stage::kEdgeContacts, *kernel);
-  for (Kernel* kernel : {&place_, &gather_, &reduce_}) add_time(ms, Stage::kContactStep, *kernel);
+  if (assembly_) {
+    for (Kernel* kernel : {&assembly_->gather_crossings, &assembly_->edge_contacts})
+      add_time(ms, Stage::kEdgeContacts, *kernel);
+    for (Kernel* kernel : {&assembly_->place, &assembly_->gather, &assembly_->reduce})
+      add_time(ms, Stage::kContactStep, *kernel);
+  }
   if (whole_.has_value()) add_time(ms, Stage::kWholeStep, *whole_);
 }
 

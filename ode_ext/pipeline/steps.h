@@ -13,8 +13,9 @@ namespace ode_ext {
 
 class Steps {
  public:
-  // has_whole: the program was built for a whole step too.
-  Steps(Program& program, bool has_whole);
+  // has_whole: the program was built for a whole step too. assembles: what becomes of hits and
+  // crossings is its own affair, and not that of separating planes (plane_assembly.h).
+  Steps(Program& program, bool has_whole, bool assembles = true);
 
   // Which pairs overlap: kernels/pair_step.cl.
   void relate(Launch per_pair, const StepData& data);
@@ -38,8 +39,13 @@ class Steps {
   void take_milliseconds(StageTimes& ms);
 
  private:
-  Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_, place_, gather_,
-      gather_crossings_, edge_contacts_, reduce_;
+  struct Assembly {
+    explicit Assembly(Program& program);
+    Kernel place, gather, gather_crossings, edge_contacts, reduce;
+  };
+
+  Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_;
+  std::optional<Assembly> assembly_;
   std::optional<Kernel> whole_;
 };
 

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Candidates for contacts: where a plane parts a region, and how deep. Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
+#define ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
+
+#include "contacts/units.h"
+
+// The candidates of a pair, as they come.
+typedef struct {
+  const ox_region_view* region;
+  __global ox_candidate* candidates;  // the first of the pair's
+  __global uint* count;
+  uint manifold;
+} ox_manifold;
+
+static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice* choice, uint side,
+                                    float3 position, float depth, uint kind, uint source,
+                                    uint target) {
+  __global ox_candidate* c = m->candidates + atomic_inc(m->count);
+  vstore3(position, 0, c->position);
+  vstore3(choice->plane.normal, 0, c->normal);
+  c->depth = depth;
+  c->side_kind = (side != 0u ? OX_HIT_SIDE : 0u) | kind;
+  c->vertex = source;
+  c->triangle = target;
+  c->manifold = m->manifold;
+  c->distance2 = INFINITY;
+  c->region = m->region->index;
+  c->taken = 0u;
+}
+
+// Whether a crossing lies on the facet of the plane: on the rim, where the body comes out.
+static inline bool ox_is_on_rim(const ox_region_view* r, __global const ox_feature* f,
+                                const ox_plane* plane) {
+  if (ox_is_vertex(f->flags) || plane->kind == OX_PLANE_EDGES) return false;
+  __global const uint* facets = r->scene->facets;
+  const uint facet = facets[plane->id[0]];
+  const uint of = plane->kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
+  if (ox_side_of(f->flags) != of) return facets[f->triangle] == facet;
+  return facets[f->at[0]] == facet || (f->at[1] != OX_NONE && facets[f->at[1]] == facet);
+}
+
+static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_choice* choice,
+                                          __global const ox_feature* f) {
+  const uint of = choice->plane.kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
+  const uint side = 1u - of;  // that moves past the plane
+  const float3 position = vload3(0, f->position);
+  const float depth = ox_plane_depth(&choice->plane, side, position);
+  // Where a crossing lies depends on how much larger A was made.
+  const float grown = OX_INFLATION * m->region->scene->pairs[m->region->pair].epsilon;
+  __global const uint* facets = m->region->scene->facets;
+  // Of the triangles of a facet the one that it met.
+  const bool met = f->triangle != OX_NONE && ox_side_of(f->flags) == side &&
+                   facets[f->triangle] == facets[choice->plane.id[0]];
+  const uint target = met ? f->triangle : choice->plane.id[0];
+  if (ox_is_vertex(f->flags))
+    ox_add_candidate(m, choice, side, position, ox_max(depth, 0.0f), 0u, f->source, target);
+  else
+    ox_add_candidate(m, choice, side, position, ox_max(depth - grown, 0.0f), OX_HIT_POINT,
+                     ox_side_of(f->flags) == side ? f->at[0] : f->triangle, target);
+}
+
+// The stretch of an edge that is in the region, in parts of it; false: none is.
+static inline bool ox_find_stretch(const ox_region_view* r, uint side, uint code,
+                                   const ox_ridge* ridge, float* first, float* last) {
+  const float3 d = ridge->to - ridge->from;
+  *first = 1.0f;
+  *last = 0.0f;
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = r->features + r->members[k].feature;
+    if (ox_side_of(f->flags) != side) continue;
+    const float3 position = vload3(0, f->position);
+    const bool there = ox_is_vertex(f->flags)
+                           ? ox_is_at(position, ridge->from) || ox_is_at(position, ridge->to)
+                           : (f->at[0] == ridge->face[0] || f->at[1] == ridge->face[0]) &&
+                                 ox_code_of_edge(r->scene, r->pair, side, f->source) == code;
+    if (!there) continue;
+    const float part = clamp(ox_dot(position - ridge->from, d) / ox_dot(d, d), 0.0f, 1.0f);
+    *first = ox_min(*first, part);
+    *last = ox_max(*last, part);
+  }
+  return *first <= *last;
+}
+
+// The point of mesh `side` in the region that is farthest past a plane; false: the region has none,
+// as of what contains the other mesh.
+static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 normal,
+                                    float3* point) {
+  const float3 past = side == 0u ? -normal : normal;
+  uint best = OX_NONE;
+  float farthest = -INFINITY;
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = r->features + r->members[k].feature;
+    const float here = ox_dot(past, vload3(0, f->position));
+    if (!ox_is_on(f->flags, side) || here < farthest ||
+        (here == farthest && !ox_is_before(f, r->features + best)))
+      continue;
+    farthest = here;
+    best = r->members[k].feature;
+  }
+  if (best == OX_NONE) return false;
+  *point = vload3(0, r->features[best].position);
+  return true;
+}
+
+// Two edges: midway between them, where they pass one another seen along their normal.
+static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choice* choice) {
+  const ox_region_view* r = m->region;
+  const ox_ridge ridge_a = ox_ridge_of(r->scene, r->pair, 0u, choice->plane.id[0]);
+  const ox_ridge ridge_b = ox_ridge_of(r->scene, r->pair, 1u, choice->plane.id[1]);
+  const float3 a = ridge_a.from;
+  const float3 b = ridge_b.from;
+  const float3 u = ridge_a.to - a;
+  const float3 v = ridge_b.to - b;
+  const float3 n = choice->plane.normal;
+  const float area = ox_dot(ox_plain_cross(u, v), n);
+  const float3 d = b - a;
+  float first, last;
+  float3 on_a = (float3)(0.0f);
+  float3 on_b = (float3)(0.0f);
+  bool any_a = true;
+  bool any_b = true;
+  if (ox_find_stretch(r, 0u, choice->plane.id[0], &ridge_a, &first, &last))
+    on_a = a + clamp(ox_dot(ox_plain_cross(d, v), n) / area, first, last) * u;
+  else
+    any_a = ox_find_farthest(r, 0u, n, &on_a);
+  if (ox_find_stretch(r, 1u, choice->plane.id[1], &ridge_b, &first, &last))
+    on_b = b + clamp(ox_dot(ox_plain_cross(d, u), n) / area, first, last) * v;
+  else
+    any_b = ox_find_farthest(r, 1u, n, &on_b);
+  if (!any_a) on_a = on_b;
+  if (!any_b) on_b = on_a;
+  ox_add_candidate(m, choice, 0u, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT,
+                   ridge_a.face[0], ridge_b.face[0]);
+}
+
+// Contacts of all of a whole region.
+static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* choice) {
+  const ox_region_view* r = m->region;
+  if (choice->plane.kind == OX_PLANE_NONE) return;
+  if (choice->plane.kind == OX_PLANE_EDGES) {
+    ox_add_edge_contact(m, choice);
+    return;
+  }
+  const uint side = choice->plane.kind == OX_PLANE_FACE_OF_A ? 1u : 0u;
+  bool any = false;
+  for (uint pass = 0u; pass < 2u && !any; ++pass)  // those on the rim only if there are no others
+    for (uint k = 0u; k < r->count; ++k) {
+      __global const ox_feature* f = r->features + r->members[k].feature;
+      if (!ox_is_on(f->flags, side) || (f->flags & OX_FEATURE_FLAT) != 0u ||
+          ox_is_on_rim(r, f, &choice->plane) != (pass == 1u))
+        continue;
+      ox_add_feature_contact(m, choice, f);
+      any = true;
+    }
+}
+
+// Contacts of the units that a plane has cleared just now.
+static inline void ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
+                                  __global const ox_feature* f) {
+  for (uint end = 0u; end < 2u; ++end) {
+    if (end == 1u) {
+      if (ox_is_vertex(f->flags) || f->partner == OX_NONE) return;
+      f = m->region->features + f->partner;
+      if (ox_is_vertex(f->flags)) return;  // a unit of its own
+    }
+    if (!ox_is_on_rim(m->region, f, &choice->plane)) ox_add_feature_contact(m, choice, f);
+  }
+}
+
+#endif
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Choose: by which planes does each region of overlap part, and where are its contacts?
+//
+// A region is whole where neither mesh has a valley in it, or where it is all of a part that is
+// inside: then the least plane that clears all of it is the way out. Elsewhere its units, vertices
+// and chords, are cleared one by one, the deepest first, and each plane clears what it can.
+//
+// in    regions, members, planes, features
+// out   candidates for contacts of each pair, and their number
+// item  1 region (of a queue)
+// may overflow: none; a feature makes one candidate at most
+#ifdef OX_PLANES
+#include "contacts/candidates.h"
+
+#define OX_MOST_PLANES 16u
+
+static void ox_choose_parts(ox_manifold* m) {
+  const ox_region_view* r = m->region;
+  uint chosen[OX_MOST_PLANES];
+  ox_measure_units(r);
+  for (uint count = 0u; count < OX_MOST_PLANES; ++m->manifold) {
+    const uint seed = ox_deepest_unit(r);
+    if (seed == OX_NONE) return;
+    uint index = OX_NONE;
+    const ox_plane_choice choice = ox_choose_for(r, seed, &index);
+    r->members[seed].state = OX_UNIT_CLEARED;
+    if (choice.plane.kind == OX_PLANE_NONE) continue;
+    chosen[count++] = index;
+    if (choice.plane.kind == OX_PLANE_EDGES)
+      ox_add_edge_contact(m, &choice);
+    else
+      ox_add_feature_contact(m, &choice, r->features + r->members[seed].feature);
+    for (uint k = 0u; k < r->count; ++k) {
+      if (r->members[k].state != OX_UNIT_WAITING) continue;
+      const ox_plane_choice by = ox_clears(r, k, &choice, chosen, count);
+      if (by.plane.kind == OX_PLANE_NONE) continue;
+      r->members[k].state = OX_UNIT_CLEARED;
+      if (by.plane.kind != OX_PLANE_EDGES)
+        ox_add_cleared(m, &by, r->features + r->members[k].feature);
+    }
+  }
+}
+
+// A sheet has no inside: what is behind it is what its ray meets it for, on whichever side. Each
+// vertex is cleared by the face that it is behind. Where there is none, the edge that goes through
+// with its shorter end the least is drawn back.
+static void ox_choose_sheet(ox_manifold* m) {
+  const ox_region_view* r = m->region;
+  bool any = false;
+  uint best = OX_NONE;
+  ox_plane_choice least = ox_no_choice();
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = r->features + r->members[k].feature;
+    if (f->triangle == OX_NONE) continue;
+    const uint side = ox_side_of(f->flags);
+    ox_plane_choice choice;
+    choice.plane = ox_plane_of_face(r->scene, r->pair, 1u - side, f->triangle);
+    if (choice.plane.kind == OX_PLANE_NONE) continue;
+    if (ox_is_vertex(f->flags)) {
+      const float3 position = vload3(0, f->position);
+      float depth = ox_plane_depth(&choice.plane, side, position);
+      const bool reversed = (f->flags & OX_FEATURE_REVERSED) != 0u;
+      if (reversed) {
+        depth = -depth;
+        choice.plane.normal = -choice.plane.normal;
+      }
+      ox_add_candidate(m, &choice, side, position, ox_max(depth, 0.0f),
+                       reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle);
+      ++m->manifold;
+      any = true;
+      continue;
+    }
+    __global const ox_mesh* target = r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
+    if ((target->flags & OX_MESH_CLOSED) != 0u) continue;
+    __global const ox_edge* edge = r->scene->edges + f->source;
+    const float3 from = ox_vertex_of(r->scene, r->pair, side, edge->vertex[0]);
+    const float3 to = ox_vertex_of(r->scene, r->pair, side, edge->vertex[1]);
+    const float3 d = to - from;
+    float depth =
+        ox_plane_depth(&choice.plane, side, f->t * f->t < 0.25f * ox_dot(d, d) ? from : to);
+    if (depth < 0.0f) {
+      depth = -depth;
+      choice.plane.normal = -choice.plane.normal;
+    }
+    choice.plane.id[1] = f->source;  // of one face the first edge
+    choice.depth = choice.judged = ox_min(depth, target->reach);
+    if (!ox_is_better_choice(&choice, &least)) continue;
+    least = choice;
+    best = k;
+  }
+  if (any || best == OX_NONE) return;
+  __global const ox_feature* f = r->features + r->members[best].feature;
+  ox_add_candidate(m, &least, ox_side_of(f->flags), vload3(0, f->position), least.depth,
+                   OX_HIT_POINT, f->at[0], f->triangle);
+}
+
+__kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* features,
+                            __global const ox_region* regions, __global ox_member* members,
+                            __global const ox_face* faces, __global ox_plane_record* planes,
+                            __global ox_candidate* candidates) {
+  const ox_scene scene = OX_SCENE;
+  const uint region_count = counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
+  for (uint i = ox_next_item(&scene, OX_QUEUE_REGIONS); i < region_count;
+       i = ox_next_item(&scene, OX_QUEUE_REGIONS)) {
+    ox_region_view view;
+    view.scene = &scene;
+    view.index = i;
+    view.pair = regions[i].pair;
+    view.count = regions[i].count;
+    view.flags = regions[i].flags;
+    view.plane_count = regions[i].planes;
+    view.features = features;
+    view.members = members + regions[i].first;
+    view.faces = faces;
+    view.planes = planes + OX_PLANES_PER_FEATURE * regions[i].first;
+    ox_manifold manifold;
+    manifold.region = &view;
+    manifold.candidates = candidates + found[view.pair].first;
+    manifold.count = &found[view.pair].candidates;
+    manifold.manifold = i * OX_MOST_PLANES;
+    const uint mesh_flags =
+        meshes[pairs[view.pair].mesh[0]].flags | meshes[pairs[view.pair].mesh[1]].flags;
+    if ((mesh_flags & OX_MESH_TWO_SIDED) != 0u) {
+      ox_choose_sheet(&manifold);
+    } else if ((view.flags & (OX_REGION_CROSSED | OX_REGION_VALLEY)) ==
+               (OX_REGION_CROSSED | OX_REGION_VALLEY)) {
+      ox_choose_parts(&manifold);
+    } else {
+      const ox_plane_choice choice = ox_choose_whole(&view);
+      if (choice.plane.kind == OX_PLANE_NONE)
+        ox_choose_parts(&manifold);
+      else
+        ox_add_whole(&manifold, &choice);
+    }
+  }
+}
+#endif

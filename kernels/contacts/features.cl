@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Features: what the surfaces of each pair have in common, and the regions they form. Two features
+// are of one region that follow one another along the curve in which the surfaces meet, or along
+// an edge inside the other mesh.  in    crossings, hits: the vertices inside out   features;
+// regions, their members and planes room  slots, faces: tables (contacts/feature_table.h,
+// contacts/face_table.h) item  1 feature (grid-stride); of feature_place 1 pair may overflow:
+// none; all go by the number of crossings and hits
+#ifdef OX_PLANES
+#include "contacts/face_table.h"
+#include "contacts/feature_table.h"
+#include "contacts/plane.h"
+
+// out: features, each a region of its own; found: how many each pair has.
+__kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
+                             __global const ox_hit* hits, __global ox_feature* features) {
+  const ox_scene scene = OX_SCENE;
+  const uint crossed = ox_crossing_count(&scene);
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    ox_feature f;
+    f.parent = i;
+    f.next = OX_NONE;
+    f.partner = OX_NONE;
+    f.at[0] = f.at[1] = OX_NONE;
+    f.mate[0] = f.mate[1] = OX_NONE;
+    f.region = OX_NONE;
+    float3 position;
+    if (i < crossed) {
+      const ox_edge_crossing crossing = crossings[i];
+      const uint side = crossing.pair_side & 1u;
+      f.pair = crossing.pair_side >> 1;
+      f.flags = side | (crossing.leaves != 0u ? OX_FEATURE_LEAVES : 0u);
+      f.source = crossing.edge;
+      f.triangle = crossing.triangle;
+      f.t = crossing.t;
+      f.at[0] = edges[crossing.edge].triangle[0];
+      f.at[1] = edges[crossing.edge].triangle[1];
+      if (ox_is_flat_edge(&scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
+      if (ox_is_valley(&scene, f.pair, crossing.edge)) f.flags |= OX_FEATURE_VALLEY;
+      const float3 p = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[0]);
+      const float3 d = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[1]) - p;
+      const float length = sqrt(ox_dot(d, d));
+      position = p + (length > 0.0f ? crossing.t / length : 0.0f) * d;
+    } else {
+      __global const ox_hit* hit = hits + (i - crossed);
+      const uint side = hit->pair_side & 1u;
+      f.pair = hit->pair_side >> 1;
+      f.flags = side | OX_FEATURE_VERTEX | OX_FEATURE_FLAT |
+                ((hit->kind & OX_HIT_REVERSED) != 0u ? OX_FEATURE_REVERSED : 0u);
+      f.source = hit->vertex;
+      f.triangle = hit->triangle;
+      f.t = 0.0f;
+      for (uint k = ring_starts[hit->vertex]; k < ring_starts[hit->vertex + 1u]; ++k) {
+        if (!ox_is_flat_edge(&scene, rings[k].edge)) f.flags &= ~OX_FEATURE_FLAT;
+        if (ox_is_valley(&scene, f.pair, rings[k].edge)) f.flags |= OX_FEATURE_VALLEY;
+      }
+      position = ox_vertex_of(&scene, f.pair, side, hit->vertex);
+    }
+    vstore3(position, 0, f.position);
+    features[i] = f;
+    atomic_inc(&found[f.pair].features);
+  }
+}
+
+// out: found, where the features of each pair are to start; slots and faces, empty. item: 1 pair.
+__kernel void feature_place(OX_SCENE_PARAMETERS, __global uint* slots, __global ox_face* faces) {
+  const ox_scene scene = OX_SCENE;
+  const uint stride = (uint)get_global_size(0);
+  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
+    const uint count = found[p].features;
+    if (count == 0u) continue;
+    const uint first = ox_take_room(&scene, OX_COUNTER_FEATURES, count);
+    found[p].first = first;
+    for (uint i = 0u; i < OX_SLOTS_PER_FEATURE * count; ++i)
+      slots[OX_SLOTS_PER_FEATURE * first + i] = OX_NONE;
+    for (uint i = 0u; i < OX_FACES_PER_FEATURE * count; ++i) {
+      __global ox_face* face = faces + OX_FACES_PER_FEATURE * first + i;
+      face->entry = OX_NONE;
+      face->triangle = OX_NONE;
+      face->crossed = 0u;
+      face->plane = OX_NONE;
+    }
+  }
+}
+
+// The root of a tree of features. Others may hang trees on meanwhile; halves the way for the next.
+static uint ox_root_of(__global volatile ox_feature* features, uint i) {
+  for (;;) {
+    const uint parent = features[i].parent;
+    if (parent == i) return i;
+    const uint above = features[parent].parent;
+    if (above != parent) atomic_cmpxchg(&features[i].parent, parent, above);
+    i = above;
+  }
+}
+
+// Trees hang on the lesser root: which that is in the end does not depend on the order.
+static void ox_unite(__global volatile ox_feature* features, uint a, uint b) {
+  for (;;) {
+    a = ox_root_of(features, a);
+    b = ox_root_of(features, b);
+    if (a == b) return;
+    const uint above = min(a, b);
+    const uint below = max(a, b);
+    if (atomic_cmpxchg(&features[below].parent, below, above) == below) return;
+  }
+}
+
+// out: slots; chains of the crossings of each edge; neighbours along the curve are united.
+__kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global uint* slots) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    __global ox_feature* f = features + i;
+    if (ox_is_vertex(f->flags)) {
+      ox_add_feature(&scene, features, slots, i << 2 | OX_ENTRY_VERTEX);
+      continue;
+    }
+    const uint of_edge = ox_add_feature(&scene, features, slots, i << 2 | OX_ENTRY_EDGE);
+    if (of_edge != OX_NONE) f->next = atomic_xchg(&features[of_edge >> 2].next, i);
+    for (uint k = 0u; k < 2u; ++k) {
+      if (f->at[k] == OX_NONE) continue;
+      const uint other = ox_add_feature(&scene, features, slots, i << 2 | k);
+      if (other == OX_NONE) continue;
+      const uint mate = other >> 2;
+      if (ox_side_of(features[mate].flags) != ox_side_of(f->flags)) {
+        f->mate[k] = mate;
+        features[mate].mate[other & 3u] = i;
+      }
+      ox_unite(features, i, mate);
+    }
+  }
+}
+
+// The feature at the other end of the stretch of the edge inside: the next crossing if one follows
+// on that side, to within what rounding may have moved them, else the vertex.
+static uint ox_find_partner(const ox_scene* scene, __global const ox_feature* features,
+                            __global const uint* slots, __global const ox_edge_crossing* crossings,
+                            uint i) {
+  __global const ox_feature* f = features + i;
+  const uint side = ox_side_of(f->flags);
+  const bool leaves = (f->flags & OX_FEATURE_LEAVES) != 0u;
+  uint best = OX_NONE;
+  float nearest = INFINITY;
+  uint n = ox_find_feature(scene, features, slots, ox_edge_key(f->pair, side, f->source)) >> 2;
+  for (; n != OX_NONE; n = features[n].next) {
+    __global const ox_feature* other = features + n;
+    if (((other->flags & OX_FEATURE_LEAVES) != 0u) == leaves) continue;
+    // It leaves after it entered; of those at one place the lowest triangle.
+    const float after = leaves ? f->t - other->t : other->t - f->t;
+    if (after < -(crossings[i].blur + crossings[n].blur)) continue;
+    if (after > nearest || (after == nearest && other->triangle > features[best].triangle))
+      continue;
+    nearest = after;
+    best = n;
+  }
+  if (best != OX_NONE) return best;
+  const uint vertex = scene->edges[f->source].vertex[leaves ? 0u : 1u];
+  const uint entry = ox_find_feature(scene, features, slots, ox_inside_key(f->pair, side, vertex));
+  return entry == OX_NONE ? OX_NONE : entry >> 2;
+}
+
+// out: partners; what follows one another along an edge is united.
+__kernel void feature_join(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
+                           __global ox_feature* features, __global const uint* slots) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    __global ox_feature* f = features + i;
+    if (!ox_is_vertex(f->flags)) {
+      f->partner = ox_find_partner(&scene, features, slots, crossings, i);
+      if (f->partner != OX_NONE) ox_unite(features, i, f->partner);
+      continue;
+    }
+    const uint side = ox_side_of(f->flags);
+    for (uint k = ring_starts[f->source]; k < ring_starts[f->source + 1u]; ++k) {
+      const ox_neighbour neighbour = rings[k];
+      if (neighbour.vertex < f->source) continue;  // it asks too
+      if (ox_find_feature(&scene, features, slots, ox_edge_key(f->pair, side, neighbour.edge)) !=
+          OX_NONE)
+        continue;
+      const uint entry =
+          ox_find_feature(&scene, features, slots, ox_inside_key(f->pair, side, neighbour.vertex));
+      if (entry != OX_NONE) ox_unite(features, i, entry >> 2);
+    }
+  }
+}
+
+// out: regions, without their members.
+__kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global ox_region* regions) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    if (features[i].parent != i) continue;
+    const uint r = ox_take_room(&scene, OX_COUNTER_REGIONS, 1u);
+    regions[r].pair = features[i].pair;
+    regions[r].count = 0u;
+    regions[r].placed = 0u;
+    regions[r].flags = 0u;
+    regions[r].planes = 0u;
+    features[i].region = r;
+  }
+}
+
+// out: how many members each region has, and what they say of it.
+__kernel void region_count(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global ox_region* regions) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    const uint flags = features[i].flags;
+    const uint region = features[ox_root_of(features, i)].region;
+    features[i].region = region;
+    atomic_inc(&regions[region].count);
+    const uint says = (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED) |
+                      ((flags & OX_FEATURE_VALLEY) != 0u ? OX_REGION_VALLEY : 0u);
+    if ((regions[region].flags & says) != says) atomic_or(&regions[region].flags, says);
+  }
+}
+
+// out: where the members of each region start, among those of its pair. item: 1 region.
+__kernel void region_place(OX_SCENE_PARAMETERS, __global ox_region* regions) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
+  const uint stride = (uint)get_global_size(0);
+  for (uint r = (uint)get_global_id(0); r < count; r += stride) {
+    __global ox_found* of_pair = scene.found + regions[r].pair;
+    regions[r].first = of_pair->first + atomic_add(&of_pair->placed, regions[r].count);
+  }
+}
+
+// out: members of each region, in any order; the table of faces that are planes for it.
+__kernel void region_fill(OX_SCENE_PARAMETERS, __global const ox_feature* features,
+                          __global ox_region* regions, __global ox_member* members,
+                          __global ox_face* faces) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    __global const ox_feature* f = features + i;
+    __global ox_region* region = regions + f->region;
+    const uint partner = f->partner;
+    const bool flat = (f->flags & OX_FEATURE_FLAT) != 0u;
+    // A chord between two crossings begins where it enters.
+    const bool begins = ox_is_vertex(f->flags) || (f->flags & OX_FEATURE_LEAVES) == 0u ||
+                        partner == OX_NONE || ox_is_vertex(features[partner].flags);
+    float3 end = vload3(0, partner == OX_NONE ? f->position : features[partner].position);
+    __global const ox_mesh* target = meshes + pairs[f->pair].mesh[1u - ox_side_of(f->flags)];
+    // Inside a closed mesh; behind an open one it is not known how far.
+    if (partner == OX_NONE && !ox_is_vertex(f->flags) && (target->flags & OX_MESH_CLOSED) != 0u)
+      end = ox_vertex_of(&scene, f->pair, ox_side_of(f->flags),
+                         edges[f->source].vertex[(f->flags & OX_FEATURE_LEAVES) != 0u ? 0 : 1]);
+    __global ox_member* m = members + region->first + atomic_inc(&region->placed);
+    vstore3(vload3(0, f->position), 0, m->position);
+    m->feature = i;
+    vstore3(end, 0, m->end);
+    m->flags = f->flags;
+    m->state = begins && !flat ? OX_UNIT_WAITING : OX_UNIT_NONE;
+    m->least = INFINITY;
+    if (flat) continue;
+    if (f->triangle != OX_NONE) ox_add_face(&scene, features, faces, i << 2 | OX_FACE_OPPOSITE);
+    if (ox_is_vertex(f->flags)) continue;
+    ox_add_face(&scene, features, faces, i << 2 | OX_FACE_FIRST);
+    if (f->at[1] != OX_NONE) ox_add_face(&scene, features, faces, i << 2 | OX_FACE_SECOND);
+  }
+}
+
+// Puts a plane among those of a region, and says where; OX_NONE: it is none.
+static uint ox_add_plane(__global ox_region* region, __global ox_plane_record* planes,
+                         const ox_plane* plane, uint crossed) {
+  if (plane->kind == OX_PLANE_NONE) return OX_NONE;
+  const uint place = atomic_inc(&region->planes);
+  __global ox_plane_record* record = planes + OX_PLANES_PER_FEATURE * region->first + place;
+  vstore3(plane->normal, 0, record->normal);
+  record->top = plane->top;
+  record->bottom = plane->bottom;
+  record->kind = plane->kind | (crossed != 0u ? OX_PLANE_CROSSED : 0u);
+  record->id[0] = plane->id[0];
+  record->id[1] = plane->id[1];
+  record->beyond = -1.0f;
+  return place;
+}
+
+// in: faces; features, with their mates. out: planes of each region, in any order; faces and
+// features: which their planes are, in place of mates. item: 1 place in the table of faces, 1
+// feature.
+__kernel void region_propose(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                             __global ox_region* regions, __global ox_face* faces,
+                             __global ox_plane_record* planes) {
+  const ox_scene scene = OX_SCENE;
+  const uint count = ox_feature_count(&scene);
+  const uint stride = (uint)get_global_size(0);
+  for (uint i = (uint)get_global_id(0); i < OX_FACES_PER_FEATURE * count; i += stride) {
+    if (faces[i].entry == OX_NONE) continue;
+    const ox_face_key key = ox_face_key_of(&scene, features, faces[i].entry);
+    const uint pair = features[faces[i].entry >> 2].pair;
+    const ox_plane plane = ox_plane_of_face(&scene, pair, key.side, faces[i].triangle);
+    faces[i].plane = ox_add_plane(regions + key.region, planes, &plane, faces[i].crossed);
+  }
+  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+    __global ox_feature* f = features + i;
+    // Of two crossings that share a pair of triangles that of A proposes their edges.
+    if (ox_is_vertex(f->flags) || ox_side_of(f->flags) != 0u) continue;
+    for (uint k = 0u; k < 2u; ++k) {
+      if (f->mate[k] == OX_NONE) continue;
+      __global ox_feature* mate = features + f->mate[k];
+      uint place = OX_NONE;
+      if (((f->flags | mate->flags) & OX_FEATURE_FLAT) == 0u) {
+        const ox_plane plane =
+            ox_plane_of_edges(&scene, f->pair, ox_code_of_edge(&scene, f->pair, 0u, f->source),
+                              ox_code_of_edge(&scene, f->pair, 1u, mate->source));
+        place = ox_add_plane(regions + f->region, planes, &plane, 0u);
+      }
+      mate->mate[f->triangle == mate->at[0] ? 0u : 1u] = place;
+      f->mate[k] = place;
+    }
+  }
+}
+#endif

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Separating planes (docs/contacts.md): a face of either mesh, or the common normal of two edges.
+// In the frame of B. Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_PLANE_H
+#define ODE_EXT_KERNELS_CONTACTS_PLANE_H
+
+#include "contacts/feature.h"
+#include "shared/meshlet_tree.h"
+
+#define OX_PLANE_FACE_OF_A 0u
+#define OX_PLANE_FACE_OF_B 1u
+#define OX_PLANE_EDGES 2u
+#define OX_PLANE_NONE 3u
+#define OX_PLANE_CROSSED 4u  // of a record: the curve in which the surfaces meet runs over the face
+
+typedef struct {
+  uint kind;      // OX_PLANE_...
+  uint id[2];     // of a face: its triangle, 0; else the edges, of A and of B (ox_ridge)
+  float3 normal;  // unit, the way A is moved
+  float top;      // [m] along it, to where what of A is below has to rise
+  float bottom;   // to where what of B is above has to sink
+} ox_plane;
+
+static inline ox_plane ox_no_plane(void) {
+  ox_plane plane;
+  plane.kind = OX_PLANE_NONE;
+  plane.id[0] = plane.id[1] = OX_NONE;
+  plane.normal = (float3)(0.0f);
+  plane.top = plane.bottom = 0.0f;
+  return plane;
+}
+
+static inline float3 ox_corner(__global const ox_triangle* t, uint k) {
+  return vload3(0, k == 0u ? t->a : k == 1u ? t->b : t->c);
+}
+
+static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint side,
+                                        uint triangle) {
+  const float3 normal = ox_normal_of(scene, pair, side, triangle);
+  ox_plane plane;
+  plane.kind = side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B;
+  plane.id[0] = triangle;
+  plane.id[1] = 0u;
+  plane.normal = side == 0u ? -normal : normal;
+  // The highest of its corners, whichever comes first.
+  __global const ox_triangle* t = scene->surfaces.triangles + triangle;
+  float height = -INFINITY;
+  for (uint k = 0u; k < 3u; ++k)
+    height = ox_max(height, ox_dot(normal, ox_in_b(scene, pair, side, ox_corner(t, k))));
+  plane.top = plane.bottom = side == 0u ? -height : height;
+  if (ox_dot(normal, normal) == 0.0f) plane.kind = OX_PLANE_NONE;  // of no area
+  return plane;
+}
+
+// Whether points of mesh `side` are below it, or above: whether it clears them.
+static inline bool ox_clears_side(const ox_plane* plane, uint side) {
+  return plane->kind == OX_PLANE_EDGES ||
+         plane->kind == (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A);
+}
+
+// How deep a point of mesh `side` is below it [m]; of B: above it.
+static inline float ox_plane_depth(const ox_plane* plane, uint side, float3 p) {
+  const float height = ox_dot(plane->normal, p);
+  return side == 0u ? plane->top - height : height - plane->bottom;
+}
+
+// An edge, as a side of the first of its triangles: 3 * triangle + k runs from corner k on.
+typedef struct {
+  float3 from, to;
+  uint face[2];  // the second is OX_NONE at a border
+} ox_ridge;
+
+static inline uint ox_across(__global const ox_triangle* t, uint k) {
+  return k == 0u ? t->across_ab : k == 1u ? t->across_bc : t->across_ca;
+}
+
+static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, uint code) {
+  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
+  __global const ox_triangle* t = scene->surfaces.triangles + code / 3u;
+  const uint across = ox_across(t, code % 3u);
+  ox_ridge ridge;
+  ridge.from = ox_in_b(scene, pair, side, ox_corner(t, code % 3u));
+  ridge.to = ox_in_b(scene, pair, side, ox_corner(t, (code + 1u) % 3u));
+  ridge.face[0] = code / 3u;
+  ridge.face[1] = across == OX_NONE ? OX_NONE : mesh->triangle_first + across;
+  return ridge;
+}
+
+static inline bool ox_is_at(float3 a, float3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+// Side k of a triangle, as a side of the first of those at it.
+static inline uint ox_code_of_side(const ox_scene* scene, uint pair, uint side, uint triangle,
+                                   uint k) {
+  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
+  __global const ox_triangle* t = scene->surfaces.triangles + triangle;
+  const uint across = ox_across(t, k);
+  if (across == OX_NONE || mesh->triangle_first + across > triangle) return 3u * triangle + k;
+  __global const ox_triangle* other = scene->surfaces.triangles + mesh->triangle_first + across;
+  for (uint i = 0u; i < 3u; ++i)  // it runs the other way there
+    if (ox_is_at(ox_corner(other, i), ox_corner(t, (k + 1u) % 3u)) &&
+        ox_is_at(ox_corner(other, (i + 1u) % 3u), ox_corner(t, k)))
+      return 3u * (mesh->triangle_first + across) + i;
+  return 3u * triangle + k;
+}
+
+static inline uint ox_code_of_edge(const ox_scene* scene, uint pair, uint side, uint edge) {
+  __global const ox_edge* e = scene->edges + edge;
+  const float3 p = vload3(0, scene->vertices[e->vertex[0]].position);
+  const float3 q = vload3(0, scene->vertices[e->vertex[1]].position);
+  __global const ox_triangle* t = scene->surfaces.triangles + e->triangle[0];
+  uint k = 0u;
+  for (; k < 2u; ++k) {
+    const float3 a = ox_corner(t, k);
+    const float3 b = ox_corner(t, k + 1u);
+    if ((ox_is_at(a, p) && ox_is_at(b, q)) || (ox_is_at(a, q) && ox_is_at(b, p))) break;
+  }
+  return ox_code_of_side(scene, pair, side, e->triangle[0], k);
+}
+
+// The sum of the normals of the faces at an edge.
+static inline float3 ox_ridge_normal(const ox_scene* scene, uint pair, uint side,
+                                     const ox_ridge* ridge) {
+  const float3 first = ox_normal_of(scene, pair, side, ridge->face[0]);
+  return ridge->face[1] == OX_NONE ? first
+                                   : first + ox_normal_of(scene, pair, side, ridge->face[1]);
+}
+
+// Whether the faces at an edge are behind the plane with normal n through it.
+static inline bool ox_edge_supports(const ox_scene* scene, uint pair, uint side,
+                                    const ox_ridge* ridge, float3 n, float height,
+                                    float tolerance) {
+  for (uint k = 0u; k < 2u; ++k) {
+    if (ridge->face[k] == OX_NONE) continue;
+    __global const ox_triangle* t = scene->surfaces.triangles + ridge->face[k];
+    for (uint corner = 0u; corner < 3u; ++corner)
+      if (ox_dot(n, ox_in_b(scene, pair, side, ox_corner(t, corner))) > height + tolerance)
+        return false;
+  }
+  return true;
+}
+
+// Edges that differ less than this have no common normal that floats could tell [radians].
+#define OX_PARALLEL 0.01f
+
+// Of an edge of A and one of B; OX_PLANE_NONE: they do not support it.
+static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint code_a,
+                                         uint code_b) {
+  ox_plane plane = ox_no_plane();
+  const ox_ridge a = ox_ridge_of(scene, pair, 0u, code_a);
+  const ox_ridge b = ox_ridge_of(scene, pair, 1u, code_b);
+  const float3 d = a.to - a.from;
+  const float3 e = b.to - b.from;
+  // Of unit length each: products of four lengths overflow long before lengths do.
+  const float3 u = d / sqrt(ox_dot(d, d));
+  const float3 v = e / sqrt(ox_dot(e, e));
+  const float3 n = ox_plain_cross(u, v);
+  const float sine2 = ox_dot(n, n);
+  if (!(sine2 > OX_PARALLEL * OX_PARALLEL)) return plane;  // or an edge has no length
+  const bool outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, &b)) >= 0.0f;
+  plane.normal = (outward ? n : -n) / sqrt(sine2);
+  plane.top = ox_dot(plane.normal, b.from);
+  plane.bottom = ox_dot(plane.normal, a.from);
+  const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;
+  if (plane.top < plane.bottom ||
+      !ox_edge_supports(scene, pair, 1u, &b, plane.normal, plane.top, tolerance) ||
+      !ox_edge_supports(scene, pair, 0u, &a, -plane.normal, -plane.bottom, tolerance))
+    return plane;
+  plane.kind = OX_PLANE_EDGES;
+  plane.id[0] = code_a;
+  plane.id[1] = code_b;
+  return plane;
+}
+
+// The farthest that mesh `side` reaches along a direction of the frame of B [m].
+static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, float3 direction) {
+  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
+  const float3 d = side == 0u ? ox_turn(scene->pairs + pair, 1u, direction) : direction;
+  float farthest = -INFINITY;
+  ox_box_walk walk = ox_begin_box_walk(mesh);
+  while (walk.count != 0u) {
+    const uint child = walk.child[--walk.count];
+    if ((child & OX_CHILD_MESHLET) != 0u) {
+      __global const ox_meshlet* m = scene->surfaces.meshlets + mesh->meshlet_first + (child >> 1);
+      for (uint block = 0u; block < OX_BLOCKS; ++block) {
+        const ox_floats along = d.x * ox_load(block, m->vertex[0]) +
+                                d.y * ox_load(block, m->vertex[1]) +
+                                d.z * ox_load(block, m->vertex[2]);
+        farthest = ox_max(farthest, ox_greatest_of(&along));
+      }
+      continue;
+    }
+    __global const ox_meshlet_node* node =
+        scene->surfaces.nodes + mesh->meshlet_node_first + (child >> 1);
+    for (uint k = 0u; k < node->count; ++k) {
+      const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
+      const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
+      const float3 corner =
+          (float3)(d.x > 0.0f ? hi.x : lo.x, d.y > 0.0f ? hi.y : lo.y, d.z > 0.0f ? hi.z : lo.z);
+      if (ox_dot(d, corner) > farthest) walk.child[walk.count++] = node->child[k];
+    }
+  }
+  return side == 0u ? farthest + ox_dot(direction, vload3(0, scene->pairs[pair].offset[0]))
+                    : farthest;
+}
+
+#endif
+#endif

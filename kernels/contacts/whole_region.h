@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The plane by which a region parts as a whole: the least of the faces at its features and of
+// pairs of edges, found by going on from the best in each direction. Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
+#define ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
+
+#include "contacts/region.h"
+
+// How deep the deepest of a whole region is below a plane; or a depth beyond `limit`; infinite
+// where part of it is past the plane. `deepest`: the member for which that was so of another
+// plane, and so may be of this one.
+static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
+                                   uint* deepest) {
+  if (plane->kind == OX_PLANE_EDGES) {
+    float top = plane->top;
+    float bottom = plane->bottom;
+    for (uint k = 0u; k < r->count; ++k) {
+      const uint flags = r->members[k].flags;
+      const float height = ox_dot(plane->normal, vload3(0, r->members[k].position));
+      if (ox_is_on(flags, 1u)) top = ox_max(top, height);
+      if (ox_is_on(flags, 0u)) bottom = ox_min(bottom, height);
+      if (top - bottom > limit) break;
+    }
+    return ox_max(top - bottom, 0.0f);
+  }
+  const uint side = ox_clears_side(plane, 0u) ? 0u : 1u;
+  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  float depth = -INFINITY;  // unless there is something to be moved
+  if (*deepest < r->count && ox_is_on(r->members[*deepest].flags, side))
+    depth = ox_plane_depth(plane, side, vload3(0, r->members[*deepest].position));
+  for (uint k = 0u; k < r->count && depth <= limit; ++k) {
+    const float here = ox_plane_depth(plane, side, vload3(0, r->members[k].position));
+    if ((here <= depth && here >= past) || !ox_is_on(r->members[k].flags, side)) continue;
+    if (here < past) return INFINITY;
+    depth = here;
+    *deepest = k;
+  }
+  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);
+}
+
+static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
+  return plane->kind == OX_PLANE_EDGES ? OX_EDGE_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
+}
+
+// Tries a plane for a whole region.
+static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, uint* deepest,
+                                ox_plane_choice* best) {
+  if (plane->kind == OX_PLANE_NONE) return;
+  const float tie = ox_edge_tie(r, plane);
+  ox_plane_choice choice;
+  choice.plane = *plane;
+  choice.depth = ox_whole_depth(r, plane, best->judged - tie, deepest);
+  choice.judged = choice.depth + tie;
+  if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
+  const float beyond = ox_depth_beyond(r, plane);
+  // A pair of edges holds where it is; its contact says how far all of the body has to go.
+  if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond);
+  choice.judged = ox_max(choice.depth, beyond) + tie;
+  if (ox_is_better_choice(&choice, best)) *best = choice;
+}
+
+// Directions that cost so much more than the best are not looked around.
+#define OX_WORTH 4.0f
+
+// Edges of one mesh, so many at most.
+#define OX_MOST_EDGES 64u
+typedef struct {
+  uint count;
+  uint code[OX_MOST_EDGES];
+} ox_edge_set;
+
+// In ascending order, so that of too many the first are kept, in whatever order they come.
+static inline void ox_add_code(ox_edge_set* set, uint code) {
+  uint place = set->count;
+  while (place != 0u && set->code[place - 1u] > code) --place;
+  if (place == OX_MOST_EDGES || (place != 0u && set->code[place - 1u] == code)) return;
+  if (set->count < OX_MOST_EDGES) ++set->count;
+  for (uint i = set->count - 1u; i > place; --i) set->code[i] = set->code[i - 1u];
+  set->code[place] = code;
+}
+
+static inline void ox_add_sides(const ox_region_view* r, uint side, uint triangle,
+                                ox_edge_set* set) {
+  for (uint k = 0u; k < 3u; ++k)
+    ox_add_code(set, ox_code_of_side(r->scene, r->pair, side, triangle, k));
+}
+
+// The edges of mesh `side` at a feature.
+static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global const ox_feature* f,
+                                   ox_edge_set* set) {
+  const ox_scene* scene = r->scene;
+  if (ox_is_vertex(f->flags)) {
+    for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k)
+      ox_add_code(set, ox_code_of_edge(scene, r->pair, side, scene->rings[k].edge));
+  } else if (ox_side_of(f->flags) == side) {
+    ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
+  } else {
+    ox_add_sides(r, side, f->triangle, set);
+  }
+}
+
+// Those of mesh `side` at what of it in the region is farthest past a plane, to within what is not
+// known of two coordinates.
+static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 normal,
+                                   ox_edge_set* set) {
+  const float3 past = side == 0u ? -normal : normal;
+  float farthest = -INFINITY;
+  for (uint k = 0u; k < r->count; ++k)
+    if (ox_is_on(r->members[k].flags, side))
+      farthest = ox_max(farthest, ox_dot(past, vload3(0, r->members[k].position)));
+  farthest -= OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = r->features + r->members[k].feature;
+    if (ox_is_on(f->flags, side) && ox_dot(past, vload3(0, r->members[k].position)) >= farthest)
+      ox_add_edges_at(r, side, f, set);
+  }
+}
+
+static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint second, uint facet) {
+  return scene->facets[first] == facet || (second != OX_NONE && scene->facets[second] == facet);
+}
+
+// The edges of the facet of a triangle: its own, and those at features.
+static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
+  const ox_scene* scene = r->scene;
+  const uint facet = scene->facets[triangle];
+  ox_add_sides(r, side, triangle, set);
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = r->features + r->members[k].feature;
+    if (ox_side_of(f->flags) != side || (f->flags & OX_FEATURE_FLAT) != 0u) continue;
+    if (!ox_is_vertex(f->flags)) {
+      if (ox_are_at_facet(scene, f->at[0], f->at[1], facet))
+        ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
+      continue;
+    }
+    for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
+      __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
+      if (ox_are_at_facet(scene, edge->triangle[0], edge->triangle[1], facet))
+        ox_add_code(set, ox_code_of_edge(scene, r->pair, side, scene->rings[i].edge));
+    }
+  }
+}
+
+// From a plane to the best of those next to it on the map of directions (Gauss): the edges of its
+// face, or its own, with the edges at what is farthest past it. False: none is better.
+static inline bool ox_step_on(const ox_region_view* r, uint* deepest, ox_plane_choice* best) {
+  const ox_plane from = best->plane;
+  for (uint side = 0u; side < 2u; ++side) {
+    if (!ox_clears_side(&from, side)) continue;
+    ox_edge_set own, past;
+    own.count = past.count = 0u;
+    if (from.kind == OX_PLANE_EDGES)
+      own.code[own.count++] = from.id[1u - side];
+    else
+      ox_add_rim(r, 1u - side, from.id[0], &own);
+    ox_add_farthest(r, side, from.normal, &past);
+    for (uint i = 0u; i < own.count; ++i)
+      for (uint k = 0u; k < past.count; ++k) {
+        const ox_plane plane =
+            side == 0u ? ox_plane_of_edges(r->scene, r->pair, past.code[k], own.code[i])
+                       : ox_plane_of_edges(r->scene, r->pair, own.code[i], past.code[k]);
+        ox_try_whole(r, &plane, deepest, best);
+      }
+  }
+  if (from.kind == OX_PLANE_EDGES)
+    for (uint side = 0u; side < 2u; ++side) {
+      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, side, from.id[side]);
+      for (uint k = 0u; k < 2u; ++k) {
+        if (ridge.face[k] == OX_NONE) continue;
+        const ox_plane plane = ox_plane_of_face(r->scene, r->pair, side, ridge.face[k]);
+        ox_try_whole(r, &plane, deepest, best);
+      }
+    }
+  return best->plane.kind != from.kind || best->plane.id[0] != from.id[0] ||
+         best->plane.id[1] != from.id[1];
+}
+
+// Directions are told apart by which of their coordinates are beyond a third, either way.
+#define OX_DIRECTIONS 27u
+static inline uint ox_direction_of(float3 n) {
+  const float third = 1.0f / 3.0f;
+  const uint x = n.x > third ? 2u : n.x < -third ? 0u : 1u;
+  const uint y = n.y > third ? 2u : n.y < -third ? 0u : 1u;
+  const uint z = n.z > third ? 2u : n.z < -third ? 0u : 1u;
+  return 9u * x + 3u * y + z;
+}
+
+// What a plane costs is least in several directions at once, as a box is thin in three: from the
+// best in each the best next to it is looked for.
+static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
+  ox_plane_choice best[OX_DIRECTIONS];
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) best[i] = ox_no_choice();
+  uint deepest = 0u;
+  for (uint i = 0u; i < r->plane_count; ++i) {
+    const ox_plane plane = ox_load_plane(r->planes + i);
+    ox_try_whole(r, &plane, &deepest, best + ox_direction_of(plane.normal));
+  }
+  ox_plane_choice least = ox_no_choice();
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i)
+    if (ox_is_better_choice(best + i, &least)) least = best[i];
+  const float worth = OX_WORTH * least.judged;
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) {
+    if (best[i].plane.kind == OX_PLANE_NONE || !(best[i].judged <= worth)) continue;
+    while (ox_step_on(r, &deepest, best + i)) {
+    }
+    if (ox_is_better_choice(best + i, &least)) least = best[i];
+  }
+  return least;
+}
+
+#endif
+#endif

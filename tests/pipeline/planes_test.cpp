@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts by separating planes: the truth where it is known, the reference where it is not, and
+// the same bytes whatever decides how long a step takes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/collider.h"
+#include "pipeline/test_scene.h"
+#include "reference/reference_contacts.h"
+#include "support/points.h"
+
+namespace ode_ext::test {
+namespace {
+
+ColliderOptions planes() {
+  ColliderOptions options;
+  options.planes = true;
+  return options;
+}
+
+// The meshes of a scene with every edge, as these contacts want them.
+Scene with_all_edges(const TestScene& scene) {
+  Scene result = scene.scene;
+  result.meshes.clear();
+  for (const TestMesh& mesh : scene.meshes)
+    result.meshes.push_back(
+        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.all_edges = true})));
+  return result;
+}
+
+std::vector<Contact> contacts_of(const TestScene& scene) {
+  Collider collider(planes());
+  return collider.collide(with_all_edges(scene), nullptr).contacts;
+}
+
+// [m] the deepest of those that push up, or aside.
+double deepest_along(const std::vector<Contact>& contacts, const Vec3d& direction) {
+  double deepest = 0;
+  for (const Contact& c : contacts)
+    if (dot(c.normal, direction) > 0.99) deepest = std::max(deepest, c.depth);
+  return deepest;
+}
+
+TEST(SeparatingPlanes, OfACubeOnACubeAreItsFourCorners) {
+  const auto contacts =
+      contacts_of(one_pair(make_cube(1, 1), at(0.1, 0.2, 0.99), make_cube(1, 1), at(0, 0, 0)));
+  ASSERT_EQ(contacts.size(), 4u);
+  for (const Contact& c : contacts) {
+    EXPECT_NEAR(c.normal.z, 1, 1e-6);
+    EXPECT_NEAR(c.depth, 0.01, 1e-5);
+  }
+}
+
+TEST(SeparatingPlanes, OfBoxesThatOnlyTouchAreOfNoDepth) {
+  const auto contacts =
+      contacts_of(one_pair(make_cube(1, 1), at(0, 0, 1), make_cube(1, 1), at(0, 0, 0)));
+  ASSERT_FALSE(contacts.empty());
+  for (const Contact& c : contacts) EXPECT_NEAR(c.depth, 0, 1e-6);
+}
+
+// Two plates of one mesh, each 10 mm deep in opposite rims of a block 0.2 m high.
+TEST(SeparatingPlanes, LeadEachOfTwoPlatesOutByTheRimThatItIsIn) {
+  for (const int cuts : {1, 20}) {
+    TestMesh upright;
+    for (const double z : {0.19, -0.19})
+      upright = merged(upright, moved(make_box({0.2, 0.005, 0.2}, cuts, 1, cuts), {0, 0, z}));
+    const auto contacts =
+        contacts_of(one_pair(upright, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
+    EXPECT_NEAR(deepest_along(contacts, {0, 0, 1}), 0.01, 0.0005) << cuts;
+    EXPECT_NEAR(deepest_along(contacts, {0, 0, -1}), 0.01, 0.0005) << cuts;
+    for (const Contact& c : contacts) EXPECT_LT(c.depth, 0.0105) << cuts;
+  }
+}
+
+// One part is wholly inside the block, 40 mm from being out; the other 10 mm deep in its top.
+TEST(SeparatingPlanes, LeadOutWhatIsInsideAndWhatIsNot) {
+  for (const int cuts : {1, 8}) {
+    const TestMesh parts = merged(moved(make_cube(0.03, cuts), {-0.1, 0, 0.075}),
+                                  moved(make_cube(0.05, cuts), {0.1, 0, 0.115}));
+    const auto contacts =
+        contacts_of(one_pair(parts, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
+    double inside = 0, on_top = 0;
+    for (const Contact& c : contacts) {
+      EXPECT_GT(c.normal.z, 0.99) << cuts;
+      (c.position.x < 0 ? inside : on_top) = std::max(c.position.x < 0 ? inside : on_top, c.depth);
+    }
+    EXPECT_NEAR(inside, 0.04, 0.002) << cuts;
+    EXPECT_NEAR(on_top, 0.01, 0.0005) << cuts;
+  }
+}
+
+TEST(SeparatingPlanes, AreAsDeepAsThoseOfTheReference) {
+  const std::vector<TestMesh> shapes = {make_cube(1, 1), make_cube(0.8, 3), make_icosphere(0.6, 1),
+                                        make_tetrahedron(1), make_rod(2, 0.3)};
+  Random random(17);
+  int compared = 0, other = 0;
+  for (int i = 0; i < 200; ++i) {
+    const TestMesh& a = shapes[static_cast<std::size_t>(i) % shapes.size()];
+    const TestMesh& b = shapes[static_cast<std::size_t>(i / 5) % shapes.size()];
+    const TestPose pa = random.pose(0.45), pb = random.pose(0.45);
+    const ReferenceContacts expected = reference_contacts(ContactMesh(a), pa, ContactMesh(b), pb);
+    const auto contacts = contacts_of(one_pair(a, pa, b, pb));
+    EXPECT_EQ(contacts.empty(), expected.contacts.empty()) << i;
+    if (contacts.empty() || expected.contacts.empty()) continue;
+    ++compared;
+    const double deepest = expected.contacts.front().depth;
+    // The device proposes fewer planes: what is nearest to a vertex it does not look for.
+    if (std::fabs(contacts.front().depth - deepest) > 0.02 * deepest + 1e-4) ++other;
+  }
+  EXPECT_GT(compared, 60);
+  EXPECT_LE(10 * other, compared) << other << " of " << compared;
+}
+
+TEST(SeparatingPlanes, AreTheSameBytesWhateverTheLaunchAndTheCompany) {
+  const TestScene scene = random_scene(200, 61);
+  const Scene meshes = with_all_edges(scene);
+  const auto bits = [&](const ColliderOptions& options) {
+    Collider collider(options);
+    return bits_of(collider.collide(meshes, nullptr));
+  };
+  const auto expected = bits(planes());
+  std::size_t colliding = 0;
+  for (const auto& pair : expected) colliding += !pair.empty();
+  EXPECT_GT(colliding, 50u);
+  for (const std::uint32_t size : {1u, 32u, 256u}) {
+    ColliderOptions options = planes();
+    options.work_group_size = size;
+    EXPECT_EQ(bits(options), expected) << size;
+  }
+  for (const std::uint32_t width : {1u, 4u, 8u, 16u}) {
+    ColliderOptions options = planes();
+    options.vector_width = width;
+    EXPECT_EQ(bits(options), expected) << width;
+  }
+  ColliderOptions exact = planes();
+  exact.launches = LaunchRule::kExact;
+  EXPECT_EQ(bits(exact), expected);
+  Collider alone(planes());
+  for (std::size_t i = 0; i < scene.pairs.size(); i += 7) {
+    Scene pair = meshes;
+    pair.pairs = {meshes.pairs[i]};
+    EXPECT_EQ(bits_of(alone.collide(pair, nullptr)).front(), expected[i]) << i;
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
