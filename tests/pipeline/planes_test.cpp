@@ -33,8 +33,9 @@ Scene with_all_edges(const TestScene& scene) {
 }
 
 std::vector<Contact> contacts_of(const TestScene& scene) {
-  Collider collider(planes());
-  return collider.collide(with_all_edges(scene), nullptr).contacts;
+  // One for all: building the kernels takes a second. Never destroyed: the driver may be gone.
+  static Collider* const collider = new Collider(planes());
+  return collider->collide(with_all_edges(scene), nullptr).contacts;
 }
 
 // [m] the deepest of those that push up, or aside.
