@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Crossings of meshes in general position: exact, so that the curves they lie on are closed.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "pipeline/step_data.h"
+#include "pipeline/steps.h"
+#include "pipeline/test_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+std::vector<TestMesh> closed_meshes() {
+  return {make_cube(1, 1),        make_cube(1, 4),
+          make_icosphere(0.5, 2), make_torus(0.5, 0.2, 16, 8),
+          make_rod(2, 0.05),      make_icosphere(0.6, 0)};
+}
+
+struct Curves {
+  std::size_t pairs = 0;   // of triangles that cross
+  std::size_t others = 0;  // of those, with more or fewer crossings than two
+};
+
+// The steps up to the crossings, with room for all that there may be in these tests.
+Curves find_curves(const TestScene& scene) {
+  Scene all_edges = scene.scene;
+  all_edges.meshes.clear();
+  for (const TestMesh& mesh : scene.meshes)
+    all_edges.meshes.push_back(
+        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.all_edges = true})));
+  Device device("");
+  Program program(device, "-DOX_PLANES");
+  Steps steps(program, false, false);
+  StepData data(program);
+  data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
+  data.meshes.set(all_edges.meshes);
+  data.pairs.upload_objects(all_edges);
+  data.pairs.upload_pairs(all_edges, {0, all_edges.pairs.size()});
+  data.lists.keep_features();
+  ArrowCounts room{};
+  room.fill(1u << 18);
+  data.lists.reserve(room);
+  data.lists.begin(data.lists.capacities());
+  const Launch launch{8, 64};
+  steps.relate(launch, data);
+  steps.cull(launch, data);
+  steps.match(launch, data);
+  steps.cross(launch, data);
+  data.lists.count();
+  EXPECT_FALSE(data.lists.overflowed([&] {
+    ArrowCounts counts{};
+    for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = data.lists.counted(i);
+    return counts;
+  }()));
+  // A crossing begins with the same words whether or not its program has OX_PLANES.
+  std::vector<ox_edge_crossing> crossings(data.lists.counted(std::size_t{OX_LIST_CROSSINGS}));
+  data.lists.crossings().read(crossings.data(), crossings.size() * sizeof(ox_edge_crossing));
+  std::size_t edge_count = 0;
+  for (const auto& mesh : all_edges.meshes)
+    edge_count += mesh->edges.size() + mesh->flat_edges.size();
+  std::vector<ox_edge> device_edges(edge_count);
+  data.meshes.edges().read(device_edges.data(), edge_count * sizeof(ox_edge));
+  device.finish();
+  std::map<std::tuple<ox_u32, ox_u32, ox_u32>, int> counts;  // pair, triangle of A, of B
+  for (const ox_edge_crossing& crossing : crossings)
+    for (const ox_u32 at : device_edges.at(crossing.edge).triangle) {
+      const bool side = (crossing.pair_side & 1u) != 0;
+      ++counts[{crossing.pair_side >> 1, side ? crossing.triangle : at,
+                side ? at : crossing.triangle}];
+    }
+  Curves curves;
+  curves.pairs = counts.size();
+  for (const auto& [triangles, count] : counts) curves.others += count != 2;
+  return curves;
+}
+
+TestScene scene_of_closed_meshes() {
+  TestScene scene;
+  for (const TestMesh& mesh : closed_meshes()) scene.add_mesh(mesh);
+  return scene;
+}
+
+TEST(ClosedCurves, TwoTrianglesThatCrossHaveTwoCrossings) {
+  TestScene scene = scene_of_closed_meshes();
+  Random random(81);
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const TestPose pose = random.pose(0.5);
+    scene.add_pair(i % 6, pose, i / 6 % 6, random.pose(0.5));
+  }
+  const Curves curves = find_curves(scene);
+  EXPECT_GT(curves.pairs, 20000u);
+  EXPECT_EQ(curves.others, 0u) << "of " << curves.pairs;
+}
+
+TEST(ClosedCurves, AreThoseOfCoincidentSurfacesToo) {
+  TestScene scene = scene_of_closed_meshes();
+  for (std::uint32_t i = 0; i < 6; ++i)
+    for (std::uint32_t j = 0; j < 6; ++j)
+      for (const Point& offset :
+           {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0, 0, 1}, Point{0.5, 0.5, 1}, Point{1, 1, 1},
+            Point{0.25, 0.5, 0.75}, Point{0, 1e-7, 0}})
+        scene.add_pair(i, at(offset[0], offset[1], offset[2]), j, at(0, 0, 0));
+  const Curves curves = find_curves(scene);
+  EXPECT_GT(curves.pairs, 1000u);
+  EXPECT_EQ(curves.others, 0u) << "of " << curves.pairs;
+}
+
+TEST(ClosedCurves, AreThoseOfMeshesFarFromTheOrigin) {
+  TestScene scene = scene_of_closed_meshes();
+  Random random(82);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    TestPose a = random.pose(0.5), b = random.pose(0.5);
+    a.position = a.position + Point{1e6, -1e6, 1e6};
+    b.position = b.position + Point{1e6, -1e6, 1e6};
+    scene.add_pair(i % 6, a, i / 6 % 6, b);
+  }
+  const Curves curves = find_curves(scene);
+  EXPECT_GT(curves.pairs, 1000u);
+  EXPECT_EQ(curves.others, 0u) << "of " << curves.pairs;
+}
+
+}  // namespace
+}  // namespace ode_ext::test
