@@ -5,9 +5,7 @@
 // out   hits, and per pair their number
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
-#ifdef OX_PLANES
 #include "shared/closest.h"
-#endif /* OX_PLANES */
 #include "shared/vertex_ray.h"
 
 __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __global ox_hit* hits) {
@@ -19,33 +17,27 @@ __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __globa
     const ox_ray ray = rays[first + i];
     const uint side = ray.pair_side & 1u;
     __global const ox_pair* pair = pairs + (ray.pair_side >> 1);
-#ifndef OX_PLANES
-    const ox_vertex_ray vertex_ray = ox_ray_of(pair, side, meshes, vertices + ray.vertex);
-#else  /* OX_PLANES */
+    __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, meshes, vertices + ray.vertex);
-    vertex_ray.known = ray.memory == OX_RAY_INSIDE || ray.memory == OX_RAY_CONTAINED;
-#endif /* OX_PLANES */
+#ifdef OX_PLANES
+    vertex_ray.known = ray.memory != OX_RAY_ASKING;
+#endif
     uint work = 0u;
     uint remember;
-#ifndef OX_PLANES
-    const ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, meshes + pair->mesh[1u - side],
-                                               &scene.surfaces, OX_NONE, 0.0f, &remember, &work);
-    ox_append_hit(&scene, &ray, &outcome, hits);
-#else  /* OX_PLANES */
-    ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, meshes + pair->mesh[1u - side],
-                                         &scene.surfaces, OX_NONE, 0.0f, &remember, &work);
+    ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene.surfaces, OX_NONE, 0.0f,
+                                         &remember, &work);
+#ifdef OX_PLANES
     if (ray.memory == OX_RAY_CONTAINED) {
       // Its ray leaves by a face on one side of it, and the closest may be on the other.
-      const uint closest =
-          ox_closest_triangle(&scene.surfaces, meshes + pair->mesh[1u - side],
-                              ox_place(pair, side, vload3(0, vertices[ray.vertex].position)),
-                              outcome.triangle == OX_NONE ? INFINITY : outcome.t);
+      const uint closest = ox_closest_triangle(
+          &scene.surfaces, target, ox_place(pair, side, vload3(0, vertices[ray.vertex].position)),
+          outcome.triangle == OX_NONE ? INFINITY : outcome.t);
       if (closest != OX_NONE) {
         outcome.triangle = closest;
         outcome.kind = OX_HIT_INSIDE;
       }
     }
-    ox_append_hit(&scene, &ray, vertex_ray.known, &outcome, hits);
-#endif /* OX_PLANES */
+#endif
+    ox_append_hit(&scene, &ray, &outcome, hits);
   }
 }

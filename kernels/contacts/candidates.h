@@ -156,14 +156,18 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
     }
 }
 
-// Contacts of the units that a plane has cleared just now.
+// Contacts of a unit that a plane has cleared just now. The other end of a chord is of the unit
+// whose end it has too: where parts of a mesh overlap several chords may end there, and a feature
+// makes one candidate at most.
 static inline void ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
                                   __global const ox_feature* f) {
   for (uint end = 0u; end < 2u; ++end) {
     if (end == 1u) {
       if (ox_is_vertex(f->flags) || f->partner == OX_NONE) return;
-      f = m->region->features + f->partner;
-      if (ox_is_vertex(f->flags)) return;  // a unit of its own
+      __global const ox_feature* other = m->region->features + f->partner;
+      if (ox_is_vertex(other->flags)) return;  // a unit of its own
+      if (m->region->features + other->partner != f) return;
+      f = other;
     }
     if (!ox_is_on_rim(m->region, f, &choice->plane)) ox_add_feature_contact(m, choice, f);
   }

@@ -2,7 +2,7 @@
 // Choose: by which planes does each region of overlap part, and where are its contacts?
 //
 // A region is whole where neither mesh has a valley in it, or where it is all of a part that is
-// inside: then the least plane that clears all of it is the way out. Elsewhere its units, vertices
+// inside: then it parts by the least plane that clears all of it. Elsewhere its units, vertices
 // and chords, are cleared one by one, the deepest first, and each plane clears what it can.
 //
 // in    regions, members, planes, features

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Separating planes (docs/contacts.md): a face of either mesh, or the common normal of two edges.
-// In the frame of B. Device only.
+// Separating planes: a face of either mesh, or the common normal of two edges. In the frame of B.
+// Device only.
 #ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_PLANE_H
 #define ODE_EXT_KERNELS_CONTACTS_PLANE_H

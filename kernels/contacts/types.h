@@ -5,7 +5,7 @@
 
 #include "shared/types.h"
 
-// What the surfaces of a pair have in common (docs/contacts.md): a crossing, where an edge of one
+// What the surfaces of a pair have in common: a crossing, where an edge of one
 // goes through a triangle of the other; or a vertex of one that is inside the other. Crossings come
 // first, in the order of their list, then vertices in that of theirs.
 #define OX_FEATURE_SIDE 1u       // of mesh B

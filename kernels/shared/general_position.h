@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// General position (docs/contacts.md): the meshes of a pair are put so that nothing of one only
-// touches the other. What touches overlaps, and what coincides crosses. Device only.
+// General position (docs/separating-planes.md): the meshes of a pair are put so that nothing of one
+// only touches the other. What touches overlaps, and what coincides crosses. Device only.
 //
 // Everything is in the frame of B. Mesh A is taken a little larger, and all coordinates are rounded
 // to a grid on which their differences are exact floats: so signs are decided exactly

@@ -17,7 +17,7 @@ typedef struct {
   float t_max;     // [m] nothing beyond exists
   float behind;    // [m] how far back the line is looked at, for temporal data
   bool two_sided;  // the target has no inside: every face is met from behind
-  bool known;      // it is inside, whatever is met first: the first back face is its way out
+  bool known;      // it is inside, whatever is met first: it leaves by the first back face
 } ox_query;
 
 // A distance is finite exactly where there is a triangle: ox_consider_met sets both, of finite ones

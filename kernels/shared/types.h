@@ -150,7 +150,6 @@ OX_STATIC_ASSERT(sizeof(ox_neighbour) == 8, ox_neighbour_is_8_bytes);
 typedef struct {
   // What is asked of every meshlet that may meet another, together,
   ox_f32 vertex[3][OX_LANES];  // x, y, z
-  ox_f32 normal[3][OX_LANES];  // of the vertices: unit, or 0 where none is known
   ox_f32 lo[3], hi[3];         // of its vertices
   ox_f32 slab_normal[3];       // unit, or 0: the mean of its triangles' by area
   ox_f32 slab_lo, slab_hi;     // [m] along it, of its vertices
@@ -164,11 +163,14 @@ typedef struct {
   // and of edges that cross it.
   ox_u32 edge[OX_MESHLET_EDGES];
   ox_u32 vertex_index[OX_LANES];
-  ox_u32
-      places[OX_LANES];  // of the corners of a triangle in `vertex`: OX_CORNER(places, k, corner)
+  // Of meshes in general position: normals of the vertices, unit, or 0 where none is known; where
+  // the corners of a triangle are in `vertex`, OX_CORNER(places, k, corner).
+  ox_f32 normal[3][OX_LANES];
+  ox_u32 places[OX_LANES];
 } ox_meshlet;
 OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1344, ox_meshlet_is_1344_bytes);
-// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 512.
+// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 320,
+// `normal` at 1088.
 OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 
 // Where edge e of a meshlet begins or ends: eight bits each, two edges a word.
@@ -289,8 +291,10 @@ typedef struct {
 } ox_ray;
 OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 
-// `memory` of a ray: its vertex is inside, whatever it meets; and of a part of its mesh that no
-// crossing tells of, so that nothing but its vertices says where the surface is.
+// `memory` of a ray of the product. Its vertex is inside where the ray says so; or it is, whatever
+// the ray meets; or it is, of a part of its mesh that no crossing tells of, so that nothing but its
+// vertices says where the surface is.
+#define OX_RAY_ASKING 0u
 #define OX_RAY_INSIDE 1u
 #define OX_RAY_CONTAINED 2u
 

@@ -23,15 +23,12 @@ static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint ver
   if (slot == OX_NONE) return;
   rays[slot].pair_side = pair_side;
   rays[slot].vertex = vertex;
-#ifdef OX_PLANES
-  rays[slot].memory = 0u;
-#endif /* OX_PLANES */
+  rays[slot].memory = OX_RAY_ASKING;
 }
 
-#ifndef OX_PLANES
-static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray,
-#else  /* OX_PLANES */
-// Of a vertex that is known to be inside.
+#ifdef OX_PLANES
+
+// Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED.
 static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
                                     __global ox_ray* rays) {
   const uint slot = ox_append(scene, OX_LIST_RAYS);
@@ -41,33 +38,32 @@ static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint 
   rays[slot].memory = memory;
 }
 
-// The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets.
-static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool known,
-#endif /* OX_PLANES */
+#endif
+
+// With OX_PLANES: the vertex of a ray, if it is inside. Else whatever its ray came to.
+static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray,
                                  const ox_outcome* outcome, __global ox_hit* hits) {
-#ifndef OX_PLANES
-  if ((outcome->kind & OX_HIT_KIND) == OX_HIT_NONE) return;
-#else  /* OX_PLANES */
   const uint kind = outcome->kind & OX_HIT_KIND;
+#ifdef OX_PLANES
   const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
-  if (!known && !leaves) return;
-#endif /* OX_PLANES */
+  if (!leaves && ray->memory == OX_RAY_ASKING) return;
+  const uint triangle = leaves ? outcome->triangle : OX_NONE;
+#else
+  if (kind == OX_HIT_NONE) return;
+  const uint triangle = outcome->triangle;
+#endif
   const uint slot = ox_append(scene, OX_LIST_HITS);
   if (slot == OX_NONE) return;
   __global ox_hit* hit = hits + slot;
   hit->pair_side = ray->pair_side;
   hit->vertex = ray->vertex;
-#ifndef OX_PLANES
-  hit->triangle = outcome->triangle;
-#else  /* OX_PLANES */
-  hit->triangle = leaves ? outcome->triangle : OX_NONE;
-#endif /* OX_PLANES */
+  hit->triangle = triangle;
   hit->kind = outcome->kind;
   hit->depth = outcome->depth;
   hit->t = outcome->t;
 #ifndef OX_PLANES
   hit->slot = atomic_inc(&scene->found[ray->pair_side >> 1].hits);
-#endif /* ! OX_PLANES */
+#endif
 }
 
 #endif

@@ -74,7 +74,7 @@ class AppendLists {
   const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& flood_words() const { return flood_words_; }
   const Buffer& contacts() const { return contacts_; }
-  // For each crossing and hit, as kernels/shared/types.h says.
+  // For each crossing and hit, as kernels/contacts/types.h says.
   const Buffer& features() const { return features_; }
   const Buffer& feature_slots() const { return feature_slots_; }
   const Buffer& regions() const { return regions_; }

@@ -29,8 +29,8 @@ struct ColliderOptions {
   std::uint64_t initial_capacity = 16384;  // [records] of each append list
   std::uint32_t walk_limit = 32;           // triangles an iterative ray crosses at most
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
-  // Contacts by separating planes (docs/contacts.md), which stand beside the assembly that they are
-  // to replace. Not with what follows the paper.
+  // Contacts by separating planes (docs/separating-planes.md), which stand beside the assembly that
+  // they are to replace. Not with what follows the paper.
   bool planes = false;
   bool edges = true;               // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device

@@ -50,8 +50,8 @@ class WholeRegion {
     find_facets();
     std::optional<ContactPlane> first;
     double first_depth = 0;
-    // A plane beyond which the body is still within the other is no way out; where all are, the
-    // least is as good as any.
+    // A plane beyond which the body is still within the other does not part them; where all are
+    // such, the least is as good as any.
     const std::size_t tries = options_.check_ways ? 4 : 1;
     for (std::size_t i = 0; i < tries; ++i) {
       search();
@@ -100,7 +100,7 @@ class WholeRegion {
     }
   }
 
-  // What faces the way of a plane that is no way out is none either.
+  // What faces the way of a plane that does not part them does not either.
   bool is_refused(const Point& normal) const {
     return std::any_of(refused_.begin(), refused_.end(), [&](const ContactPlane& plane) {
       return dot(plane.normal, normal) > kSamePatch;
