@@ -14,11 +14,11 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                shared/general_position shared/cull shared/lanes shared/ray_triangle
                shared/ray_meshlet shared/meshlet_tree shared/nearest shared/closest shared/full_ray
                shared/vertex_ray paper/types paper/iterative_ray paper/choose paper/cast
-               paper/note_work contacts/types shared/contact_store shared/contradiction shared/candidate_order
+               paper/note_work contacts/types contacts/fields contacts/candidate_list shared/contradiction shared/candidate_order
                shared/patches shared/meshlet shared/exact_sign shared/intersect shared/cross contacts/cross
                shared/edge_pair shared/crossing_order shared/crossing_table shared/regions
-               shared/pair_hits contacts/feature contacts/feature_table contacts/face_table
-               contacts/plane contacts/region contacts/whole_region contacts/units
+               shared/pair_hits contacts/feature contacts/feature_table contacts/mate contacts/face_table
+               contacts/plane contacts/region_fields contacts/region contacts/whole_region contacts/units
                contacts/candidates shared/spokesmen shared/edge_axis shared/way_out
                shared/deform shared/moves)
   set(header ${header}.h)

@@ -32,11 +32,11 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                          __global ox_meshlet_pair* meshlet_pairs,
                          __global ox_edge_crossing* crossings, __global ox_chunk_task* tasks,
                          __global ox_ray* rays, __global uint* words, __global ox_hit* hits,
-                         __global ox_candidate* candidates, uint max_contacts, uint max_deformable,
+                         __global float* candidates, uint max_contacts, uint max_deformable,
                          __global ox_contact* contacts, __global ox_feature* features,
-                         __global uint* slots, __global ox_region* regions,
-                         __global ox_member* members, __global ox_face* faces,
-                         __global ox_plane_record* planes) {
+                         __global uint* parents, __global uint* slots, __global ox_region* regions,
+                         __global float* members, __global ox_face* faces, __global float* planes,
+                         __global uint* edge_planes) {
   pair_step(OX_SCENE_ARGUMENTS, objects, pair_objects, pair_ranges);
   cull(OX_SCENE_ARGUMENTS, meshlet_tasks);
   match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings);
@@ -44,16 +44,17 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   flood(OX_SCENE_ARGUMENTS, crossings, tasks, rays, words);
   vertex_step(OX_SCENE_ARGUMENTS, tasks, rays);
   ray_step(OX_SCENE_ARGUMENTS, rays, hits);
-  feature_gather(OX_SCENE_ARGUMENTS, crossings, hits, features);
-  feature_place(OX_SCENE_ARGUMENTS, slots, faces);
-  feature_link(OX_SCENE_ARGUMENTS, features, slots);
-  feature_join(OX_SCENE_ARGUMENTS, crossings, features, slots);
-  region_begin(OX_SCENE_ARGUMENTS, features, regions);
-  region_count(OX_SCENE_ARGUMENTS, features, regions);
+  feature_gather(OX_SCENE_ARGUMENTS, crossings, hits, features, parents, slots, faces);
+  feature_place(OX_SCENE_ARGUMENTS);
+  feature_link(OX_SCENE_ARGUMENTS, features, parents, slots);
+  feature_join(OX_SCENE_ARGUMENTS, crossings, features, parents, slots);
+  region_begin(OX_SCENE_ARGUMENTS, features, parents, regions);
+  region_count(OX_SCENE_ARGUMENTS, features, parents, regions);
   region_place(OX_SCENE_ARGUMENTS, regions);
   region_fill(OX_SCENE_ARGUMENTS, features, regions, members, faces);
-  region_propose(OX_SCENE_ARGUMENTS, features, regions, faces, planes);
-  choose_planes(OX_SCENE_ARGUMENTS, features, regions, members, faces, planes, candidates);
+  region_propose(OX_SCENE_ARGUMENTS, features, regions, faces, planes, edge_planes);
+  choose_planes(OX_SCENE_ARGUMENTS, features, regions, members, faces, planes, edge_planes,
+                candidates);
   reduce_candidates(OX_SCENE_ARGUMENTS, candidates, max_contacts, max_deformable, pair_ranges,
                     contacts);
 }

@@ -4,12 +4,13 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
 #define ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
 
+#include "contacts/candidate_list.h"
 #include "contacts/units.h"
 
-// The candidates of a pair, as they come.
+// Where candidates go, as they come.
 typedef struct {
   const ox_region_view* region;
-  __global ox_candidate* candidates;  // the first of the pair's
+  ox_fields candidates;  // of the pair
   __global uint* count;
   uint manifold;
 } ox_manifold;
@@ -17,17 +18,18 @@ typedef struct {
 static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice* choice, uint side,
                                     float3 position, float depth, uint kind, uint source,
                                     uint target) {
-  __global ox_candidate* c = m->candidates + atomic_inc(m->count);
-  vstore3(position, 0, c->position);
-  vstore3(choice->plane.normal, 0, c->normal);
-  c->depth = depth;
-  c->side_kind = (side != 0u ? OX_HIT_SIDE : 0u) | kind;
-  c->vertex = source;
-  c->triangle = target;
-  c->manifold = m->manifold;
-  c->distance2 = INFINITY;
-  c->region = m->region->index;
-  c->taken = 0u;
+  const uint i = atomic_inc(m->count);
+  const ox_fields* list = &m->candidates;
+  ox_set_vector(list, OX_CANDIDATE_POSITION, i, position);
+  ox_set_vector(list, OX_CANDIDATE_NORMAL, i, choice->plane.normal);
+  ox_floats_of(list, OX_CANDIDATE_DEPTH)[i] = depth;
+  ox_words_of(list, OX_CANDIDATE_SIDE_KIND)[i] = (side != 0u ? OX_HIT_SIDE : 0u) | kind;
+  ox_words_of(list, OX_CANDIDATE_VERTEX)[i] = source;
+  ox_words_of(list, OX_CANDIDATE_TRIANGLE)[i] = target;
+  ox_words_of(list, OX_CANDIDATE_MANIFOLD)[i] = m->manifold;
+  ox_words_of(list, OX_CANDIDATE_REGION)[i] = m->region->index;
+  ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[i] = INFINITY;
+  ox_words_of(list, OX_CANDIDATE_TAKEN)[i] = 0u;
 }
 
 // Whether a crossing lies on the facet of the plane: on the rim, where the body comes out.
@@ -68,7 +70,7 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, uint code
   *first = 1.0f;
   *last = 0.0f;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = r->features + r->members[k].feature;
+    __global const ox_feature* f = ox_feature_of(r, k);
     if (ox_side_of(f->flags) != side) continue;
     const float3 position = vload3(0, f->position);
     const bool there = ox_is_vertex(f->flags)
@@ -91,16 +93,16 @@ static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 n
   uint best = OX_NONE;
   float farthest = -INFINITY;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = r->features + r->members[k].feature;
+    __global const ox_feature* f = ox_feature_of(r, k);
     const float here = ox_dot(past, vload3(0, f->position));
     if (!ox_is_on(f->flags, side) || here < farthest ||
-        (here == farthest && !ox_is_before(f, r->features + best)))
+        (here == farthest && !ox_is_before(f, ox_feature_of(r, best))))
       continue;
     farthest = here;
-    best = r->members[k].feature;
+    best = k;
   }
   if (best == OX_NONE) return false;
-  *point = vload3(0, r->features[best].position);
+  *point = ox_position_of(r, best);
   return true;
 }
 
@@ -147,10 +149,8 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
   bool any = false;
   for (uint pass = 0u; pass < 2u && !any; ++pass)  // those on the rim only if there are no others
     for (uint k = 0u; k < r->count; ++k) {
-      __global const ox_feature* f = r->features + r->members[k].feature;
-      if (!ox_is_on(f->flags, side) || (f->flags & OX_FEATURE_FLAT) != 0u ||
-          ox_is_on_rim(r, f, &choice->plane) != (pass == 1u))
-        continue;
+      __global const ox_feature* f = ox_feature_of(r, k);
+      if (!ox_is_on(f->flags, side) || ox_is_on_rim(r, f, &choice->plane) != (pass == 1u)) continue;
       ox_add_feature_contact(m, choice, f);
       any = true;
     }

@@ -12,32 +12,38 @@
 #ifdef OX_PLANES
 #include "contacts/candidates.h"
 
-#define OX_MOST_PLANES 16u
-
+// The units that are to be cleared are the first of the members, ever fewer.
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
-  uint chosen[OX_MOST_PLANES];
-  ox_measure_units(r);
-  for (uint count = 0u; count < OX_MOST_PLANES; ++m->manifold) {
-    const uint seed = ox_deepest_unit(r);
-    if (seed == OX_NONE) return;
-    uint index = OX_NONE;
-    const ox_plane_choice choice = ox_choose_for(r, seed, &index);
-    r->members[seed].state = OX_UNIT_CLEARED;
+  ox_parting_move move;
+  move.count = 0u;
+  uint waiting = 0u;
+  for (uint k = 0u; k < r->count; ++k)
+    if ((ox_flags_of(r, k) & OX_MEMBER_BEGINS) != 0u) ox_swap_members(r, k, waiting++);
+  ox_measure_units(r, waiting);
+  while (waiting != 0u && move.count < OX_MOST_PLANES) {
+    const uint seed = ox_deepest_unit(r, waiting);
+    const ox_plane_choice choice = ox_choose_for(r, seed);
+    __global const ox_feature* of_seed = ox_feature_of(r, seed);
+    ox_swap_members(r, seed, --waiting);
     if (choice.plane.kind == OX_PLANE_NONE) continue;
-    chosen[count++] = index;
+    ox_set_move(r, &choice, &move);
     if (choice.plane.kind == OX_PLANE_EDGES)
       ox_add_edge_contact(m, &choice);
     else
-      ox_add_feature_contact(m, &choice, r->features + r->members[seed].feature);
-    for (uint k = 0u; k < r->count; ++k) {
-      if (r->members[k].state != OX_UNIT_WAITING) continue;
-      const ox_plane_choice by = ox_clears(r, k, &choice, chosen, count);
-      if (by.plane.kind == OX_PLANE_NONE) continue;
-      r->members[k].state = OX_UNIT_CLEARED;
-      if (by.plane.kind != OX_PLANE_EDGES)
-        ox_add_cleared(m, &by, r->features + r->members[k].feature);
-    }
+      ox_add_feature_contact(m, &choice, of_seed);
+    // From the last on: what is cleared changes places with the last that waits.
+    for (uint block = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH; block-- != 0u;)
+      for (uint cleared = ox_cleared_units(r, block, waiting, &move); cleared != 0u;) {
+        const uint lane = 31u - clz(cleared);
+        cleared ^= 1u << lane;
+        const uint k = OX_VECTOR_WIDTH * block + lane;
+        const ox_plane_choice by = ox_clearing_plane(r, k, &move);
+        if (by.plane.kind == OX_PLANE_NONE) continue;
+        if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
+        ox_swap_members(r, k, --waiting);
+      }
+    ++m->manifold;
   }
 }
 
@@ -50,7 +56,7 @@ static void ox_choose_sheet(ox_manifold* m) {
   uint best = OX_NONE;
   ox_plane_choice least = ox_no_choice();
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = r->features + r->members[k].feature;
+    __global const ox_feature* f = ox_feature_of(r, k);
     if (f->triangle == OX_NONE) continue;
     const uint side = ox_side_of(f->flags);
     ox_plane_choice choice;
@@ -89,20 +95,21 @@ static void ox_choose_sheet(ox_manifold* m) {
     best = k;
   }
   if (any || best == OX_NONE) return;
-  __global const ox_feature* f = r->features + r->members[best].feature;
+  __global const ox_feature* f = ox_feature_of(r, best);
   ox_add_candidate(m, &least, ox_side_of(f->flags), vload3(0, f->position), least.depth,
                    OX_HIT_POINT, f->at[0], f->triangle);
 }
 
 __kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* features,
-                            __global const ox_region* regions, __global ox_member* members,
-                            __global const ox_face* faces, __global ox_plane_record* planes,
-                            __global ox_candidate* candidates) {
+                            __global const ox_region* regions, __global float* members,
+                            __global const ox_face* faces, __global float* planes,
+                            __global const uint* edge_planes, __global float* candidates) {
   const ox_scene scene = OX_SCENE;
   const uint region_count = counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
   for (uint i = ox_next_item(&scene, OX_QUEUE_REGIONS); i < region_count;
        i = ox_next_item(&scene, OX_QUEUE_REGIONS)) {
     ox_region_view view;
+    if (regions[i].count == 0u) continue;  // within facets
     view.scene = &scene;
     view.index = i;
     view.pair = regions[i].pair;
@@ -110,12 +117,13 @@ __kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* feat
     view.flags = regions[i].flags;
     view.plane_count = regions[i].planes;
     view.features = features;
-    view.members = members + regions[i].first;
-    view.faces = faces;
-    view.planes = planes + OX_PLANES_PER_FEATURE * regions[i].first;
+    view.members = ox_members_of(regions + i, members);
+    view.faces = faces + OX_FACES_PER_FEATURE * regions[i].first;
+    view.edge_planes = edge_planes;
+    view.planes = ox_planes_of(regions + i, planes);
     ox_manifold manifold;
     manifold.region = &view;
-    manifold.candidates = candidates + found[view.pair].first;
+    manifold.candidates = ox_candidates_of(&scene, view.pair, candidates);
     manifold.count = &found[view.pair].candidates;
     manifold.manifold = i * OX_MOST_PLANES;
     const uint mesh_flags =

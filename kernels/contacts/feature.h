@@ -59,5 +59,14 @@ static inline bool ox_is_flat_edge(const ox_scene* scene, uint edge) {
          scene->facets[scene->edges[edge].triangle[0]] == scene->facets[second];
 }
 
+// Whether feature a comes before b in an order that does not depend on their numbers.
+static inline bool ox_is_before(__global const ox_feature* a, __global const ox_feature* b) {
+  const uint kind_a = a->flags & (OX_FEATURE_SIDE | OX_FEATURE_VERTEX);
+  const uint kind_b = b->flags & (OX_FEATURE_SIDE | OX_FEATURE_VERTEX);
+  if (kind_a != kind_b) return kind_a < kind_b;
+  if (a->source != b->source) return a->source < b->source;
+  return a->triangle < b->triangle;
+}
+
 #endif
 #endif

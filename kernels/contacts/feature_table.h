@@ -10,19 +10,19 @@
 
 #include "contacts/feature.h"
 
-#define OX_ENTRY_FIRST_FACES 0u   // the triangle crossed and the first, or
-#define OX_ENTRY_SECOND_FACES 1u  // the second at the edge: of mesh A, of mesh B
-#define OX_ENTRY_EDGE 2u          // side, edge
-#define OX_ENTRY_VERTEX 3u        // side, vertex
+#define OX_ENTRY_FIRST_FACETS 0u   // the facet crossed and the first, or
+#define OX_ENTRY_SECOND_FACETS 1u  // the second at the edge: of mesh A, of mesh B
+#define OX_ENTRY_EDGE 2u           // side, edge
+#define OX_ENTRY_VERTEX 3u         // side, vertex
 
 typedef struct {
   uint pair;
-  uint kind;  // OX_ENTRY_..., for either faces OX_ENTRY_FIRST_FACES
+  uint kind;  // OX_ENTRY_..., for either facets OX_ENTRY_FIRST_FACETS
   uint first, second;
 } ox_feature_key;
 
-static inline ox_feature_key ox_faces_key(uint pair, uint side, uint at, uint crossed) {
-  const ox_feature_key key = {pair, OX_ENTRY_FIRST_FACES, side == 0u ? at : crossed,
+static inline ox_feature_key ox_facets_key(uint pair, uint side, uint at, uint crossed) {
+  const ox_feature_key key = {pair, OX_ENTRY_FIRST_FACETS, side == 0u ? at : crossed,
                               side == 0u ? crossed : at};
   return key;
 }
@@ -37,13 +37,14 @@ static inline ox_feature_key ox_inside_key(uint pair, uint side, uint vertex) {
   return key;
 }
 
-static inline ox_feature_key ox_key_of_feature(__global const ox_feature* features, uint entry) {
+static inline ox_feature_key ox_key_of_feature(const ox_scene* scene,
+                                               __global const ox_feature* features, uint entry) {
   __global const ox_feature* f = features + (entry >> 2);
   const uint by = entry & 3u;
   const uint side = ox_side_of(f->flags);
   if (by == OX_ENTRY_EDGE) return ox_edge_key(f->pair, side, f->source);
   if (by == OX_ENTRY_VERTEX) return ox_inside_key(f->pair, side, f->source);
-  return ox_faces_key(f->pair, side, f->at[by], f->triangle);
+  return ox_facets_key(f->pair, side, scene->facets[f->at[by]], scene->facets[f->triangle]);
 }
 
 static inline uint ox_hash_of(ox_feature_key key) {
@@ -66,8 +67,9 @@ static inline ox_stretch ox_slots_of(const ox_scene* scene, uint pair) {
   return stretch;
 }
 
-static inline bool ox_is_key(__global const ox_feature* features, uint entry, ox_feature_key key) {
-  const ox_feature_key there = ox_key_of_feature(features, entry);
+static inline bool ox_is_key(const ox_scene* scene, __global const ox_feature* features, uint entry,
+                             ox_feature_key key) {
+  const ox_feature_key there = ox_key_of_feature(scene, features, entry);
   return there.pair == key.pair && there.kind == key.kind && there.first == key.first &&
          there.second == key.second;
 }
@@ -80,20 +82,20 @@ static inline uint ox_find_feature(const ox_scene* scene, __global const ox_feat
   for (uint slot = mul_hi(ox_hash_of(key), of.count);;
        slot = slot + 1u < of.count ? slot + 1u : 0u) {
     const uint entry = slots[of.first + slot];
-    if (entry == OX_NONE || ox_is_key(features, entry, key)) return entry;
+    if (entry == OX_NONE || ox_is_key(scene, features, entry, key)) return entry;
   }
 }
 
 // Puts an entry in, unless there is one with its key: which it returns, else OX_NONE.
 static inline uint ox_add_feature(const ox_scene* scene, __global const ox_feature* features,
                                   __global volatile uint* slots, uint entry) {
-  const ox_feature_key key = ox_key_of_feature(features, entry);
+  const ox_feature_key key = ox_key_of_feature(scene, features, entry);
   const ox_stretch of = ox_slots_of(scene, key.pair);
   for (uint slot = mul_hi(ox_hash_of(key), of.count);;
        slot = slot + 1u < of.count ? slot + 1u : 0u) {
     uint there = slots[of.first + slot];
     if (there == OX_NONE) there = atomic_cmpxchg(slots + of.first + slot, OX_NONE, entry);
-    if (there == OX_NONE || ox_is_key(features, there, key)) return there;
+    if (there == OX_NONE || ox_is_key(scene, features, there, key)) return there;
   }
 }
 

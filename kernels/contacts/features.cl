@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Features: what the surfaces of each pair have in common, and the regions they form. Two features
-// are of one region that follow one another along the curve in which the surfaces meet, or along
-// an edge inside the other mesh.  in    crossings, hits: the vertices inside out   features;
-// regions, their members and planes room  slots, faces: tables (contacts/feature_table.h,
-// contacts/face_table.h) item  1 feature (grid-stride); of feature_place 1 pair may overflow:
-// none; all go by the number of crossings and hits
+// are of one region that follow one another along the curve in which the surfaces meet, or along an
+// edge inside the other mesh.
+//
+// in    crossings, hits: the vertices inside
+// out   features; regions, their members and planes
+// room  parents; slots, faces: tables (contacts/feature_table.h, contacts/face_table.h)
+// item  1 feature (grid-stride); of feature_place 1 pair
+// may overflow: none; all go by the number of crossings and hits
 #ifdef OX_PLANES
 #include "contacts/face_table.h"
 #include "contacts/feature_table.h"
-#include "contacts/plane.h"
+#include "contacts/mate.h"
+#include "contacts/region_fields.h"
 
-// out: features, each a region of its own; found: how many each pair has.
+// out: features, each a tree of its own (parents); found: how many each pair has; tables, empty.
 __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
-                             __global const ox_hit* hits, __global ox_feature* features) {
+                             __global const ox_hit* hits, __global ox_feature* features,
+                             __global uint* parents, __global uint* slots,
+                             __global ox_face* faces) {
   const ox_scene scene = OX_SCENE;
   const uint crossed = ox_crossing_count(&scene);
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     ox_feature f;
-    f.parent = i;
+    f.face = OX_NONE;
     f.next = OX_NONE;
     f.partner = OX_NONE;
     f.at[0] = f.at[1] = OX_NONE;
@@ -37,6 +43,8 @@ __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossin
       f.at[0] = edges[crossing.edge].triangle[0];
       f.at[1] = edges[crossing.edge].triangle[1];
       if (ox_is_flat_edge(&scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
+      f.mate[0] = i << 1;
+      if (f.at[1] != OX_NONE) f.mate[1] = i << 1 | 1u;
       if (ox_is_valley(&scene, f.pair, crossing.edge)) f.flags |= OX_FEATURE_VALLEY;
       const float3 p = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[0]);
       const float3 d = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[1]) - p;
@@ -51,65 +59,65 @@ __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossin
       f.source = hit->vertex;
       f.triangle = hit->triangle;
       f.t = 0.0f;
+      f.next = hit->from;
+      // Of what changes its shape every vertex may need a contact.
+      if ((meshes[pairs[f.pair].mesh[side]].flags & OX_MESH_DEFORMABLE) != 0u)
+        f.flags &= ~OX_FEATURE_FLAT;
       for (uint k = ring_starts[hit->vertex]; k < ring_starts[hit->vertex + 1u]; ++k) {
-        if (!ox_is_flat_edge(&scene, rings[k].edge)) f.flags &= ~OX_FEATURE_FLAT;
-        if (ox_is_valley(&scene, f.pair, rings[k].edge)) f.flags |= OX_FEATURE_VALLEY;
+        if (ox_is_flat_edge(&scene, rings[k].edge)) continue;
+        f.flags &= ~OX_FEATURE_FLAT;
+        if (!ox_is_valley(&scene, f.pair, rings[k].edge)) continue;
+        f.flags |= OX_FEATURE_VALLEY;
+        break;
       }
       position = ox_vertex_of(&scene, f.pair, side, hit->vertex);
     }
     vstore3(position, 0, f.position);
     features[i] = f;
+    parents[i] = i;
+    for (uint k = OX_SLOTS_PER_FEATURE * i; k < OX_SLOTS_PER_FEATURE * (i + 1u); ++k)
+      slots[k] = OX_NONE;
+    for (uint k = OX_FACES_PER_FEATURE * i; k < OX_FACES_PER_FEATURE * (i + 1u); ++k)
+      faces[k] = ox_no_face();
     atomic_inc(&found[f.pair].features);
   }
 }
 
-// out: found, where the features of each pair are to start; slots and faces, empty. item: 1 pair.
-__kernel void feature_place(OX_SCENE_PARAMETERS, __global uint* slots, __global ox_face* faces) {
+// out: found, where the features of each pair are to start. item: 1 pair.
+__kernel void feature_place(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
-    const uint count = found[p].features;
-    if (count == 0u) continue;
-    const uint first = ox_take_room(&scene, OX_COUNTER_FEATURES, count);
-    found[p].first = first;
-    for (uint i = 0u; i < OX_SLOTS_PER_FEATURE * count; ++i)
-      slots[OX_SLOTS_PER_FEATURE * first + i] = OX_NONE;
-    for (uint i = 0u; i < OX_FACES_PER_FEATURE * count; ++i) {
-      __global ox_face* face = faces + OX_FACES_PER_FEATURE * first + i;
-      face->entry = OX_NONE;
-      face->triangle = OX_NONE;
-      face->crossed = 0u;
-      face->plane = OX_NONE;
-    }
-  }
+  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride)
+    if (found[p].features != 0u)
+      found[p].first = ox_take_room(&scene, OX_COUNTER_FEATURES, found[p].features);
 }
 
 // The root of a tree of features. Others may hang trees on meanwhile; halves the way for the next.
-static uint ox_root_of(__global volatile ox_feature* features, uint i) {
+static uint ox_root_of(__global volatile uint* parents, uint i) {
   for (;;) {
-    const uint parent = features[i].parent;
+    const uint parent = parents[i];
     if (parent == i) return i;
-    const uint above = features[parent].parent;
-    if (above != parent) atomic_cmpxchg(&features[i].parent, parent, above);
+    const uint above = parents[parent];
+    if (above != parent) atomic_cmpxchg(parents + i, parent, above);
     i = above;
   }
 }
 
 // Trees hang on the lesser root: which that is in the end does not depend on the order.
-static void ox_unite(__global volatile ox_feature* features, uint a, uint b) {
+static void ox_unite(__global volatile uint* parents, uint a, uint b) {
   for (;;) {
-    a = ox_root_of(features, a);
-    b = ox_root_of(features, b);
+    a = ox_root_of(parents, a);
+    b = ox_root_of(parents, b);
     if (a == b) return;
     const uint above = min(a, b);
     const uint below = max(a, b);
-    if (atomic_cmpxchg(&features[below].parent, below, above) == below) return;
+    if (atomic_cmpxchg(parents + below, below, above) == below) return;
   }
 }
 
 // out: slots; chains of the crossings of each edge; neighbours along the curve are united.
 __kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global uint* slots) {
+                           __global uint* parents, __global uint* slots) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
@@ -121,16 +129,12 @@ __kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
     }
     const uint of_edge = ox_add_feature(&scene, features, slots, i << 2 | OX_ENTRY_EDGE);
     if (of_edge != OX_NONE) f->next = atomic_xchg(&features[of_edge >> 2].next, i);
-    for (uint k = 0u; k < 2u; ++k) {
+    for (uint k = 0u; k < 2u && (f->flags & OX_FEATURE_FLAT) == 0u; ++k) {
       if (f->at[k] == OX_NONE) continue;
       const uint other = ox_add_feature(&scene, features, slots, i << 2 | k);
       if (other == OX_NONE) continue;
-      const uint mate = other >> 2;
-      if (ox_side_of(features[mate].flags) != ox_side_of(f->flags)) {
-        f->mate[k] = mate;
-        features[mate].mate[other & 3u] = i;
-      }
-      ox_unite(features, i, mate);
+      f->mate[k] = atomic_xchg(&features[other >> 2].mate[other & 3u], i << 1 | k);
+      ox_unite(parents, i, other >> 2);
     }
   }
 }
@@ -163,41 +167,56 @@ static uint ox_find_partner(const ox_scene* scene, __global const ox_feature* fe
   return entry == OX_NONE ? OX_NONE : entry >> 2;
 }
 
-// out: partners; what follows one another along an edge is united.
+// Where no flood told it: a vertex is united with those inside to which edges lead that do not
+// cross.
+static void ox_join_neighbours(const ox_scene* scene, __global const ox_feature* features,
+                               __global uint* parents, __global const uint* slots, uint i) {
+  __global const ox_feature* f = features + i;
+  const uint side = ox_side_of(f->flags);
+  for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k) {
+    const ox_neighbour neighbour = scene->rings[k];
+    if (neighbour.vertex < f->source) continue;  // it asks too
+    if (ox_find_feature(scene, features, slots, ox_edge_key(f->pair, side, neighbour.edge)) !=
+        OX_NONE)
+      continue;
+    const uint entry =
+        ox_find_feature(scene, features, slots, ox_inside_key(f->pair, side, neighbour.vertex));
+    if (entry != OX_NONE) ox_unite(parents, i, entry >> 2);
+  }
+}
+
+// out: partners; what follows one another along an edge is united. Edges within facets need not be
+// followed: what hangs together by them alone is within one facet.
 __kernel void feature_join(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
-                           __global ox_feature* features, __global const uint* slots) {
+                           __global ox_feature* features, __global uint* parents,
+                           __global const uint* slots) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     __global ox_feature* f = features + i;
     if (!ox_is_vertex(f->flags)) {
+      if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
       f->partner = ox_find_partner(&scene, features, slots, crossings, i);
-      if (f->partner != OX_NONE) ox_unite(features, i, f->partner);
-      continue;
-    }
-    const uint side = ox_side_of(f->flags);
-    for (uint k = ring_starts[f->source]; k < ring_starts[f->source + 1u]; ++k) {
-      const ox_neighbour neighbour = rings[k];
-      if (neighbour.vertex < f->source) continue;  // it asks too
-      if (ox_find_feature(&scene, features, slots, ox_edge_key(f->pair, side, neighbour.edge)) !=
-          OX_NONE)
-        continue;
-      const uint entry =
-          ox_find_feature(&scene, features, slots, ox_inside_key(f->pair, side, neighbour.vertex));
-      if (entry != OX_NONE) ox_unite(features, i, entry >> 2);
+      if (f->partner != OX_NONE) ox_unite(parents, i, f->partner);
+    } else if (f->next == OX_NONE) {
+      ox_join_neighbours(&scene, features, parents, slots, i);
+    } else if (f->next != f->source) {
+      const uint entry = ox_find_feature(&scene, features, slots,
+                                         ox_inside_key(f->pair, ox_side_of(f->flags), f->next));
+      if (entry != OX_NONE) ox_unite(parents, i, entry >> 2);
     }
   }
 }
 
 // out: regions, without their members.
 __kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global ox_region* regions) {
+                           __global const uint* parents, __global ox_region* regions) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    if (features[i].parent != i) continue;
+    if (parents[i] != i) continue;
     const uint r = ox_take_room(&scene, OX_COUNTER_REGIONS, 1u);
     regions[r].pair = features[i].pair;
     regions[r].count = 0u;
@@ -210,13 +229,14 @@ __kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
 
 // out: how many members each region has, and what they say of it.
 __kernel void region_count(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global ox_region* regions) {
+                           __global uint* parents, __global ox_region* regions) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     const uint flags = features[i].flags;
-    const uint region = features[ox_root_of(features, i)].region;
+    if ((flags & OX_FEATURE_FLAT) != 0u) continue;
+    const uint region = features[ox_root_of(parents, i)].region;
     features[i].region = region;
     atomic_inc(&regions[region].count);
     const uint says = (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED) |
@@ -236,90 +256,85 @@ __kernel void region_place(OX_SCENE_PARAMETERS, __global ox_region* regions) {
   }
 }
 
-// out: members of each region, in any order; the table of faces that are planes for it.
-__kernel void region_fill(OX_SCENE_PARAMETERS, __global const ox_feature* features,
-                          __global ox_region* regions, __global ox_member* members,
+// out: members of each region, in any order; the table of faces that are planes for it, and where
+// in it the faces are that features are of.
+__kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                          __global ox_region* regions, __global float* members,
                           __global ox_face* faces) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    __global const ox_feature* f = features + i;
+    __global ox_feature* f = features + i;
+    if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
     __global ox_region* region = regions + f->region;
+    const uint side = ox_side_of(f->flags);
     const uint partner = f->partner;
-    const bool flat = (f->flags & OX_FEATURE_FLAT) != 0u;
     // A chord between two crossings begins where it enters.
     const bool begins = ox_is_vertex(f->flags) || (f->flags & OX_FEATURE_LEAVES) == 0u ||
                         partner == OX_NONE || ox_is_vertex(features[partner].flags);
     float3 end = vload3(0, partner == OX_NONE ? f->position : features[partner].position);
-    __global const ox_mesh* target = meshes + pairs[f->pair].mesh[1u - ox_side_of(f->flags)];
+    __global const ox_mesh* target = meshes + pairs[f->pair].mesh[1u - side];
     // Inside a closed mesh; behind an open one it is not known how far.
     if (partner == OX_NONE && !ox_is_vertex(f->flags) && (target->flags & OX_MESH_CLOSED) != 0u)
-      end = ox_vertex_of(&scene, f->pair, ox_side_of(f->flags),
+      end = ox_vertex_of(&scene, f->pair, side,
                          edges[f->source].vertex[(f->flags & OX_FEATURE_LEAVES) != 0u ? 0 : 1]);
-    __global ox_member* m = members + region->first + atomic_inc(&region->placed);
-    vstore3(vload3(0, f->position), 0, m->position);
-    m->feature = i;
-    vstore3(end, 0, m->end);
-    m->flags = f->flags;
-    m->state = begins && !flat ? OX_UNIT_WAITING : OX_UNIT_NONE;
-    m->least = INFINITY;
-    if (flat) continue;
-    if (f->triangle != OX_NONE) ox_add_face(&scene, features, faces, i << 2 | OX_FACE_OPPOSITE);
-    if (ox_is_vertex(f->flags)) continue;
-    ox_add_face(&scene, features, faces, i << 2 | OX_FACE_FIRST);
-    if (f->at[1] != OX_NONE) ox_add_face(&scene, features, faces, i << 2 | OX_FACE_SECOND);
+    const ox_fields list = ox_members_of(region, members);
+    const uint place = atomic_inc(&region->placed);
+    ox_set_vector(&list, OX_MEMBER_POSITION, place, vload3(0, f->position));
+    ox_set_vector(&list, OX_MEMBER_END, place, end);
+    ox_words_of(&list, OX_MEMBER_FLAGS)[place] = f->flags | (begins ? OX_MEMBER_BEGINS : 0u);
+    ox_words_of(&list, OX_MEMBER_FEATURE)[place] = i;
+    const bool crossed = !ox_is_vertex(f->flags);
+    const uint owner = f->region << 1 | (crossed ? 1u : 0u);
+    if (f->triangle != OX_NONE)
+      f->face = ox_add_face(&scene, region, owner, 1u - side, f->triangle, faces);
+    ox_words_of(&list, OX_MEMBER_FACE)[place] = f->face;
+    for (uint k = 0u; k < 2u && crossed; ++k)
+      if (f->at[k] != OX_NONE) ox_add_face(&scene, region, owner, side, f->at[k], faces);
   }
 }
 
 // Puts a plane among those of a region, and says where; OX_NONE: it is none.
-static uint ox_add_plane(__global ox_region* region, __global ox_plane_record* planes,
-                         const ox_plane* plane, uint crossed) {
+static uint ox_add_plane(__global ox_region* region, __global float* planes, const ox_plane* plane,
+                         uint flags) {
   if (plane->kind == OX_PLANE_NONE) return OX_NONE;
+  const ox_fields list = ox_planes_of(region, planes);
   const uint place = atomic_inc(&region->planes);
-  __global ox_plane_record* record = planes + OX_PLANES_PER_FEATURE * region->first + place;
-  vstore3(plane->normal, 0, record->normal);
-  record->top = plane->top;
-  record->bottom = plane->bottom;
-  record->kind = plane->kind | (crossed != 0u ? OX_PLANE_CROSSED : 0u);
-  record->id[0] = plane->id[0];
-  record->id[1] = plane->id[1];
-  record->beyond = -1.0f;
+  ox_store_plane(&list, place, plane, flags);
   return place;
 }
 
-// in: faces; features, with their mates. out: planes of each region, in any order; faces and
-// features: which their planes are, in place of mates. item: 1 place in the table of faces, 1
-// feature.
-__kernel void region_propose(OX_SCENE_PARAMETERS, __global ox_feature* features,
+// in: faces; features. out: planes of each region, in any order; of each crossing those of its
+// edge, one for each facet at it. item: 1 place in the table of faces; 1 feature.
+__kernel void region_propose(OX_SCENE_PARAMETERS, __global const ox_feature* features,
                              __global ox_region* regions, __global ox_face* faces,
-                             __global ox_plane_record* planes) {
+                             __global float* planes, __global uint* edge_planes) {
   const ox_scene scene = OX_SCENE;
   const uint count = ox_feature_count(&scene);
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < OX_FACES_PER_FEATURE * count; i += stride) {
-    if (faces[i].entry == OX_NONE) continue;
-    const ox_face_key key = ox_face_key_of(&scene, features, faces[i].entry);
-    const uint pair = features[faces[i].entry >> 2].pair;
-    const ox_plane plane = ox_plane_of_face(&scene, pair, key.side, faces[i].triangle);
-    faces[i].plane = ox_add_plane(regions + key.region, planes, &plane, faces[i].crossed);
+    __global ox_face* face = faces + i;
+    if (face->key == OX_NONE) continue;
+    __global ox_region* region = regions + (face->owner >> 1);
+    const ox_plane plane = ox_plane_of_face(&scene, region->pair, face->key & 1u, face->triangle);
+    face->plane =
+        ox_add_plane(region, planes, &plane, (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    __global ox_feature* f = features + i;
-    // Of two crossings that share a pair of triangles that of A proposes their edges.
-    if (ox_is_vertex(f->flags) || ox_side_of(f->flags) != 0u) continue;
+    __global const ox_feature* f = features + i;
+    if ((f->flags & (OX_FEATURE_VERTEX | OX_FEATURE_FLAT)) != 0u) continue;
     for (uint k = 0u; k < 2u; ++k) {
-      if (f->mate[k] == OX_NONE) continue;
-      __global ox_feature* mate = features + f->mate[k];
-      uint place = OX_NONE;
-      if (((f->flags | mate->flags) & OX_FEATURE_FLAT) == 0u) {
+      const uint mate = ox_mate_of(&scene, features, i << 1 | k);
+      if (mate == OX_NONE) {
+        edge_planes[2u * i + k] = OX_NONE;
+      } else if (ox_side_of(f->flags) == 0u) {  // of two mates that of A proposes
         const ox_plane plane =
             ox_plane_of_edges(&scene, f->pair, ox_code_of_edge(&scene, f->pair, 0u, f->source),
-                              ox_code_of_edge(&scene, f->pair, 1u, mate->source));
-        place = ox_add_plane(regions + f->region, planes, &plane, 0u);
+                              ox_code_of_edge(&scene, f->pair, 1u, features[mate >> 1].source));
+        edge_planes[2u * i + k] = edge_planes[mate] =
+            ox_add_plane(regions + f->region, planes, &plane, 0u);
       }
-      mate->mate[f->triangle == mate->at[0] ? 0u : 1u] = place;
-      f->mate[k] = place;
     }
   }
 }

@@ -6,13 +6,16 @@
 // open target has no inside, but its faces have a space behind them. A part without crossings is
 // not there, and where the flood gets round the border, to an end in front, all vertices are
 // looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
-// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by.  in
-// pairs, meshes, chunks, crossings, the list of them of each side of a pair (found), vertices,
-// edges, rings, components, triangles, meshlets, meshlet_nodes out   rays, of the sides that are
-// flooded (shared/flooded.h) tasks: of all others, and of those where the flood got round a border
-// crossings: `of_edge`, which strings those of an edge together room  words: a table for each side
-// (shared/flood_table.h) item  1 side of a pair (of a queue) may overflow: OX_LIST_RAYS,
-// OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
+// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by.
+//
+// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
+//       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
+// out   rays, of the sides that are flooded (shared/flooded.h)
+//       tasks: of all others, and of those where the flood got round a border
+//       crossings: `of_edge`, which strings those of an edge together
+// room  words: a table for each side (shared/flood_table.h)
+// item  1 side of a pair (of a queue)
+// may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #ifdef OX_PLANES
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -53,7 +56,7 @@ static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
 }
 
 // Queues a vertex to get a ray. False: there is no room, or it is known to be in front.
-static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
+static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint from) {
   const uint key = OX_KEY(vertex, OX_KEY_VERTEX);
   if (ox_has_key(s, key)) return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
@@ -61,18 +64,22 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
     s->refuted = s->asks;
     return false;
   }
-  if (!ox_add_key(s, key, 0u)) return false;
+  if (!ox_add_key(s, key, from)) return false;
   ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
   return true;
 }
 
 static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
-  for (uint i = 0u; i < s->table.queued; ++i)
-    if (!ox_is_open(s))
-      ox_append_inside(&s->scene, s->pair_side, ox_queue(s->words, &s->table)[i],
-                       i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, rays);
-    else
-      ox_append_ray(&s->scene, s->pair_side, ox_queue(s->words, &s->table)[i], rays);
+  for (uint i = 0u; i < s->table.queued; ++i) {
+    const uint vertex = ox_queue(s->words, &s->table)[i];
+    if (ox_is_open(s)) {
+      ox_append_ray(&s->scene, s->pair_side, vertex, rays);
+      continue;
+    }
+    const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
+    ox_append_inside(&s->scene, s->pair_side, vertex,
+                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, s->words[word + 1u], rays);
+  }
 }
 
 // Every vertex of the source is the vertex step's.
@@ -153,14 +160,6 @@ static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
   return s->words[word + 1u] == crossing;
 }
 
-static bool ox_flood_ends(ox_flood_state* s, uint edge) {
-  for (uint end = 0u; end < 2u; ++end)
-    if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
-        !ox_flood_vertex(s, s->scene.edges[edge].vertex[end]))
-      return false;
-  return true;
-}
-
 // The ends outside. In front of an open target: a flood that gets there got round its border. And
 // of a mesh of several parts, of which some may have crossings and others none.
 static bool ox_mark_ends(ox_flood_state* s, uint edge) {
@@ -180,9 +179,24 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
     for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
       const ox_neighbour neighbour = s->scene.rings[i];
       if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
-      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
+      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, vertex))
+        return false;
     }
   }
+  return true;
+}
+
+// From a vertex to all that hang together with it, before another is begun with: so each that
+// hangs together is one tree of `from`.
+static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
+  return ox_flood_vertex(s, vertex, vertex) && ox_flood_on(s, next);
+}
+
+static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
+  for (uint end = 0u; end < 2u; ++end)
+    if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
+        !ox_flood_from(s, s->scene.edges[edge].vertex[end], next))
+      return false;
   return true;
 }
 
@@ -219,7 +233,7 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
     if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_has_key(s, outside) ||
         ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
       continue;
-    if (ox_is_vertex_inside(s, vertex) ? !ox_flood_vertex(s, vertex) || !ox_flood_on(s, next)
+    if (ox_is_vertex_inside(s, vertex) ? !ox_flood_from(s, vertex, next)
                                        : !ox_add_key(s, outside, 0u))
       return false;
   }
@@ -237,7 +251,7 @@ static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
     const uint queued = s->table.queued;
     s->asks = true;
     s->refuted = false;
-    const bool done = ox_flood_vertex(s, vertex) && ox_flood_on(s, next);
+    const bool done = ox_flood_from(s, vertex, next);
     s->asks = false;
     if (s->refuted)  // it lies on the surface, and its part of the mesh is outside there
       s->table.queued = *next = queued;
@@ -265,8 +279,7 @@ static bool ox_flood(ox_flood_state* s, uint head) {
   for (uint c = head; c != OX_NONE && marks; c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->crossings[c].edge)) return false;
   for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
-    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge)) return false;
-  if (!ox_flood_on(s, &next)) return false;
+    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge, &next)) return false;
   const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
   for (uint c = head; c != OX_NONE && many_parts; c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;

@@ -8,11 +8,15 @@
 #include "contacts/feature.h"
 #include "shared/meshlet_tree.h"
 
-#define OX_PLANE_FACE_OF_A 0u
-#define OX_PLANE_FACE_OF_B 1u
-#define OX_PLANE_EDGES 2u
-#define OX_PLANE_NONE 3u
-#define OX_PLANE_CROSSED 4u  // of a record: the curve in which the surfaces meet runs over the face
+// Kinds: a bit for each mesh that it clears, OX_PLANE_CLEARS.
+#define OX_PLANE_NONE 0u
+#define OX_PLANE_FACE_OF_A 1u
+#define OX_PLANE_FACE_OF_B 2u
+#define OX_PLANE_EDGES 3u
+#define OX_PLANE_CLEARS(side) (2u >> (side))
+#define OX_PLANE_KIND 3u
+#define OX_PLANE_CROSSED 4u  // the curve in which the surfaces meet runs over the face
+#define OX_PLANE_PRICED 8u   // what it takes beside the region is known
 
 typedef struct {
   uint kind;      // OX_PLANE_...
@@ -55,8 +59,7 @@ static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint s
 
 // Whether points of mesh `side` are below it, or above: whether it clears them.
 static inline bool ox_clears_side(const ox_plane* plane, uint side) {
-  return plane->kind == OX_PLANE_EDGES ||
-         plane->kind == (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A);
+  return (plane->kind & OX_PLANE_CLEARS(side)) != 0u;
 }
 
 // How deep a point of mesh `side` is below it [m]; of B: above it.
@@ -172,13 +175,17 @@ static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint 
   return plane;
 }
 
-// The farthest that mesh `side` reaches along a direction of the frame of B [m].
-static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, float3 direction) {
+// The farthest that mesh `side` reaches along a direction of the frame of B [m]; or something
+// beyond `limit`.
+static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, float3 direction,
+                                   float limit) {
   __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
   const float3 d = side == 0u ? ox_turn(scene->pairs + pair, 1u, direction) : direction;
+  const float origin =
+      side == 0u ? ox_dot(direction, vload3(0, scene->pairs[pair].offset[0])) : 0.0f;
   float farthest = -INFINITY;
   ox_box_walk walk = ox_begin_box_walk(mesh);
-  while (walk.count != 0u) {
+  while (walk.count != 0u && !(farthest + origin > limit)) {
     const uint child = walk.child[--walk.count];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = scene->surfaces.meshlets + mesh->meshlet_first + (child >> 1);
@@ -192,16 +199,34 @@ static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, 
     }
     __global const ox_meshlet_node* node =
         scene->surfaces.nodes + mesh->meshlet_node_first + (child >> 1);
-    for (uint k = 0u; k < node->count; ++k) {
-      const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
-      const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
-      const float3 corner =
-          (float3)(d.x > 0.0f ? hi.x : lo.x, d.y > 0.0f ? hi.y : lo.y, d.z > 0.0f ? hi.z : lo.z);
-      if (ox_dot(d, corner) > farthest) walk.child[walk.count++] = node->child[k];
+    // The child that may reach farthest is next: what it reaches spares most of the others.
+    uint first = walk.count;
+    float most = -INFINITY;
+    for (uint block = 0u; block < OX_BLOCKS; ++block) {
+      const ox_floats along =
+          d.x * (d.x > 0.0f ? ox_load(block, node->hi[0]) : ox_load(block, node->lo[0])) +
+          d.y * (d.y > 0.0f ? ox_load(block, node->hi[1]) : ox_load(block, node->lo[1])) +
+          d.z * (d.z > 0.0f ? ox_load(block, node->hi[2]) : ox_load(block, node->lo[2]));
+      const ox_ints is_beyond = along > farthest;
+      uint beyond = ox_mask_of(&is_beyond) & ox_present_children(node, block);
+      float of_lane[OX_VECTOR_WIDTH];
+      ox_store(along, 0, of_lane);
+      for (; beyond != 0u; beyond &= beyond - 1u) {
+        const uint lane = ox_lowest(beyond);
+        walk.child[walk.count] = node->child[OX_VECTOR_WIDTH * block + lane];
+        if (of_lane[lane] > most) {
+          most = of_lane[lane];
+          first = walk.count;
+        }
+        ++walk.count;
+      }
     }
+    if (first == walk.count) continue;
+    const uint next = walk.child[first];
+    walk.child[first] = walk.child[walk.count - 1u];
+    walk.child[walk.count - 1u] = next;
   }
-  return side == 0u ? farthest + ox_dot(direction, vload3(0, scene->pairs[pair].offset[0]))
-                    : farthest;
+  return farthest + origin;
 }
 
 #endif

@@ -4,8 +4,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_REGION_H
 #define ODE_EXT_KERNELS_CONTACTS_REGION_H
 
-#include "contacts/face_table.h"
-#include "contacts/plane.h"
+#include "contacts/region_fields.h"
 
 typedef struct {
   const ox_scene* scene;
@@ -15,9 +14,10 @@ typedef struct {
   uint flags;
   uint plane_count;
   __global const ox_feature* features;
-  __global ox_member* members;
+  ox_fields members;
   __global const ox_face* faces;
-  __global ox_plane_record* planes;
+  __global const uint* edge_planes;  // of each crossing (features.cl)
+  ox_fields planes;
 } ox_region_view;
 
 // A face that looks back from a plane by more than this is one through which the body goes on.
@@ -27,41 +27,50 @@ typedef struct {
 // which is what the growth of A and rounding may make of either depth.
 #define OX_EDGE_TIE (4.0f * OX_INFLATION)
 
-static inline ox_plane ox_load_plane(__global const ox_plane_record* record) {
-  ox_plane plane;
-  plane.kind = record->kind & ~OX_PLANE_CROSSED;
-  plane.id[0] = record->id[0];
-  plane.id[1] = record->id[1];
-  plane.normal = vload3(0, record->normal);
-  plane.top = record->top;
-  plane.bottom = record->bottom;
-  return plane;
-}
-
 // Whether mesh `side`, which the plane clears, goes on through a face of the other that looks back:
 // then it is not only what of it is in the region that has to pass the plane. (The plane of a face
 // of A has the face's normal turned.)
 static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plane, uint side) {
-  const uint through = OX_PLANE_CROSSED | (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A);
-  for (uint i = 0u; i < r->plane_count; ++i)
-    if (r->planes[i].kind == through &&
-        ox_dot(plane->normal, vload3(0, r->planes[i].normal)) < OX_LOOKS_BACK)
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    const uint through =
+        ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
+                   OX_PLANE_CROSSED | (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A));
+    ox_floats cosine;
+    ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, plane->normal, &cosine);
+    const ox_ints looks_back = cosine < OX_LOOKS_BACK;
+    if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
       return true;
+  }
   return false;
 }
 
-// How deep all of the bodies are below a plane, if they go on beyond the region [m]; else 0.
-static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane) {
+// How deep all of the bodies are below a plane, if they go on beyond the region [m], else 0; or
+// something beyond `limit`.
+static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float limit) {
+  // Of two that are as deep the one that it does not go on through is better.
+  const float tie = 4.0f * r->scene->pairs[r->pair].epsilon;
   float depth = 0.0f;
-  for (uint side = 0u; side < 2u; ++side) {
+  for (uint side = 0u; side < 2u && !(depth > limit); ++side) {
     if (!ox_clears_side(plane, side) || !ox_body_goes_on(r, plane, side)) continue;
     const float3 down = side == 0u ? -plane->normal : plane->normal;
-    const float reach = ox_reach_along(r->scene, r->pair, side, down);
-    const float of_side = side == 0u ? plane->top + reach : reach - plane->bottom;
-    // Of two that are as deep the one that it does not go on through is better.
-    depth = ox_max(depth, of_side + 4.0f * r->scene->pairs[r->pair].epsilon);
+    const float above = side == 0u ? plane->top : -plane->bottom;
+    // Where that ends early the tie, which is more than rounding, takes the sum past the limit.
+    const float reach = ox_reach_along(r->scene, r->pair, side, down, limit - above);
+    depth = ox_max(depth, above + reach + tie);
   }
   return depth;
+}
+
+static inline float3 ox_position_of(const ox_region_view* r, uint k) {
+  return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);
+}
+
+static inline uint ox_flags_of(const ox_region_view* r, uint k) {
+  return ox_words_of(&r->members, OX_MEMBER_FLAGS)[k];
+}
+
+static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, uint k) {
+  return r->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
 }
 
 // Whether the members of a region are points of mesh `side`: crossings are of both.

@@ -9,125 +9,217 @@
 // The depth of a unit below a plane; infinite where the plane does not clear it: it is of the
 // other mesh, or one end is above it.
 static inline float ox_unit_depth(const ox_region_view* r, uint k, const ox_plane* plane) {
-  __global const ox_member* unit = r->members + k;
-  const uint side = ox_side_of(unit->flags);
+  const uint side = ox_side_of(ox_flags_of(r, k));
   if (plane->kind == OX_PLANE_NONE || !ox_clears_side(plane, side)) return INFINITY;
-  const float one = ox_plane_depth(plane, side, vload3(0, unit->position));
-  const float other = ox_plane_depth(plane, side, vload3(0, unit->end));
+  const float one = ox_plane_depth(plane, side, ox_position_of(r, k));
+  const float other = ox_plane_depth(plane, side, ox_vector_of(&r->members, OX_MEMBER_END, k));
   // A crossing lies on its face to within what A was made larger by, and what is not known.
   const float above = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
   if (ox_min(one, other) < above) return INFINITY;
   return ox_max(ox_max(one, other), 0.0f);
 }
 
-// Finds the planes that the features of a unit propose.
-static inline void ox_propose_for(const ox_region_view* r, __global ox_member* unit) {
-  uint count = 0u;
-  uint feature = unit->feature;
-  for (uint end = 0u; end < 2u; ++end) {
-    __global const ox_feature* f = r->features + feature;
-    if (f->triangle != OX_NONE && (f->flags & OX_FEATURE_FLAT) == 0u)
-      unit->own[count++] =
-          ox_plane_of_entry(r->scene, r->features, r->faces, feature << 2 | OX_FACE_OPPOSITE);
-    for (uint k = 0u; k < 2u; ++k)
-      if (!ox_is_vertex(f->flags) && f->mate[k] != OX_NONE) unit->own[count++] = f->mate[k];
-    if (f->partner == OX_NONE || ox_is_vertex(f->flags)) break;
-    feature = f->partner;
-  }
-  for (; count < OX_UNIT_PLANES; ++count) unit->own[count] = OX_NONE;
+// Takes a plane as the best of those that a unit proposes, if it is.
+static inline void ox_propose_for(const ox_region_view* r, uint k, uint index,
+                                  ox_plane_choice* best) {
+  if (index == OX_NONE) return;
+  ox_plane_choice choice;
+  choice.plane = ox_load_plane(&r->planes, index);
+  choice.depth = choice.judged = ox_unit_depth(r, k, &choice.plane);
+  if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
+  *best = choice;
+  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = index;
 }
 
-static inline void ox_measure_units(const ox_region_view* r) {
-  for (uint k = 0u; k < r->count; ++k) {
-    __global ox_member* unit = r->members + k;
-    if (unit->state != OX_UNIT_WAITING) continue;
-    ox_propose_for(r, unit);
-    for (uint i = 0u; i < OX_UNIT_PLANES; ++i) {
-      if (unit->own[i] == OX_NONE) continue;
-      const ox_plane plane = ox_load_plane(r->planes + unit->own[i]);
-      unit->least = ox_min(unit->least, ox_unit_depth(r, k, &plane));
+// Of the waiting units, the first of the members, the best of the planes that their features
+// propose.
+static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
+  for (uint k = 0u; k < waiting; ++k) {
+    ox_plane_choice best = ox_no_choice();
+    ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = OX_NONE;
+    const uint face = ox_words_of(&r->members, OX_MEMBER_FACE)[k];
+    if (face != OX_NONE) ox_propose_for(r, k, r->faces[face].plane, &best);
+    if (!ox_is_vertex(ox_flags_of(r, k))) {
+      const uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
+      const uint partner = r->features[feature].partner;
+      for (uint i = 0u; i < 2u; ++i) ox_propose_for(r, k, r->edge_planes[2u * feature + i], &best);
+      if (partner != OX_NONE) {
+        const uint other = r->features[partner].face;
+        if (other != OX_NONE) ox_propose_for(r, k, r->faces[other].plane, &best);
+        for (uint i = 0u; i < 2u && !ox_is_vertex(r->features[partner].flags); ++i)
+          ox_propose_for(r, k, r->edge_planes[2u * partner + i], &best);
+      }
     }
+    ox_set_vector(&r->members, OX_MEMBER_NORMAL, k, best.plane.normal);
+    ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = best.depth;
   }
 }
 
-// Whether feature a comes before b in an order that does not depend on their numbers.
-static inline bool ox_is_before(__global const ox_feature* a, __global const ox_feature* b) {
-  const uint kind_a = a->flags & (OX_FEATURE_SIDE | OX_FEATURE_VERTEX);
-  const uint kind_b = b->flags & (OX_FEATURE_SIDE | OX_FEATURE_VERTEX);
-  if (kind_a != kind_b) return kind_a < kind_b;
-  if (a->source != b->source) return a->source < b->source;
-  return a->triangle < b->triangle;
+static inline void ox_swap_members(const ox_region_view* r, uint a, uint b) {
+  if (a == b) return;
+  for (uint field = 0u; field < OX_MEMBER_WORDS; ++field) {
+    __global uint* words = ox_words_of(&r->members, field);
+    const uint kept = words[a];
+    words[a] = words[b];
+    words[b] = kept;
+  }
 }
 
-// The waiting unit that is deepest below its own best plane; OX_NONE: all are cleared.
-static inline uint ox_deepest_unit(const ox_region_view* r) {
-  uint best = OX_NONE;
-  for (uint k = 0u; k < r->count; ++k) {
-    if (r->members[k].state != OX_UNIT_WAITING) continue;
-    if (best != OX_NONE) {
-      const float least = r->members[best].least;
-      if (r->members[k].least < least) continue;
-      if (r->members[k].least == least && !ox_is_before(r->features + r->members[k].feature,
-                                                        r->features + r->members[best].feature))
-        continue;
-    }
-    best = k;
-  }
+// The waiting unit that is deepest below its own best plane; there is one.
+static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
+  __global const float* least = ox_floats_of(&r->members, OX_MEMBER_LEAST);
+  uint best = 0u;
+  for (uint k = 1u; k < waiting; ++k)
+    if (least[k] > least[best] ||
+        (least[k] == least[best] && ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))))
+      best = k;
   return best;
 }
 
-// Tries a plane for a unit; whether it is better than the best so far. `beyond`: as in the record.
-static inline bool ox_try_unit(const ox_region_view* r, uint unit, const ox_plane* plane,
-                               __global float* beyond, ox_plane_choice* best) {
+// What a plane takes beside the region: known from another unit, or found out, at least up to a
+// limit.
+static inline float ox_price_beyond(const ox_region_view* r, uint i, const ox_plane* plane,
+                                    float limit) {
+  __global float* beyond = ox_floats_of(&r->planes, OX_PLANE_BEYOND) + i;
+  __global uint* flags = ox_words_of(&r->planes, OX_PLANE_FLAGS) + i;
+  if ((*flags & OX_PLANE_PRICED) == 0u && !(*beyond > limit)) {
+    *beyond = ox_depth_beyond(r, plane, limit);
+    if (!(*beyond > limit)) *flags |= OX_PLANE_PRICED;
+  }
+  return *beyond;
+}
+
+// Tries a plane for a unit.
+static inline void ox_try_unit(const ox_region_view* r, uint unit, uint i, ox_plane_choice* best) {
   ox_plane_choice choice;
-  choice.plane = *plane;
-  choice.depth = ox_unit_depth(r, unit, plane);
-  if (choice.depth == INFINITY) return false;
-  const float tie = ox_edge_tie(r, plane);
+  choice.plane = ox_load_plane(&r->planes, i);
+  choice.depth = ox_unit_depth(r, unit, &choice.plane);
+  if (choice.depth == INFINITY) return;
+  const float tie = ox_edge_tie(r, &choice.plane);
   choice.judged = choice.depth + tie;
-  if (!ox_is_better_choice(&choice, best)) return false;
-  if (*beyond < 0.0f) *beyond = ox_depth_beyond(r, plane);
-  choice.judged = ox_max(choice.depth, *beyond) + tie;
-  if (!ox_is_better_choice(&choice, best)) return false;
-  *best = choice;
-  return true;
+  if (!ox_is_better_choice(&choice, best)) return;
+  const float beyond = ox_price_beyond(r, i, &choice.plane, best->judged - tie);
+  choice.judged = ox_max(choice.depth, beyond) + tie;
+  if (ox_is_better_choice(&choice, best)) *best = choice;
+}
+
+// A bit for each plane of a block that clears a unit by a move of `limit` at most.
+static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint unit, float limit) {
+  const uint side = ox_side_of(ox_flags_of(r, unit));
+  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  ox_floats one, other;
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_position_of(r, unit), &one);
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_vector_of(&r->members, OX_MEMBER_END, unit),
+                &other);
+  const ox_floats level =
+      OX_LOAD_FLOATS(&r->planes, side == 0u ? OX_PLANE_TOP : OX_PLANE_BOTTOM, block);
+  one = side == 0u ? level - one : one - level;
+  other = side == 0u ? level - other : other - level;
+  const ox_ints clears = (one >= past) & (other >= past) & (one <= limit) & (other <= limit);
+  // Those of other kinds clear the other mesh alone.
+  const uint others = ox_of_kind(&r->planes, block, OX_PLANE_KIND,
+                                 side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
+  return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
 }
 
 // Of all planes of the region the best for a unit.
-static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit, uint* index) {
+static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit) {
   ox_plane_choice best = ox_no_choice();
-  for (uint i = 0u; i < r->plane_count; ++i) {
-    const ox_plane plane = ox_load_plane(r->planes + i);
-    if (ox_try_unit(r, unit, &plane, &r->planes[i].beyond, &best)) *index = i;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    uint clears = ox_clearing_planes(r, block, unit, best.judged);
+    for (; clears != 0u; clears &= clears - 1u) {
+      const uint i = OX_VECTOR_WIDTH * block + ox_lowest(clears);
+      ox_try_unit(r, unit, i, &best);
+    }
   }
   return best;
 }
 
-// The plane by which a move along another's normal by its depth clears a unit: that one, or else
-// the least of its own and of those chosen that the move takes it past; OX_PLANE_NONE: there is
-// none.
-static inline ox_plane_choice ox_clears(const ox_region_view* r, uint k,
-                                        const ox_plane_choice* move, const uint* chosen,
-                                        uint chosen_count) {
-  const float far = move->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+#define OX_MOST_PLANES 16u
+
+// A move along the normal of a plane by its depth, and how far it goes along those chosen so far.
+typedef struct {
+  ox_plane plane;
+  float far;  // [m]
+  uint count;
+  ox_plane chosen[OX_MOST_PLANES];
+  float along[OX_MOST_PLANES];  // [m]
+} ox_parting_move;
+
+static inline void ox_set_move(const ox_region_view* r, const ox_plane_choice* choice,
+                               ox_parting_move* move) {
+  move->plane = choice->plane;
+  move->far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  move->chosen[move->count++] = choice->plane;
+  for (uint i = 0u; i < move->count; ++i)
+    move->along[i] = move->far * ox_dot(move->plane.normal, move->chosen[i].normal);
+}
+
+// Takes a plane for a unit if a move goes so far along it, and it is the least so far.
+static inline void ox_try_clearing(const ox_region_view* r, uint k, const ox_plane* plane,
+                                   float along, ox_plane_choice* by) {
+  ox_plane_choice choice;
+  choice.plane = *plane;
+  choice.depth = choice.judged = ox_unit_depth(r, k, plane);
+  if (choice.depth <= along && ox_is_better_choice(&choice, by)) *by = choice;
+}
+
+// The plane by which a move clears a unit: that of the move, or else the least of its own best and
+// of those chosen that the move takes it past; OX_PLANE_NONE: there is none.
+static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
+                                                const ox_parting_move* move) {
   ox_plane_choice by = ox_no_choice();
-  by.plane = move->plane;
-  by.depth = ox_unit_depth(r, k, &move->plane);
-  if (by.depth <= far) return by;
-  by = ox_no_choice();
-  __global const ox_member* unit = r->members + k;
-  for (uint i = 0u; i < chosen_count + OX_UNIT_PLANES; ++i) {
-    if (i >= chosen_count && unit->least > far) break;
-    const uint index = i < chosen_count ? chosen[i] : unit->own[i - chosen_count];
-    if (index == OX_NONE) continue;
-    ox_plane_choice choice;
-    choice.plane = ox_load_plane(r->planes + index);
-    choice.depth = choice.judged = ox_unit_depth(r, k, &choice.plane);
-    if (choice.depth <= far * ox_dot(move->plane.normal, choice.plane.normal) &&
-        ox_is_better_choice(&choice, &by))
-      by = choice;
+  ox_try_clearing(r, k, &move->plane, move->far, &by);
+  if (by.plane.kind != OX_PLANE_NONE) return by;
+  for (uint i = 0u; i < move->count; ++i)
+    if (move->along[i] >= 0.0f) ox_try_clearing(r, k, move->chosen + i, move->along[i], &by);
+  const float3 normal = ox_vector_of(&r->members, OX_MEMBER_NORMAL, k);
+  if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <=
+      move->far * ox_dot(move->plane.normal, normal)) {
+    const ox_plane plane = ox_load_plane(&r->planes, ox_words_of(&r->members, OX_MEMBER_PLANE)[k]);
+    ox_try_clearing(r, k, &plane, INFINITY, &by);
   }
   return by;
+}
+
+// A bit for each unit of a block that a plane clears by a move so far along it.
+static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_plane* plane,
+                                 float along) {
+  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  const ox_ints is_b =
+      (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
+  const uint of_b = ox_mask_of(&is_b);
+  ox_floats one, other;
+  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, plane->normal, &one);
+  ox_dot_fields(&r->members, OX_MEMBER_END, block, plane->normal, &other);
+  uint cleared = 0u;
+  if (ox_clears_side(plane, 0u)) {
+    const ox_floats a = plane->top - one;
+    const ox_floats b = plane->top - other;
+    const ox_ints clears = (a >= past) & (b >= past) & (a <= along) & (b <= along);
+    cleared |= ox_mask_of(&clears) & ~of_b;
+  }
+  if (ox_clears_side(plane, 1u)) {
+    const ox_floats a = one - plane->bottom;
+    const ox_floats b = other - plane->bottom;
+    const ox_ints clears = (a >= past) & (b >= past) & (a <= along) & (b <= along);
+    cleared |= ox_mask_of(&clears) & of_b;
+  }
+  return cleared;
+}
+
+// A bit for each waiting unit of a block that a move clears.
+static inline uint ox_cleared_units(const ox_region_view* r, uint block, uint waiting,
+                                    const ox_parting_move* move) {
+  uint cleared = ox_cleared_by(r, block, &move->plane, move->far);
+  for (uint i = 0u; i < move->count; ++i)
+    if (move->along[i] >= 0.0f)
+      cleared |= ox_cleared_by(r, block, move->chosen + i, move->along[i]);
+  ox_floats cosine;
+  ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, move->plane.normal, &cosine);
+  const ox_ints past_own =
+      OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= move->far * cosine;
+  return (cleared | ox_mask_of(&past_own)) & ox_present_lanes(waiting, block);
 }
 
 #endif

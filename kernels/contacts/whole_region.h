@@ -16,8 +16,8 @@ static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plan
     float top = plane->top;
     float bottom = plane->bottom;
     for (uint k = 0u; k < r->count; ++k) {
-      const uint flags = r->members[k].flags;
-      const float height = ox_dot(plane->normal, vload3(0, r->members[k].position));
+      const uint flags = ox_flags_of(r, k);
+      const float height = ox_dot(plane->normal, ox_position_of(r, k));
       if (ox_is_on(flags, 1u)) top = ox_max(top, height);
       if (ox_is_on(flags, 0u)) bottom = ox_min(bottom, height);
       if (top - bottom > limit) break;
@@ -27,11 +27,11 @@ static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plan
   const uint side = ox_clears_side(plane, 0u) ? 0u : 1u;
   const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
   float depth = -INFINITY;  // unless there is something to be moved
-  if (*deepest < r->count && ox_is_on(r->members[*deepest].flags, side))
-    depth = ox_plane_depth(plane, side, vload3(0, r->members[*deepest].position));
+  if (*deepest < r->count && ox_is_on(ox_flags_of(r, *deepest), side))
+    depth = ox_plane_depth(plane, side, ox_position_of(r, *deepest));
   for (uint k = 0u; k < r->count && depth <= limit; ++k) {
-    const float here = ox_plane_depth(plane, side, vload3(0, r->members[k].position));
-    if ((here <= depth && here >= past) || !ox_is_on(r->members[k].flags, side)) continue;
+    const float here = ox_plane_depth(plane, side, ox_position_of(r, k));
+    if ((here <= depth && here >= past) || !ox_is_on(ox_flags_of(r, k), side)) continue;
     if (here < past) return INFINITY;
     depth = here;
     *deepest = k;
@@ -53,7 +53,7 @@ static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   choice.depth = ox_whole_depth(r, plane, best->judged - tie, deepest);
   choice.judged = choice.depth + tie;
   if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
-  const float beyond = ox_depth_beyond(r, plane);
+  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
   // A pair of edges holds where it is; its contact says how far all of the body has to go.
   if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond);
   choice.judged = ox_max(choice.depth, beyond) + tie;
@@ -107,12 +107,12 @@ static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 no
   const float3 past = side == 0u ? -normal : normal;
   float farthest = -INFINITY;
   for (uint k = 0u; k < r->count; ++k)
-    if (ox_is_on(r->members[k].flags, side))
-      farthest = ox_max(farthest, ox_dot(past, vload3(0, r->members[k].position)));
+    if (ox_is_on(ox_flags_of(r, k), side))
+      farthest = ox_max(farthest, ox_dot(past, ox_position_of(r, k)));
   farthest -= OX_INFLATION * r->scene->pairs[r->pair].epsilon;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = r->features + r->members[k].feature;
-    if (ox_is_on(f->flags, side) && ox_dot(past, vload3(0, r->members[k].position)) >= farthest)
+    __global const ox_feature* f = ox_feature_of(r, k);
+    if (ox_is_on(f->flags, side) && ox_dot(past, ox_position_of(r, k)) >= farthest)
       ox_add_edges_at(r, side, f, set);
   }
 }
@@ -127,8 +127,8 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
   const uint facet = scene->facets[triangle];
   ox_add_sides(r, side, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = r->features + r->members[k].feature;
-    if (ox_side_of(f->flags) != side || (f->flags & OX_FEATURE_FLAT) != 0u) continue;
+    __global const ox_feature* f = ox_feature_of(r, k);
+    if (ox_side_of(f->flags) != side) continue;
     if (!ox_is_vertex(f->flags)) {
       if (ox_are_at_facet(scene, f->at[0], f->at[1], facet))
         ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
@@ -193,7 +193,7 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) best[i] = ox_no_choice();
   uint deepest = 0u;
   for (uint i = 0u; i < r->plane_count; ++i) {
-    const ox_plane plane = ox_load_plane(r->planes + i);
+    const ox_plane plane = ox_load_plane(&r->planes, i);
     ox_try_whole(r, &plane, &deepest, best + ox_direction_of(plane.normal));
   }
   ox_plane_choice least = ox_no_choice();

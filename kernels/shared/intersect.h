@@ -73,9 +73,9 @@ static inline bool ox_note_beyond(ox_general_points* p, const ox_box* box, const
   const float3 n = slab->normal;
   int beyond_all = -1;
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_floats x = ox_load_private(block, p->x);
-    const ox_floats y = ox_load_private(block, p->y);
-    const ox_floats z = ox_load_private(block, p->z);
+    const ox_floats x = ox_load_unaligned(block, p->x);
+    const ox_floats y = ox_load_unaligned(block, p->y);
+    const ox_floats z = ox_load_unaligned(block, p->z);
     const ox_floats height = n.x * x + n.y * y + n.z * z;
     const ox_ints none = 0;
     const ox_ints beyond = (x < lo.x ? none + 1 : none) | (x > hi.x ? none + 2 : none) |
@@ -131,15 +131,15 @@ typedef struct {
 
 static inline void ox_make_planes(const ox_general_triangles* t, ox_general_planes* planes) {
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_floats ax = ox_load_private(block, t->corner[0][0]);
-    const ox_floats ay = ox_load_private(block, t->corner[0][1]);
-    const ox_floats az = ox_load_private(block, t->corner[0][2]);
-    const ox_floats ux = ox_load_private(block, t->corner[1][0]) - ax;
-    const ox_floats uy = ox_load_private(block, t->corner[1][1]) - ay;
-    const ox_floats uz = ox_load_private(block, t->corner[1][2]) - az;
-    const ox_floats vx = ox_load_private(block, t->corner[2][0]) - ax;
-    const ox_floats vy = ox_load_private(block, t->corner[2][1]) - ay;
-    const ox_floats vz = ox_load_private(block, t->corner[2][2]) - az;
+    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]);
+    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]);
+    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]);
+    const ox_floats ux = ox_load_unaligned(block, t->corner[1][0]) - ax;
+    const ox_floats uy = ox_load_unaligned(block, t->corner[1][1]) - ay;
+    const ox_floats uz = ox_load_unaligned(block, t->corner[1][2]) - az;
+    const ox_floats vx = ox_load_unaligned(block, t->corner[2][0]) - ax;
+    const ox_floats vy = ox_load_unaligned(block, t->corner[2][1]) - ay;
+    const ox_floats vz = ox_load_unaligned(block, t->corner[2][2]) - az;
     ox_store(uy * vz - uz * vy, block, planes->normal[0]);
     ox_store(uz * vx - ux * vz, block, planes->normal[1]);
     ox_store(ux * vy - uy * vx, block, planes->normal[2]);
@@ -152,13 +152,13 @@ static inline ox_heights ox_heights_over(const ox_general_triangles* t,
                                          const ox_general_planes* planes, float3 p) {
   ox_heights heights = {0u, 0u};
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_floats x = p.x - ox_load_private(block, t->corner[0][0]);
-    const ox_floats y = p.y - ox_load_private(block, t->corner[0][1]);
-    const ox_floats z = p.z - ox_load_private(block, t->corner[0][2]);
-    const ox_floats height = ox_load_private(block, planes->normal[0]) * x +
-                             ox_load_private(block, planes->normal[1]) * y +
-                             ox_load_private(block, planes->normal[2]) * z;
-    const ox_floats doubt = ox_load_private(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
+    const ox_floats x = p.x - ox_load_unaligned(block, t->corner[0][0]);
+    const ox_floats y = p.y - ox_load_unaligned(block, t->corner[0][1]);
+    const ox_floats z = p.z - ox_load_unaligned(block, t->corner[0][2]);
+    const ox_floats height = ox_load_unaligned(block, planes->normal[0]) * x +
+                             ox_load_unaligned(block, planes->normal[1]) * y +
+                             ox_load_unaligned(block, planes->normal[2]) * z;
+    const ox_floats doubt = ox_load_unaligned(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
     const ox_ints above = height > 0.0f;
     const ox_ints doubtful = fabs(height) <= doubt;
     heights.above |= ox_mask_of(&above) << (OX_VECTOR_WIDTH * block);
@@ -177,15 +177,15 @@ static inline ox_passes ox_passes_of(const ox_general_triangles* t, float3 p, fl
   ox_passes passes = {0u, 0u, 0u, 0u};
   const float size = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z);
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_floats ax = ox_load_private(block, t->corner[0][0]) - p.x;
-    const ox_floats ay = ox_load_private(block, t->corner[0][1]) - p.y;
-    const ox_floats az = ox_load_private(block, t->corner[0][2]) - p.z;
-    const ox_floats bx = ox_load_private(block, t->corner[1][0]) - p.x;
-    const ox_floats by = ox_load_private(block, t->corner[1][1]) - p.y;
-    const ox_floats bz = ox_load_private(block, t->corner[1][2]) - p.z;
-    const ox_floats cx = ox_load_private(block, t->corner[2][0]) - p.x;
-    const ox_floats cy = ox_load_private(block, t->corner[2][1]) - p.y;
-    const ox_floats cz = ox_load_private(block, t->corner[2][2]) - p.z;
+    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]) - p.x;
+    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]) - p.y;
+    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]) - p.z;
+    const ox_floats bx = ox_load_unaligned(block, t->corner[1][0]) - p.x;
+    const ox_floats by = ox_load_unaligned(block, t->corner[1][1]) - p.y;
+    const ox_floats bz = ox_load_unaligned(block, t->corner[1][2]) - p.z;
+    const ox_floats cx = ox_load_unaligned(block, t->corner[2][0]) - p.x;
+    const ox_floats cy = ox_load_unaligned(block, t->corner[2][1]) - p.y;
+    const ox_floats cz = ox_load_unaligned(block, t->corner[2][2]) - p.z;
     const ox_floats u =
         d.x * (by * cz - bz * cy) + d.y * (bz * cx - bx * cz) + d.z * (bx * cy - by * cx);
     const ox_floats v =

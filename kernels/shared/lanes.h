@@ -37,19 +37,18 @@ typedef int ox_ints;
 #endif
 
 // A block of the lanes of a record, which lie on a boundary of all of them: buffers do, and their
-// records' lanes come first or after as many bytes (types.h). What is not known to be aligned is
-// loaded in halves.
+// records' lanes come first or after as many bytes (types.h).
 #define ox_load(block, p) (((__global const ox_floats*)(p))[block])
 
-// The same of a private array.
+// The same of what need not lie there: in halves.
 #if OX_VECTOR_WIDTH == 16
-#define ox_load_private(block, p) vload16(block, p)
+#define ox_load_unaligned(block, p) vload16(block, p)
 #elif OX_VECTOR_WIDTH == 8
-#define ox_load_private(block, p) vload8(block, p)
+#define ox_load_unaligned(block, p) vload8(block, p)
 #elif OX_VECTOR_WIDTH == 4
-#define ox_load_private(block, p) vload4(block, p)
+#define ox_load_unaligned(block, p) vload4(block, p)
 #else
-#define ox_load_private(block, p) ((p)[block])
+#define ox_load_unaligned(block, p) ((p)[block])
 #endif
 
 // All lanes by one operator: `op(a, b)`.
@@ -83,11 +82,28 @@ static inline uint ox_lowest(uint bits) { return 31u - clz(bits & (~bits + 1u));
 #define OX_LANE_BITS 1
 #endif
 
+#if OX_VECTOR_WIDTH == 16
+#define OX_LANE_NUMBERS (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_LANE_NUMBERS (int8)(0, 1, 2, 3, 4, 5, 6, 7)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_LANE_NUMBERS (int4)(0, 1, 2, 3)
+#else
+#define OX_LANE_NUMBERS 0
+#endif
+
 #define OX_ALL_LANES ((1u << OX_VECTOR_WIDTH) - 1u)
 
 static inline uint ox_mask_of(const ox_ints* v) {
   const ox_ints bits = *v & OX_LANE_BITS;
   return as_uint(OX_FOLD(bits, OX_OR));
+}
+
+// A bit for each lane of a block that is one of so many in all.
+static inline uint ox_present_lanes(uint count, uint block) {
+  const uint before = OX_VECTOR_WIDTH * block;
+  if (count <= before) return 0u;
+  return count - before < OX_VECTOR_WIDTH ? (1u << (count - before)) - 1u : OX_ALL_LANES;
 }
 
 static inline int ox_or_of(const ox_ints* v) { return OX_FOLD(*v, OX_OR); }

@@ -46,8 +46,7 @@ static inline ox_box_walk ox_begin_box_walk(__global const ox_mesh* mesh) {
 // A bit for each child of a block that has one at least. Their boxes are turned inside out where
 // there is none, but what is not finite would meet those too.
 static inline uint ox_present_children(__global const ox_meshlet_node* node, uint block) {
-  const uint count = node->count - OX_VECTOR_WIDTH * block;
-  return count < OX_VECTOR_WIDTH ? (1u << count) - 1u : OX_ALL_LANES;
+  return ox_present_lanes(node->count, block);
 }
 
 // A block of the children whose boxes a ray passes between `from` and `limit` [m], a bit for each;

@@ -282,7 +282,8 @@ typedef struct {
 } ox_chunk_task;
 OX_STATIC_ASSERT(sizeof(ox_chunk_task) == 16, ox_chunk_task_is_16_bytes);
 
-// Of a vertex. The last two fields are the paper's (paper/types.h).
+// Of a vertex. The last two fields are the paper's (paper/types.h); the product's are OX_RAY_...
+// and `from` of ox_hit.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
@@ -317,7 +318,8 @@ typedef struct {
   ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
   ox_f32 depth;     // [m] to the plane of the triangle
   ox_f32 t;         // [m] along the ray
-  ox_u32 padding[2];
+  ox_u32 from;  // the vertex from which the flood came, itself where it began; OX_NONE: no flood
+  ox_u32 padding;
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 
@@ -393,23 +395,7 @@ OX_STATIC_ASSERT(sizeof(ox_pair_crossing) == 64, ox_pair_crossing_is_64_bytes);
 // keys of orders lie in rooms not yet in use (edge_contact.cl).
 #define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
 
-#ifdef OX_PLANES
-// What may become a contact, in the frame of B.
-typedef struct {
-  ox_f32 position[3];
-  ox_f32 depth;
-  ox_f32 normal[3];  // into A
-  ox_f32 distance2;  // [m^2] to the nearest contact already taken
-  ox_u32 side_kind;  // OX_HIT_REVERSED, OX_HIT_SIDE, OX_HIT_POINT
-  ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
-  ox_u32 triangle;
-  ox_u32 manifold;  // the plane that it is a contact of, among all
-  ox_u32 region;
-  ox_u32 taken;  // contacts/reduce.cl
-  ox_u32 padding[2];
-} ox_candidate;
-OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
-#else
+#ifndef OX_PLANES
 // A hit among those of its pair, in the frame of B.
 typedef struct {
   ox_f32 position[3];

@@ -24,18 +24,20 @@ static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint ver
   rays[slot].pair_side = pair_side;
   rays[slot].vertex = vertex;
   rays[slot].memory = OX_RAY_ASKING;
+  rays[slot].triangle = OX_NONE;
 }
 
 #ifdef OX_PLANES
 
-// Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED.
+// Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
 static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
-                                    __global ox_ray* rays) {
+                                    uint from, __global ox_ray* rays) {
   const uint slot = ox_append(scene, OX_LIST_RAYS);
   if (slot == OX_NONE) return;
   rays[slot].pair_side = pair_side;
   rays[slot].vertex = vertex;
   rays[slot].memory = memory;
+  rays[slot].triangle = from;
 }
 
 #endif
@@ -61,7 +63,9 @@ static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray,
   hit->kind = outcome->kind;
   hit->depth = outcome->depth;
   hit->t = outcome->t;
-#ifndef OX_PLANES
+#ifdef OX_PLANES
+  hit->from = ray->triangle;
+#else
   hit->slot = atomic_inc(&scene->found[ray->pair_side >> 1].hits);
 #endif
 }

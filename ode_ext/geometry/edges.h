@@ -27,10 +27,9 @@ struct Edges {
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
 // come by their vertices. Where more than two triangles meet, they are taken two by two: each of
 // them is at one of the edges.
-// `all`: every edge within a facet too, as separating planes want it (kernels/contacts); and edges
-// run from the vertex that is first by its place, and are first at the triangle that runs them so,
-// however they are numbered.
+// `by_place`, as separating planes want it (kernels/contacts): edges run from the vertex that is
+// first by its place, and are first at the triangle that runs them so, however they are numbered.
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
-                 const std::vector<std::uint32_t>& facets, bool all = false);
+                 const std::vector<std::uint32_t>& facets, bool by_place = false);
 
 }  // namespace ode_ext

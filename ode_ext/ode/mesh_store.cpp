@@ -48,10 +48,10 @@ void MeshStore::update(Entry& entry) {
     std::shared_ptr<const Mesh> shape;
     if (entry.base != nullptr) shape = deformed(entry.base, soup_);
     if (shape == nullptr)
-      shape = entry.base =
-          std::make_shared<const Mesh>(build_mesh(soup_, {.open_thickness = options_.open_thickness,
-                                                          .deformable = true,
-                                                          .all_edges = options_.all_edges}));
+      shape = entry.base = std::make_shared<const Mesh>(
+          build_mesh(soup_, {.open_thickness = options_.open_thickness,
+                             .deformable = true,
+                             .edges_by_place = options_.edges_by_place}));
     entry.mesh = std::move(shape);
   }
   const std::string reason = why_refused(soup_);

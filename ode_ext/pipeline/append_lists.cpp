@@ -39,10 +39,11 @@ constexpr ArrowCounts kRecordBytes = [] {
 }();
 
 // What becomes of a feature, a crossing or a hit [bytes].
-constexpr std::size_t kFeatureBytes = sizeof(ox_feature) + sizeof(ox_region) + sizeof(ox_member) +
-                                      sizeof(ox_candidate) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
-                                      OX_FACES_PER_FEATURE * sizeof(ox_face) +
-                                      OX_PLANES_PER_FEATURE * sizeof(ox_plane_record);
+constexpr std::size_t kFeatureBytes =
+    sizeof(ox_feature) + sizeof(ox_region) + OX_MEMBER_WORDS * sizeof(ox_f32) +
+    OX_CANDIDATE_WORDS * sizeof(ox_f32) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
+    OX_FACES_PER_FEATURE * sizeof(ox_face) +
+    OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * sizeof(ox_f32) + 3 * sizeof(ox_u32);
 
 // Memory goes back where for this many steps, a few seconds of simulation, less than a quarter of
 // it was of use; what is less than the floor is not worth the growing again.
@@ -68,11 +69,13 @@ AppendLists::AppendLists(Device& device)
       flood_words_(device),
       contacts_(device),
       features_(device),
+      feature_parents_(device),
       feature_slots_(device),
       regions_(device),
       members_(device),
       faces_(device),
-      planes_(device) {
+      planes_(device),
+      edge_planes_(device) {
   read_counters_.reserve(kCounterBytes);
   counters_.reserve(kCounterBytes);
   lists_.reserve(sizeof(host_lists_));
@@ -113,7 +116,7 @@ void AppendLists::release() {
   for (Buffer* buffer :
        {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_, &crossings_,
         &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_, &features_,
-        &feature_slots_, &regions_, &members_, &faces_, &planes_})
+        &feature_parents_, &feature_slots_, &regions_, &members_, &faces_, &planes_, &edge_planes_})
     buffer->release();
 }
 
@@ -174,11 +177,17 @@ void AppendLists::resize(const ArrowCounts& capacities) {
 void AppendLists::reserve_features(std::uint64_t count) {
   features_.reserve(count * sizeof(ox_feature));
   regions_.reserve(count * sizeof(ox_region));
-  members_.reserve(count * sizeof(ox_member));
-  candidates_.reserve(count * sizeof(ox_candidate));
+  feature_parents_.reserve(count * sizeof(ox_u32));
   feature_slots_.reserve(OX_SLOTS_PER_FEATURE * count * sizeof(ox_u32));
   faces_.reserve(OX_FACES_PER_FEATURE * count * sizeof(ox_face));
-  planes_.reserve(OX_PLANES_PER_FEATURE * count * sizeof(ox_plane_record));
+  edge_planes_.reserve(2 * count * sizeof(ox_u32));
+  // Lanes are loaded beyond the last record (kernels/contacts/fields.h).
+  const auto words_of = [](std::uint64_t records, std::uint64_t words) {
+    return (records * words + OX_LANES) * sizeof(ox_f32);
+  };
+  members_.reserve(words_of(count, OX_MEMBER_WORDS));
+  planes_.reserve(words_of(OX_PLANES_PER_FEATURE * count, OX_PLANE_WORDS));
+  candidates_.reserve(words_of(count, OX_CANDIDATE_WORDS));
 }
 
 bool AppendLists::overflowed(const ArrowCounts& counts) const {

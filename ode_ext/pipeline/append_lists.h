@@ -76,11 +76,13 @@ class AppendLists {
   const Buffer& contacts() const { return contacts_; }
   // For each crossing and hit, as kernels/contacts/types.h says.
   const Buffer& features() const { return features_; }
+  const Buffer& feature_parents() const { return feature_parents_; }
   const Buffer& feature_slots() const { return feature_slots_; }
   const Buffer& regions() const { return regions_; }
   const Buffer& members() const { return members_; }
   const Buffer& faces() const { return faces_; }
   const Buffer& planes() const { return planes_; }
+  const Buffer& edge_planes() const { return edge_planes_; }
 
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
@@ -105,7 +107,7 @@ class AppendLists {
   bool keeps_features_ = false;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_, features_,
-      feature_slots_, regions_, members_, faces_, planes_;
+      feature_parents_, feature_slots_, regions_, members_, faces_, planes_, edge_planes_;
 };
 
 }  // namespace ode_ext

@@ -19,19 +19,21 @@ PlaneAssembly::PlaneAssembly(Program& program)
 void PlaneAssembly::assemble(Launch per_pair, Launch per_feature, Launch per_region,
                              const StepData& data) {
   const AppendLists& lists = data.lists;
-  data.launch(gather_, per_feature, lists.crossings(), lists.hits(), lists.features());
-  data.launch(place_, per_pair, lists.feature_slots(), lists.faces());
-  data.launch(link_, per_feature, lists.features(), lists.feature_slots());
-  data.launch(join_, per_feature, lists.crossings(), lists.features(), lists.feature_slots());
-  data.launch(begin_, per_feature, lists.features(), lists.regions());
-  data.launch(count_, per_feature, lists.features(), lists.regions());
+  data.launch(gather_, per_feature, lists.crossings(), lists.hits(), lists.features(),
+              lists.feature_parents(), lists.feature_slots(), lists.faces());
+  data.launch(place_, per_pair);
+  data.launch(link_, per_feature, lists.features(), lists.feature_parents(), lists.feature_slots());
+  data.launch(join_, per_feature, lists.crossings(), lists.features(), lists.feature_parents(),
+              lists.feature_slots());
+  data.launch(begin_, per_feature, lists.features(), lists.feature_parents(), lists.regions());
+  data.launch(count_, per_feature, lists.features(), lists.feature_parents(), lists.regions());
   data.launch(place_regions_, per_feature, lists.regions());
   data.launch(fill_, per_feature, lists.features(), lists.regions(), lists.members(),
               lists.faces());
   data.launch(propose_, per_feature, lists.features(), lists.regions(), lists.faces(),
-              lists.planes());
+              lists.planes(), lists.edge_planes());
   data.launch(choose_, per_region, lists.features(), lists.regions(), lists.members(),
-              lists.faces(), lists.planes(), lists.candidates());
+              lists.faces(), lists.planes(), lists.edge_planes(), lists.candidates());
 }
 
 void PlaneAssembly::reduce(Launch per_pair, const StepData& data) {

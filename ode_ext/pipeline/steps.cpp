@@ -82,8 +82,8 @@ void Steps::run_whole(const StepData& data) {
                 lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
                 lists.flood_words(), lists.hits(), lists.candidates(), settings.max_contacts,
                 settings.max_contacts_deformable, lists.contacts(), lists.features(),
-                lists.feature_slots(), lists.regions(), lists.members(), lists.faces(),
-                lists.planes());
+                lists.feature_parents(), lists.feature_slots(), lists.regions(), lists.members(),
+                lists.faces(), lists.planes(), lists.edge_planes());
 }
 
 void Steps::take_milliseconds(StageTimes& ms) {

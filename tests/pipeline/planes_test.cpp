@@ -23,19 +23,19 @@ ColliderOptions planes() {
 }
 
 // The meshes of a scene with every edge, as these contacts want them.
-Scene with_all_edges(const TestScene& scene) {
+Scene for_planes(const TestScene& scene) {
   Scene result = scene.scene;
   result.meshes.clear();
   for (const TestMesh& mesh : scene.meshes)
     result.meshes.push_back(
-        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.all_edges = true})));
+        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.edges_by_place = true})));
   return result;
 }
 
 std::vector<Contact> contacts_of(const TestScene& scene) {
   // One for all: building the kernels takes a second. Never destroyed: the driver may be gone.
   static Collider* const collider = new Collider(planes());
-  return collider->collide(with_all_edges(scene), nullptr).contacts;
+  return collider->collide(for_planes(scene), nullptr).contacts;
 }
 
 // [m] the deepest of those that push up, or aside.
@@ -118,7 +118,7 @@ TEST(SeparatingPlanes, AreAsDeepAsThoseOfTheReference) {
 
 TEST(SeparatingPlanes, AreTheSameBytesWhateverTheLaunchAndTheCompany) {
   const TestScene scene = random_scene(200, 61);
-  const Scene meshes = with_all_edges(scene);
+  const Scene meshes = for_planes(scene);
   const auto bits = [&](const ColliderOptions& options) {
     Collider collider(options);
     return bits_of(collider.collide(meshes, nullptr));

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The candidates of a pair, of which some become contacts: types.h says how they lie. Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
+#define ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
+
+#include "contacts/fields.h"
+#include "contacts/types.h"
+#include "shared/append.h"
+
+#define OX_MAX_CONTACTS 64u
+
+static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair,
+                                         __global float* candidates) {
+  const ox_fields list = {candidates + OX_CANDIDATE_WORDS * scene->found[pair].first,
+                          scene->found[pair].features};
+  return list;
+}
+
+static inline void ox_store_contact(const ox_fields* list, uint i, __global ox_contact* contact) {
+  contact->side_kind = ox_words_of(list, OX_CANDIDATE_SIDE_KIND)[i];
+  contact->vertex = ox_words_of(list, OX_CANDIDATE_VERTEX)[i];
+  contact->triangle = ox_words_of(list, OX_CANDIDATE_TRIANGLE)[i];
+  contact->depth = ox_floats_of(list, OX_CANDIDATE_DEPTH)[i];
+  vstore3(ox_vector_of(list, OX_CANDIDATE_POSITION, i), 0, contact->position);
+  vstore3(ox_vector_of(list, OX_CANDIDATE_NORMAL, i), 0, contact->normal);
+}
+
+// Room for `count` contacts of a pair; less where the list is full.
+static inline uint ox_place_contacts(const ox_scene* scene, uint count, __global ox_range* range) {
+  const uint first = ox_take_room(scene, OX_LIST_CONTACTS, count);
+  const uint capacity = scene->lists[OX_LIST_CONTACTS].capacity;
+  range->first = first;
+  range->count = min(count, first < capacity ? capacity - first : 0u);
+  return range->count;
+}
+
+#endif
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records of which each field lies for itself, so that sixteen are looked at at a time: field f
+// begins f times `room` words behind the first. Device only.
+//
+// The last lanes that are loaded may lie beyond the last record: in the next field, or in what is
+// left free at the end of the buffer.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_FIELDS_H
+#define ODE_EXT_KERNELS_CONTACTS_FIELDS_H
+
+#include "shared/lanes.h"
+
+typedef struct {
+  __global float* words;
+  uint room;  // for so many records
+} ox_fields;
+
+static inline __global float* ox_floats_of(const ox_fields* fields, uint field) {
+  return fields->words + field * fields->room;
+}
+
+static inline __global uint* ox_words_of(const ox_fields* fields, uint field) {
+  return (__global uint*)ox_floats_of(fields, field);
+}
+
+static inline float3 ox_vector_of(const ox_fields* fields, uint field, uint i) {
+  return (float3)(ox_floats_of(fields, field)[i], ox_floats_of(fields, field + 1u)[i],
+                  ox_floats_of(fields, field + 2u)[i]);
+}
+
+static inline void ox_set_vector(const ox_fields* fields, uint field, uint i, float3 v) {
+  ox_floats_of(fields, field)[i] = v.x;
+  ox_floats_of(fields, field + 1u)[i] = v.y;
+  ox_floats_of(fields, field + 2u)[i] = v.z;
+}
+
+// A block of them.
+#define OX_LOAD_FLOATS(fields, field, block) ox_load_unaligned(block, ox_floats_of(fields, field))
+#define OX_LOAD_WORDS(fields, field, block) \
+  ox_load_unaligned(block, (__global const int*)ox_words_of(fields, field))
+
+// Of a block the products with a vector, of three fields from one on.
+static inline void ox_dot_fields(const ox_fields* fields, uint field, uint block, float3 v,
+                                 ox_floats* products) {
+  *products = OX_LOAD_FLOATS(fields, field, block) * v.x +
+              OX_LOAD_FLOATS(fields, field + 1u, block) * v.y +
+              OX_LOAD_FLOATS(fields, field + 2u, block) * v.z;
+}
+
+#endif
+#endif

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mate of a crossing: the other end of a stretch of the curve. Device only.
+//
+// Two facets have stretches of the line in common where their planes meet. Both ends of a stretch
+// have the pair of facets in common, and mostly they are the only ones that have. Where facets are
+// not convex there may be several, which lie one behind the other on the line.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_MATE_H
+#define ODE_EXT_KERNELS_CONTACTS_MATE_H
+
+#include "contacts/feature.h"
+
+// Of more on a line none has a mate: finding it looks at all for each.
+#define OX_MOST_ON_LINE 64u
+
+// How far along a line; of those at one place the first comes first.
+typedef struct {
+  uint entry;  // feature << 1 | which of the facets at its edge; OX_NONE: there is none
+  float place;
+} ox_on_line;
+
+static inline bool ox_is_before_on_line(__global const ox_feature* features, const ox_on_line* a,
+                                        const ox_on_line* b) {
+  return a->place != b->place
+             ? a->place < b->place
+             : ox_is_before(features + (a->entry >> 1), features + (b->entry >> 1));
+}
+
+// The other end of a stretch, of either mesh; OX_NONE: it is not known.
+static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_feature* features,
+                                     uint entry) {
+  __global const ox_feature* f = features + (entry >> 1);
+  const uint second = f->mate[entry & 1u];
+  if (second == OX_NONE || second == entry) return OX_NONE;
+  if (features[second >> 1].mate[second & 1u] == entry) return second;
+  const uint side = ox_side_of(f->flags);
+  const float3 of_edge = ox_normal_of(scene, f->pair, side, f->at[entry & 1u]);
+  const float3 crossed = ox_normal_of(scene, f->pair, 1u - side, f->triangle);
+  const float3 line =
+      side == 0u ? ox_plain_cross(of_edge, crossed) : ox_plain_cross(crossed, of_edge);
+  const ox_on_line self = {entry, ox_dot(line, vload3(0, f->position))};
+  ox_on_line last = {OX_NONE, 0.0f};
+  ox_on_line next = {OX_NONE, 0.0f};
+  uint before = 0u;
+  uint count = 0u;
+  for (uint n = second; n != entry; n = features[n >> 1].mate[n & 1u]) {
+    if (++count == OX_MOST_ON_LINE) return OX_NONE;
+    const ox_on_line other = {n, ox_dot(line, vload3(0, features[n >> 1].position))};
+    if (ox_is_before_on_line(features, &other, &self)) {
+      ++before;
+      if (last.entry == OX_NONE || ox_is_before_on_line(features, &last, &other)) last = other;
+    } else if (next.entry == OX_NONE || ox_is_before_on_line(features, &other, &next)) {
+      next = other;
+    }
+  }
+  return before % 2u == 0u ? next.entry : last.entry;  // a stretch begins with every other
+}
+
+// The mate of a crossing, of an edge of the other mesh; OX_NONE: it has none. Where facets are not
+// quite flat two may see them in different orders: it is only where they agree.
+static inline uint ox_mate_of(const ox_scene* scene, __global const ox_feature* features,
+                              uint entry) {
+  const uint mate = ox_find_other_end(scene, features, entry);
+  if (mate == OX_NONE ||
+      ox_side_of(features[mate >> 1].flags) == ox_side_of(features[entry >> 1].flags))
+    return OX_NONE;
+  return ox_find_other_end(scene, features, mate) == entry ? mate : OX_NONE;
+}
+
+#endif
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The members of a region and its planes: types.h says how they lie. Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_REGION_FIELDS_H
+#define ODE_EXT_KERNELS_CONTACTS_REGION_FIELDS_H
+
+#include "contacts/fields.h"
+#include "contacts/plane.h"
+
+static inline ox_fields ox_members_of(__global const ox_region* region, __global float* members) {
+  const ox_fields list = {members + OX_MEMBER_WORDS * region->first, region->count};
+  return list;
+}
+
+static inline ox_fields ox_planes_of(__global const ox_region* region, __global float* planes) {
+  const ox_fields list = {planes + OX_PLANE_WORDS * OX_PLANES_PER_FEATURE * region->first,
+                          OX_PLANES_PER_FEATURE * region->count};
+  return list;
+}
+
+static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane* plane,
+                                  uint flags) {
+  ox_set_vector(list, OX_PLANE_NORMAL, i, plane->normal);
+  ox_floats_of(list, OX_PLANE_TOP)[i] = plane->top;
+  ox_floats_of(list, OX_PLANE_BOTTOM)[i] = plane->bottom;
+  ox_floats_of(list, OX_PLANE_BEYOND)[i] = 0.0f;
+  ox_words_of(list, OX_PLANE_FLAGS)[i] = plane->kind | flags;
+  ox_words_of(list, OX_PLANE_ID)[i] = plane->id[0];
+  ox_words_of(list, OX_PLANE_ID + 1u)[i] = plane->id[1];
+}
+
+static inline ox_plane ox_load_plane(const ox_fields* list, uint i) {
+  ox_plane plane;
+  plane.normal = ox_vector_of(list, OX_PLANE_NORMAL, i);
+  plane.top = ox_floats_of(list, OX_PLANE_TOP)[i];
+  plane.bottom = ox_floats_of(list, OX_PLANE_BOTTOM)[i];
+  plane.kind = ox_words_of(list, OX_PLANE_FLAGS)[i] & OX_PLANE_KIND;
+  plane.id[0] = ox_words_of(list, OX_PLANE_ID)[i];
+  plane.id[1] = ox_words_of(list, OX_PLANE_ID + 1u)[i];
+  return plane;
+}
+
+// A bit for each plane of a block whose flags under a mask are these.
+static inline uint ox_of_kind(const ox_fields* list, uint block, uint mask, uint flags) {
+  const ox_ints is = (OX_LOAD_WORDS(list, OX_PLANE_FLAGS, block) & (int)mask) == (int)flags;
+  return ox_mask_of(&is);
+}
+
+#endif
+#endif
