@@ -18,7 +18,7 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                shared/patches shared/meshlet shared/exact_sign shared/intersect shared/cross contacts/cross
                shared/edge_pair shared/crossing_order shared/crossing_table shared/regions
                shared/pair_hits contacts/feature contacts/feature_table contacts/mate contacts/face_table
-               contacts/plane contacts/region_fields contacts/region contacts/whole_region contacts/units
+               contacts/plane contacts/region_fields contacts/region contacts/ways contacts/whole_region contacts/units
                contacts/candidates shared/spokesmen shared/edge_axis shared/way_out
                shared/deform shared/moves)
   set(header ${header}.h)

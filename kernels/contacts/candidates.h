@@ -85,27 +85,6 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, uint code
   return *first <= *last;
 }
 
-// The point of mesh `side` in the region that is farthest past a plane; false: the region has none,
-// as of what contains the other mesh.
-static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 normal,
-                                    float3* point) {
-  const float3 past = side == 0u ? -normal : normal;
-  uint best = OX_NONE;
-  float farthest = -INFINITY;
-  for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    const float here = ox_dot(past, vload3(0, f->position));
-    if (!ox_is_on(f->flags, side) || here < farthest ||
-        (here == farthest && !ox_is_before(f, ox_feature_of(r, best))))
-      continue;
-    farthest = here;
-    best = k;
-  }
-  if (best == OX_NONE) return false;
-  *point = ox_position_of(r, best);
-  return true;
-}
-
 // Two edges: midway between them, where they pass one another seen along their normal.
 static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choice* choice) {
   const ox_region_view* r = m->region;

@@ -23,7 +23,7 @@ static void ox_choose_parts(ox_manifold* m) {
   ox_measure_units(r, waiting);
   while (waiting != 0u && move.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);
-    const ox_plane_choice choice = ox_choose_for(r, seed);
+    const ox_plane_choice choice = ox_choose_for(r, seed, &move);
     __global const ox_feature* of_seed = ox_feature_of(r, seed);
     ox_swap_members(r, seed, --waiting);
     if (choice.plane.kind == OX_PLANE_NONE) continue;

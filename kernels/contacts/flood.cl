@@ -240,8 +240,25 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   return true;
 }
 
+// Whether of the vertices queued from one on the one farthest from that is inside too. They hang
+// together without a crossing, so they are on one side; where one lies on the surface rounding may
+// answer for it, and not for one that is far from there.
+static bool ox_is_last_inside(const ox_flood_state* s, uint first) {
+  __global const uint* queue = ox_queue(s->words, &s->table);
+  const float3 p = vload3(0, s->scene.vertices[queue[first]].position);
+  uint farthest = queue[first];
+  float most = 0.0f;
+  for (uint i = first; i < s->table.queued; ++i) {
+    const float3 d = vload3(0, s->scene.vertices[queue[i]].position) - p;
+    if (!(ox_dot(d, d) > most)) continue;
+    most = ox_dot(d, d);
+    farthest = queue[i];
+  }
+  return ox_is_vertex_inside(s, farthest);
+}
+
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is
-// inside of them is so with all of its vertices.
+// inside of them is so with all of its vertices. Their faces may be crossed all the same.
 static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
   if (ox_is_open(s) || (s->source->component_count == 1u && crossed)) return true;
   for (uint i = 0u; i < s->source->component_count; ++i) {
@@ -253,10 +270,9 @@ static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
     s->refuted = false;
     const bool done = ox_flood_from(s, vertex, next);
     s->asks = false;
-    if (s->refuted)  // it lies on the surface, and its part of the mesh is outside there
+    if (!s->refuted && !done) return false;
+    if (s->refuted || !ox_is_last_inside(s, queued))  // on the surface, and outside elsewhere
       s->table.queued = *next = queued;
-    else if (!done)
-      return false;
   }
   return true;
 }

@@ -16,7 +16,6 @@
 #define OX_PLANE_CLEARS(side) (2u >> (side))
 #define OX_PLANE_KIND 3u
 #define OX_PLANE_CROSSED 4u  // the curve in which the surfaces meet runs over the face
-#define OX_PLANE_PRICED 8u   // what it takes beside the region is known
 
 typedef struct {
   uint kind;      // OX_PLANE_...

@@ -27,9 +27,35 @@ typedef struct {
 // which is what the growth of A and rounding may make of either depth.
 #define OX_EDGE_TIE (4.0f * OX_INFLATION)
 
+static inline float3 ox_position_of(const ox_region_view* r, uint k) {
+  return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);
+}
+
+static inline uint ox_flags_of(const ox_region_view* r, uint k) {
+  return ox_words_of(&r->members, OX_MEMBER_FLAGS)[k];
+}
+
+static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, uint k) {
+  return r->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
+}
+
+// Whether one of the faces at a vertex of mesh `side` faces back from a direction.
+static inline bool ox_vertex_looks_back(const ox_region_view* r, uint side, uint vertex,
+                                        float3 direction) {
+  const ox_scene* scene = r->scene;
+  for (uint i = scene->ring_starts[vertex]; i < scene->ring_starts[vertex + 1u]; ++i) {
+    __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
+    for (uint k = 0u; k < 2u; ++k)
+      if (edge->triangle[k] != OX_NONE &&
+          ox_dot(direction, ox_normal_of(scene, r->pair, side, edge->triangle[k])) < OX_LOOKS_BACK)
+        return true;
+  }
+  return false;
+}
+
 // Whether mesh `side`, which the plane clears, goes on through a face of the other that looks back:
-// then it is not only what of it is in the region that has to pass the plane. (The plane of a face
-// of A has the face's normal turned.)
+// one that crosses it, or at a vertex inside it. Then it is not only what of it is in the region
+// that has to pass the plane. (The plane of a face of A has the face's normal turned.)
 static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plane, uint side) {
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     const uint through =
@@ -41,36 +67,35 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
     if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
       return true;
   }
+  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
+  const float3 direction = side == 0u ? plane->normal : -plane->normal;
+  for (uint k = 0u; k < r->count; ++k) {
+    const uint flags = ox_flags_of(r, k);
+    if (ox_is_vertex(flags) && ox_side_of(flags) != side &&
+        ox_vertex_looks_back(r, 1u - side, ox_feature_of(r, k)->source, direction))
+      return true;
+  }
   return false;
 }
 
-// How deep all of the bodies are below a plane, if they go on beyond the region [m], else 0; or
-// something beyond `limit`.
-static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float limit) {
-  // Of two that are as deep the one that it does not go on through is better.
+// How deep all of mesh `side` is below a plane [m]; or something beyond `limit`.
+static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* plane, uint side,
+                                     float limit) {
+  const float3 down = side == 0u ? -plane->normal : plane->normal;
+  const float above = side == 0u ? plane->top : -plane->bottom;
+  // Of two that are as deep the one that it does not go on through is better. Where the walk ends
+  // early, this is more than rounding and takes the sum past the limit.
   const float tie = 4.0f * r->scene->pairs[r->pair].epsilon;
+  return above + ox_reach_along(r->scene, r->pair, side, down, limit - above) + tie;
+}
+
+// The same of the bodies that go on beyond the region; 0 if neither does.
+static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float limit) {
   float depth = 0.0f;
-  for (uint side = 0u; side < 2u && !(depth > limit); ++side) {
-    if (!ox_clears_side(plane, side) || !ox_body_goes_on(r, plane, side)) continue;
-    const float3 down = side == 0u ? -plane->normal : plane->normal;
-    const float above = side == 0u ? plane->top : -plane->bottom;
-    // Where that ends early the tie, which is more than rounding, takes the sum past the limit.
-    const float reach = ox_reach_along(r->scene, r->pair, side, down, limit - above);
-    depth = ox_max(depth, above + reach + tie);
-  }
+  for (uint side = 0u; side < 2u && !(depth > limit); ++side)
+    if (ox_clears_side(plane, side) && ox_body_goes_on(r, plane, side))
+      depth = ox_max(depth, ox_depth_of_body(r, plane, side, limit));
   return depth;
-}
-
-static inline float3 ox_position_of(const ox_region_view* r, uint k) {
-  return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);
-}
-
-static inline uint ox_flags_of(const ox_region_view* r, uint k) {
-  return ox_words_of(&r->members, OX_MEMBER_FLAGS)[k];
-}
-
-static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, uint k) {
-  return r->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
 }
 
 // Whether the members of a region are points of mesh `side`: crossings are of both.

@@ -23,7 +23,6 @@ static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane*
   ox_set_vector(list, OX_PLANE_NORMAL, i, plane->normal);
   ox_floats_of(list, OX_PLANE_TOP)[i] = plane->top;
   ox_floats_of(list, OX_PLANE_BOTTOM)[i] = plane->bottom;
-  ox_floats_of(list, OX_PLANE_BEYOND)[i] = 0.0f;
   ox_words_of(list, OX_PLANE_FLAGS)[i] = plane->kind | flags;
   ox_words_of(list, OX_PLANE_ID)[i] = plane->id[0];
   ox_words_of(list, OX_PLANE_ID + 1u)[i] = plane->id[1];

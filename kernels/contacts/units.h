@@ -76,31 +76,84 @@ static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
   return best;
 }
 
-// What a plane takes beside the region: known from another unit, or found out, at least up to a
-// limit.
-static inline float ox_price_beyond(const ox_region_view* r, uint i, const ox_plane* plane,
-                                    float limit) {
-  __global float* beyond = ox_floats_of(&r->planes, OX_PLANE_BEYOND) + i;
-  __global uint* flags = ox_words_of(&r->planes, OX_PLANE_FLAGS) + i;
-  if ((*flags & OX_PLANE_PRICED) == 0u && !(*beyond > limit)) {
-    *beyond = ox_depth_beyond(r, plane, limit);
-    if (!(*beyond > limit)) *flags |= OX_PLANE_PRICED;
-  }
-  return *beyond;
+#define OX_MOST_PLANES 16u
+
+// A move along the normal of a plane by its depth, and how far it goes along those chosen so far.
+typedef struct {
+  ox_plane plane;
+  float far;  // [m]
+  uint count;
+  ox_plane chosen[OX_MOST_PLANES];
+  float along[OX_MOST_PLANES];  // [m]
+} ox_parting_move;
+
+static inline void ox_set_move(const ox_region_view* r, const ox_plane_choice* choice,
+                               ox_parting_move* move) {
+  move->plane = choice->plane;
+  move->far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  move->chosen[move->count++] = choice->plane;
+  for (uint i = 0u; i < move->count; ++i)
+    move->along[i] = move->far * ox_dot(move->plane.normal, move->chosen[i].normal);
 }
 
-// Tries a plane for a unit.
-static inline void ox_try_unit(const ox_region_view* r, uint unit, uint i, ox_plane_choice* best) {
+// A plane that faces back from one that is chosen costs twice as much: two that oppose one another
+// jam the body between them.
+#define OX_OPPOSES -0.5f
+#define OX_DETOUR 2.0f
+
+static inline float ox_detour(const ox_parting_move* move, const ox_plane* plane) {
+  for (uint i = 0u; i < move->count; ++i)
+    if (ox_dot(move->chosen[i].normal, plane->normal) < OX_OPPOSES) return OX_DETOUR;
+  return 1.0f;
+}
+
+// A unit that a plane is looked for.
+typedef struct {
+  uint unit;
+  uint side;
+  float3 through[2];  // the normals of the faces that it goes through, turned where they are of A
+  uint count;         // of those
+  const ox_parting_move* before;  // the planes chosen already
+} ox_seed;
+
+static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
+                                 const ox_parting_move* before) {
+  ox_seed seed;
+  seed.before = before;
+  seed.unit = unit;
+  seed.side = ox_side_of(ox_flags_of(r, unit));
+  seed.count = 0u;
+  __global const ox_feature* f = ox_feature_of(r, unit);
+  for (uint end = 0u; end < 2u && !ox_is_vertex(f->flags); ++end) {
+    const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
+    seed.through[seed.count++] = seed.side == 0u ? normal : -normal;
+    if (f->partner == OX_NONE) break;
+    f = r->features + f->partner;
+  }
+  return seed;
+}
+
+// Tries a plane for a unit, of those that come after another.
+static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
+                               const ox_plane_choice* after, ox_plane_choice* best) {
   ox_plane_choice choice;
-  choice.plane = ox_load_plane(&r->planes, i);
-  choice.depth = ox_unit_depth(r, unit, &choice.plane);
+  choice.plane = *plane;
+  choice.depth = ox_unit_depth(r, seed->unit, plane);
   if (choice.depth == INFINITY) return;
-  const float tie = ox_edge_tie(r, &choice.plane);
-  choice.judged = choice.depth + tie;
+  const float tie = ox_edge_tie(r, plane);
+  const float detour = ox_detour(seed->before, plane);
+  choice.judged = detour * (choice.depth + tie);
   if (!ox_is_better_choice(&choice, best)) return;
-  const float beyond = ox_price_beyond(r, i, &choice.plane, best->judged - tie);
-  choice.judged = ox_max(choice.depth, beyond) + tie;
-  if (ox_is_better_choice(&choice, best)) *best = choice;
+  // Where it goes on through a face that looks back, all of the body has to pass the plane.
+  for (uint i = 0u; i < seed->count; ++i)
+    if (ox_dot(plane->normal, seed->through[i]) < OX_LOOKS_BACK) {
+      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged / detour - tie);
+      choice.judged = detour * (ox_max(choice.depth, of_body) + tie);
+      break;
+    }
+  if (ox_is_better_choice(&choice, best) &&
+      (after->plane.kind == OX_PLANE_NONE || ox_is_better_choice(after, &choice)))
+    *best = choice;
 }
 
 // A bit for each plane of a block that clears a unit by a move of `limit` at most.
@@ -122,37 +175,45 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint 
   return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
 }
 
-// Of all planes of the region the best for a unit.
-static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit) {
+// Of all planes of the region the best for a unit that comes after another.
+static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed,
+                                            const ox_plane_choice* after) {
   ox_plane_choice best = ox_no_choice();
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
-    uint clears = ox_clearing_planes(r, block, unit, best.judged);
+    uint clears = ox_clearing_planes(r, block, seed->unit, best.judged);
     for (; clears != 0u; clears &= clears - 1u) {
-      const uint i = OX_VECTOR_WIDTH * block + ox_lowest(clears);
-      ox_try_unit(r, unit, i, &best);
+      const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(clears));
+      ox_try_unit(r, seed, &plane, after, &best);
     }
   }
   return best;
 }
 
-#define OX_MOST_PLANES 16u
+static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
+                                 const ox_plane_choice* choice) {
+  const float3 end = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
+  return ox_stays_inside(r, seed->side, ox_position_of(r, seed->unit), &choice->plane,
+                         choice->depth) ||
+         ox_stays_inside(r, seed->side, end, &choice->plane, choice->depth);
+}
 
-// A move along the normal of a plane by its depth, and how far it goes along those chosen so far.
-typedef struct {
-  ox_plane plane;
-  float far;  // [m]
-  uint count;
-  ox_plane chosen[OX_MOST_PLANES];
-  float along[OX_MOST_PLANES];  // [m]
-} ox_parting_move;
-
-static inline void ox_set_move(const ox_region_view* r, const ox_plane_choice* choice,
-                               ox_parting_move* move) {
-  move->plane = choice->plane;
-  move->far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
-  move->chosen[move->count++] = choice->plane;
-  for (uint i = 0u; i < move->count; ++i)
-    move->along[i] = move->far * ox_dot(move->plane.normal, move->chosen[i].normal);
+// The best plane for a unit. Where one does not lead it out, all of the body has to pass it.
+static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
+                                            const ox_parting_move* before) {
+  const ox_seed seed = ox_seed_of(r, unit, before);
+  ox_plane_choice of_body = ox_no_choice();
+  ox_plane_choice choice = of_body;
+  for (uint tries = 0u; tries < OX_MOST_TRIES; ++tries) {
+    choice = ox_search_for(r, &seed, &choice);
+    if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
+    if (!ox_unit_stays(r, &seed, &choice)) return choice;
+    ox_plane_choice repriced = choice;
+    const float depth = ox_depth_of_body(r, &choice.plane, seed.side, INFINITY);
+    repriced.judged = ox_detour(before, &choice.plane) *
+                      (ox_max(choice.depth, depth) + ox_edge_tie(r, &choice.plane));
+    if (ox_is_better_choice(&repriced, &of_body)) of_body = repriced;
+  }
+  return of_body;
 }
 
 // Takes a plane for a unit if a move goes so far along it, and it is the least so far.

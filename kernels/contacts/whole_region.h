@@ -5,7 +5,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 #define ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 
-#include "contacts/region.h"
+#include "contacts/ways.h"
 
 // How deep the deepest of a whole region is below a plane; or a depth beyond `limit`; infinite
 // where part of it is past the plane. `deepest`: the member for which that was so of another
@@ -43,14 +43,29 @@ static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) 
   return plane->kind == OX_PLANE_EDGES ? OX_EDGE_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
 }
 
+// The search for the plane of a whole region.
+typedef struct {
+  uint deepest;  // as in ox_whole_depth
+  // Normals of planes that do not lead out: what faces their way, within acos 0.9 = 26 degrees,
+  // does not either.
+  float3 refused[OX_MOST_TRIES];
+  uint refused_count;
+} ox_search;
+
+static inline bool ox_is_refused(const ox_search* search, const ox_plane* plane) {
+  for (uint i = 0u; i < search->refused_count; ++i)
+    if (ox_dot(search->refused[i], plane->normal) > 0.9f) return true;
+  return false;
+}
+
 // Tries a plane for a whole region.
-static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, uint* deepest,
+static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, ox_search* search,
                                 ox_plane_choice* best) {
-  if (plane->kind == OX_PLANE_NONE) return;
+  if (plane->kind == OX_PLANE_NONE || ox_is_refused(search, plane)) return;
   const float tie = ox_edge_tie(r, plane);
   ox_plane_choice choice;
   choice.plane = *plane;
-  choice.depth = ox_whole_depth(r, plane, best->judged - tie, deepest);
+  choice.depth = ox_whole_depth(r, plane, best->judged - tie, &search->deepest);
   choice.judged = choice.depth + tie;
   if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
   const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
@@ -144,7 +159,7 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
 
 // From a plane to the best of those next to it on the map of directions (Gauss): the edges of its
 // face, or its own, with the edges at what is farthest past it. False: none is better.
-static inline bool ox_step_on(const ox_region_view* r, uint* deepest, ox_plane_choice* best) {
+static inline bool ox_step_on(const ox_region_view* r, ox_search* search, ox_plane_choice* best) {
   const ox_plane from = best->plane;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(&from, side)) continue;
@@ -160,7 +175,7 @@ static inline bool ox_step_on(const ox_region_view* r, uint* deepest, ox_plane_c
         const ox_plane plane =
             side == 0u ? ox_plane_of_edges(r->scene, r->pair, past.code[k], own.code[i])
                        : ox_plane_of_edges(r->scene, r->pair, own.code[i], past.code[k]);
-        ox_try_whole(r, &plane, deepest, best);
+        ox_try_whole(r, &plane, search, best);
       }
   }
   if (from.kind == OX_PLANE_EDGES)
@@ -169,7 +184,7 @@ static inline bool ox_step_on(const ox_region_view* r, uint* deepest, ox_plane_c
       for (uint k = 0u; k < 2u; ++k) {
         if (ridge.face[k] == OX_NONE) continue;
         const ox_plane plane = ox_plane_of_face(r->scene, r->pair, side, ridge.face[k]);
-        ox_try_whole(r, &plane, deepest, best);
+        ox_try_whole(r, &plane, search, best);
       }
     }
   return best->plane.kind != from.kind || best->plane.id[0] != from.id[0] ||
@@ -188,13 +203,12 @@ static inline uint ox_direction_of(float3 n) {
 
 // What a plane costs is least in several directions at once, as a box is thin in three: from the
 // best in each the best next to it is looked for.
-static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
+static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search* search) {
   ox_plane_choice best[OX_DIRECTIONS];
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) best[i] = ox_no_choice();
-  uint deepest = 0u;
   for (uint i = 0u; i < r->plane_count; ++i) {
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    ox_try_whole(r, &plane, &deepest, best + ox_direction_of(plane.normal));
+    ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal));
   }
   ox_plane_choice least = ox_no_choice();
   for (uint i = 0u; i < OX_DIRECTIONS; ++i)
@@ -202,11 +216,80 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   const float worth = OX_WORTH * least.judged;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) {
     if (best[i].plane.kind == OX_PLANE_NONE || !(best[i].judged <= worth)) continue;
-    while (ox_step_on(r, &deepest, best + i)) {
+    while (ox_step_on(r, search, best + i)) {
     }
     if (ox_is_better_choice(best + i, &least)) least = best[i];
   }
   return least;
+}
+
+// The point of mesh `side` in the region that is farthest past a plane; false: the region has none,
+// as of what contains the other mesh.
+static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 normal,
+                                    float3* point) {
+  const float3 past = side == 0u ? -normal : normal;
+  uint best = OX_NONE;
+  float farthest = -INFINITY;
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = ox_feature_of(r, k);
+    const float here = ox_dot(past, vload3(0, f->position));
+    if (!ox_is_on(f->flags, side) || here < farthest ||
+        (here == farthest && !ox_is_before(f, ox_feature_of(r, best))))
+      continue;
+    farthest = here;
+    best = k;
+  }
+  if (best == OX_NONE) return false;
+  *point = ox_position_of(r, best);
+  return true;
+}
+
+// Where a body goes on beyond its region the faces at features may be far from the nearest: those
+// nearest to vertices inside and to the middles of chords are tried too.
+static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
+                                  ox_plane_choice* best) {
+  if (!(best->judged > best->depth + ox_edge_tie(r, &best->plane))) return;
+  for (uint k = 0u; k < r->count; ++k) {
+    const uint flags = ox_flags_of(r, k);
+    if ((flags & OX_MEMBER_BEGINS) == 0u) continue;
+    const float3 middle =
+        0.5f * (ox_position_of(r, k) + ox_vector_of(&r->members, OX_MEMBER_END, k));
+    const ox_plane plane = ox_nearest_face(r, ox_side_of(flags), middle, best->judged);
+    ox_try_whole(r, &plane, search, best);
+  }
+}
+
+// Whether what of a body goes first or last stays inside the other where a plane takes it.
+static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice* choice) {
+  for (uint side = 0u; side < 2u; ++side)
+    for (uint end = 0u; end < 2u; ++end) {
+      float3 p;
+      const float3 normal = end == 0u ? choice->plane.normal : -choice->plane.normal;
+      if (ox_clears_side(&choice->plane, side) && ox_find_farthest(r, side, normal, &p) &&
+          ox_stays_inside(r, side, p, &choice->plane, choice->depth))
+        return true;
+    }
+  return false;
+}
+
+// The least plane. Where one does not lead out, all of the body has to pass it.
+static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
+  ox_search search;
+  search.deepest = 0u;
+  ox_plane_choice of_body = ox_no_choice();
+  for (search.refused_count = 0u; search.refused_count < OX_MOST_TRIES; ++search.refused_count) {
+    ox_plane_choice best = ox_search_whole(r, &search);
+    ox_try_nearest(r, &search, &best);
+    if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
+    // Of what is wholly inside the planes of the other are not known all round.
+    if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;
+    search.refused[search.refused_count] = best.plane.normal;
+    for (uint side = 0u; side < 2u; ++side)
+      if (ox_clears_side(&best.plane, side))
+        best.judged = ox_max(best.judged, ox_depth_of_body(r, &best.plane, side, INFINITY));
+    if (ox_is_better_choice(&best, &of_body)) of_body = best;
+  }
+  return of_body;
 }
 
 #endif

@@ -1,33 +1,69 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangle of a mesh that is closest to a point. Device only.
+// The triangle of a mesh that is nearest to a point, all of a meshlet asked at a time. Device only.
 #ifndef ODE_EXT_KERNELS_SHARED_CLOSEST_H
 #define ODE_EXT_KERNELS_SHARED_CLOSEST_H
 
 #include "shared/meshlet_tree.h"
 #include "shared/scene.h"
 
-static inline float ox_distance2_to_line(float3 p, float3 a, float3 b) {
-  const float3 d = b - a;
-  const float length2 = ox_dot(d, d);
-  const float t = length2 > 0.0f ? clamp(ox_dot(p - a, d) / length2, 0.0f, 1.0f) : 0.0f;
-  const float3 off = p - (a + t * d);
-  return ox_dot(off, off);
+typedef struct {
+  ox_floats x, y, z;
+} ox_vectors;
+
+static inline void ox_dot_lanes(const ox_vectors* a, const ox_vectors* b, ox_floats* product) {
+  *product = a->x * b->x + a->y * b->y + a->z * b->z;
 }
 
-// To its plane where the point is over it, else to the nearest of its edges.
-static inline float ox_distance2_to_triangle(float3 p, __global const ox_triangle* t) {
-  const float3 a = vload3(0, t->a);
-  const float3 b = vload3(0, t->b);
-  const float3 c = vload3(0, t->c);
-  const float3 n = vload3(0, t->normal);
-  if (ox_dot(ox_plain_cross(b - a, p - a), n) >= 0.0f &&
-      ox_dot(ox_plain_cross(c - b, p - b), n) >= 0.0f &&
-      ox_dot(ox_plain_cross(a - c, p - c), n) >= 0.0f) {
-    const float height = ox_dot(p - a, n);
-    return height * height;
+static inline void ox_cross_lanes(const ox_vectors* a, const ox_vectors* b, ox_vectors* product) {
+  product->x = a->y * b->z - a->z * b->y;
+  product->y = a->z * b->x - a->x * b->z;
+  product->z = a->x * b->y - a->y * b->x;
+}
+
+// [m^2] from a point to the side of each triangle that goes from a corner, both as seen from the
+// point, the lesser of that and what was there; and whether the point is on the inner side of it.
+static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
+                                const ox_vectors* normal, ox_floats* distance2, ox_ints* within) {
+  const ox_vectors along = {to->x - from->x, to->y - from->y, to->z - from->z};
+  ox_floats length2, before, turn, off2;
+  ox_dot_lanes(&along, &along, &length2);
+  ox_dot_lanes(&along, from, &before);
+  const ox_floats zero = (ox_floats)(0.0f);
+  ox_floats t = length2 > 0.0f ? -before / length2 : zero;
+  t = clamp(t, 0.0f, 1.0f);
+  const ox_vectors off = {from->x + t * along.x, from->y + t * along.y, from->z + t * along.z};
+  ox_dot_lanes(&off, &off, &off2);
+  *distance2 = fmin(*distance2, off2);
+  ox_vectors across;
+  ox_cross_lanes(from, &along, &across);
+  ox_dot_lanes(&across, normal, &turn);
+  *within &= turn >= 0.0f;
+}
+
+// [m^2] from a point to the triangles of a block of a meshlet; infinite where one is of no area.
+static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p,
+                                 ox_floats* distance2) {
+  ox_vectors corner[3];
+  for (uint k = 0u; k < 3u; ++k) {
+    corner[k].x = ox_load(block, m->corner[k][0]) - p.x;
+    corner[k].y = ox_load(block, m->corner[k][1]) - p.y;
+    corner[k].z = ox_load(block, m->corner[k][2]) - p.z;
   }
-  return ox_min(ox_distance2_to_line(p, a, b),
-                ox_min(ox_distance2_to_line(p, b, c), ox_distance2_to_line(p, c, a)));
+  const ox_vectors ab = {corner[1].x - corner[0].x, corner[1].y - corner[0].y,
+                         corner[1].z - corner[0].z};
+  const ox_vectors ac = {corner[2].x - corner[0].x, corner[2].y - corner[0].y,
+                         corner[2].z - corner[0].z};
+  ox_vectors normal;
+  ox_cross_lanes(&ab, &ac, &normal);
+  ox_floats area2, height;
+  ox_dot_lanes(&normal, &normal, &area2);
+  ox_dot_lanes(&normal, corner, &height);
+  *distance2 = (ox_floats)(INFINITY);
+  ox_ints within = area2 > 0.0f;
+  for (uint k = 0u; k < 3u; ++k)
+    ox_note_side(corner + k, corner + (k + 1u) % 3u, &normal, distance2, &within);
+  *distance2 = within ? height * height / area2 : *distance2;
+  *distance2 = area2 > 0.0f ? *distance2 : (ox_floats)(INFINITY);
 }
 
 // Within `bound` [m]; OX_NONE: none is. Ties go by the index.
@@ -38,28 +74,57 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
+    float of_lane[OX_VECTOR_WIDTH];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
-      for (uint k = 0u; k < m->triangle_count; ++k) {
-        const uint triangle = m->triangle_first + k;
-        __global const ox_triangle* t = surfaces->triangles + triangle;
-        const float3 n = vload3(0, t->normal);
-        if (ox_dot(n, n) == 0.0f) continue;  // of no area
-        const float distance2 = ox_distance2_to_triangle(p, t);
-        if (!(distance2 <= closest2) || (distance2 == closest2 && triangle > closest)) continue;
-        closest = triangle;
-        closest2 = distance2;
+      for (uint block = 0u; block < OX_BLOCKS; ++block) {
+        ox_floats distance2;
+        ox_distances2(m, block, p, &distance2);
+        const ox_ints is_near = distance2 <= closest2;
+        uint near = ox_mask_of(&is_near) & ox_present_lanes(m->triangle_count, block);
+        if (near == 0u) continue;
+        ox_store(distance2, 0, of_lane);
+        for (; near != 0u; near &= near - 1u) {
+          const uint lane = ox_lowest(near);
+          const uint triangle = m->triangle_first + OX_VECTOR_WIDTH * block + lane;
+          if (of_lane[lane] > closest2 || (of_lane[lane] == closest2 && triangle > closest))
+            continue;
+          closest = triangle;
+          closest2 = of_lane[lane];
+        }
       }
       continue;
     }
     __global const ox_meshlet_node* node =
         surfaces->nodes + mesh->meshlet_node_first + (child >> 1);
-    for (uint k = 0u; k < node->count; ++k) {
-      const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
-      const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
-      const float3 off = fmax(fmax(lo - p, p - hi), 0.0f);
-      if (ox_dot(off, off) <= closest2) walk.child[walk.count++] = node->child[k];
+    // The nearest box is next: what it has spares most of the others.
+    uint first = walk.count;
+    float least = INFINITY;
+    for (uint block = 0u; block < OX_BLOCKS; ++block) {
+      const ox_floats zero = (ox_floats)(0.0f);
+      const ox_vectors off = {
+          fmax(fmax(ox_load(block, node->lo[0]) - p.x, p.x - ox_load(block, node->hi[0])), zero),
+          fmax(fmax(ox_load(block, node->lo[1]) - p.y, p.y - ox_load(block, node->hi[1])), zero),
+          fmax(fmax(ox_load(block, node->lo[2]) - p.z, p.z - ox_load(block, node->hi[2])), zero)};
+      ox_floats distance2;
+      ox_dot_lanes(&off, &off, &distance2);
+      const ox_ints is_near = distance2 <= closest2;
+      uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
+      ox_store(distance2, 0, of_lane);
+      for (; near != 0u; near &= near - 1u) {
+        const uint lane = ox_lowest(near);
+        walk.child[walk.count] = node->child[OX_VECTOR_WIDTH * block + lane];
+        if (of_lane[lane] < least) {
+          least = of_lane[lane];
+          first = walk.count;
+        }
+        ++walk.count;
+      }
     }
+    if (first == walk.count) continue;
+    const uint next = walk.child[first];
+    walk.child[first] = walk.child[walk.count - 1u];
+    walk.child[walk.count - 1u] = next;
   }
   return closest;
 }

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The way that a plane sends a point: whether it comes out there, and whether another is shorter.
+// Device only.
+#ifdef OX_PLANES
+#ifndef ODE_EXT_KERNELS_CONTACTS_WAYS_H
+#define ODE_EXT_KERNELS_CONTACTS_WAYS_H
+
+#include "contacts/region.h"
+#include "shared/closest.h"
+#include "shared/full_ray.h"
+
+// Planes that are tried where the one before does not lead out, so many at most.
+#define OX_MOST_TRIES 4u
+
+static inline __global const ox_mesh* ox_target_of(const ox_region_view* r, uint side) {
+  return r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
+}
+
+// A point of the frame of B in that of the mesh which mesh `side` is in.
+static inline float3 ox_in_target(const ox_region_view* r, uint side, float3 p) {
+  return side == 0u ? p : ox_place(r->scene->pairs + r->pair, 1u, p);
+}
+
+// Whether a point of mesh `side` is still inside the other where a plane takes it: another part of
+// that lies there, or the plane is of one that goes on behind. Of an open mesh it is not known.
+static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
+                                   const ox_plane* plane, float depth) {
+  __global const ox_mesh* target = ox_target_of(r, side);
+  if ((target->flags & OX_MESH_CLOSED) == 0u) return false;
+  const float epsilon = r->scene->pairs[r->pair].epsilon;
+  const float way = depth + OX_MARGIN * epsilon;
+  const float3 there = p + (side == 0u ? way : -way) * plane->normal;
+  return ox_winds_about(ox_in_target(r, side, there), epsilon, target, &r->scene->surfaces);
+}
+
+// The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a
+// bound; else OX_PLANE_NONE. GRAPP's ray looks along the normal of the vertex alone.
+static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float3 p, float bound) {
+  const uint triangle = ox_closest_triangle(&r->scene->surfaces, ox_target_of(r, side),
+                                            ox_in_target(r, side, p), bound);
+  return triangle == OX_NONE ? ox_no_plane()
+                             : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
+}
+
+#endif
+#endif
