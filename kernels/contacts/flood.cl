@@ -17,6 +17,7 @@
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #ifdef OX_PLANES
+#include "shared/closest.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
 #include "shared/general_position.h"
@@ -240,10 +241,10 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   return true;
 }
 
-// Whether of the vertices queued from one on the one farthest from that is inside too. They hang
-// together without a crossing, so they are on one side; where one lies on the surface rounding may
-// answer for it, and not for one that is far from there.
-static bool ox_is_last_inside(const ox_flood_state* s, uint first) {
+// Whether of the vertices queued from one on, which hang together without a crossing, the one
+// farthest from that may be inside too. They are all on one side; where one lies on the surface
+// rounding may answer for it. It may for the other one too: then the first answer stands.
+static bool ox_may_be_inside(const ox_flood_state* s, uint first) {
   __global const uint* queue = ox_queue(s->words, &s->table);
   const float3 p = vload3(0, s->scene.vertices[queue[first]].position);
   uint farthest = queue[first];
@@ -254,7 +255,11 @@ static bool ox_is_last_inside(const ox_flood_state* s, uint first) {
     most = ox_dot(d, d);
     farthest = queue[i];
   }
-  return ox_is_vertex_inside(s, farthest);
+  if (ox_is_vertex_inside(s, farthest)) return true;
+  const float3 there =
+      ox_place(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
+  const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
+  return ox_closest_triangle(&s->scene.surfaces, s->target, there, near) != OX_NONE;
 }
 
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is
@@ -271,7 +276,7 @@ static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
     const bool done = ox_flood_from(s, vertex, next);
     s->asks = false;
     if (!s->refuted && !done) return false;
-    if (s->refuted || !ox_is_last_inside(s, queued))  // on the surface, and outside elsewhere
+    if (s->refuted || !ox_may_be_inside(s, queued))  // on the surface, and outside elsewhere
       s->table.queued = *next = queued;
   }
   return true;

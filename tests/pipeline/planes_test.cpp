@@ -11,6 +11,7 @@
 #include "pipeline/collider.h"
 #include "pipeline/test_scene.h"
 #include "reference/reference_contacts.h"
+#include "support/convex_makers.h"
 #include "support/points.h"
 
 namespace ode_ext::test {
@@ -138,6 +139,17 @@ TEST(SeparatingPlanes, DoNotTakeABodyForInsideByACornerOnTheSurface) {
   for (const Contact& c : contacts) {
     EXPECT_GT(c.normal.z, 0.999);
     EXPECT_LT(c.depth, 1e-4);
+  }
+}
+
+TEST(SeparatingPlanes, AreThereOfBodiesInOnePlace) {
+  for (const TestMesh& mesh : {make_cube(1), make_cube(1, 3), make_torus(0.5, 0.2, 24, 12),
+                               make_icosphere(0.5, 2), make_l(1), make_cone(0.5, 1, 16)}) {
+    Random random(7);
+    for (int i = 0; i < 20; ++i) {
+      const TestPose pose = random.pose(i % 2 == 0 ? 0.0 : 1.0);
+      EXPECT_FALSE(contacts_of(one_pair(mesh, pose, mesh, pose)).empty()) << i;
+    }
   }
 }
 
