@@ -198,32 +198,17 @@ static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, 
     }
     __global const ox_meshlet_node* node =
         scene->surfaces.nodes + mesh->meshlet_node_first + (child >> 1);
-    // The child that may reach farthest is next: what it reaches spares most of the others.
-    uint first = walk.count;
-    float most = -INFINITY;
+    ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats along =
           d.x * (d.x > 0.0f ? ox_load(block, node->hi[0]) : ox_load(block, node->lo[0])) +
           d.y * (d.y > 0.0f ? ox_load(block, node->hi[1]) : ox_load(block, node->lo[1])) +
           d.z * (d.z > 0.0f ? ox_load(block, node->hi[2]) : ox_load(block, node->lo[2]));
       const ox_ints is_beyond = along > farthest;
-      uint beyond = ox_mask_of(&is_beyond) & ox_present_children(node, block);
-      float of_lane[OX_VECTOR_WIDTH];
-      ox_store(along, 0, of_lane);
-      for (; beyond != 0u; beyond &= beyond - 1u) {
-        const uint lane = ox_lowest(beyond);
-        walk.child[walk.count] = node->child[OX_VECTOR_WIDTH * block + lane];
-        if (of_lane[lane] > most) {
-          most = of_lane[lane];
-          first = walk.count;
-        }
-        ++walk.count;
-      }
+      const uint beyond = ox_mask_of(&is_beyond) & ox_present_children(node, block);
+      ox_push_children(node, block, beyond, &along, &walk, &best);
     }
-    if (first == walk.count) continue;
-    const uint next = walk.child[first];
-    walk.child[first] = walk.child[walk.count - 1u];
-    walk.child[walk.count - 1u] = next;
+    ox_put_best_last(&walk, &best);
   }
   return farthest + origin;
 }

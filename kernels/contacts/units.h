@@ -197,7 +197,7 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
          ox_stays_inside(r, seed->side, end, &choice->plane, choice->depth);
 }
 
-// The best plane for a unit. Where one does not lead it out, all of the body has to pass it.
+// The best plane for a unit. Where one does not separate it, all of the body has to pass it.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_parting_move* before) {
   const ox_seed seed = ox_seed_of(r, unit, before);

@@ -9,7 +9,7 @@
 #include "shared/closest.h"
 #include "shared/full_ray.h"
 
-// Planes that are tried where the one before does not lead out, so many at most.
+// Planes that are tried where the one before does not separate, so many at most.
 #define OX_MOST_TRIES 4u
 
 static inline __global const ox_mesh* ox_target_of(const ox_region_view* r, uint side) {

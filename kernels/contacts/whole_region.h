@@ -46,7 +46,7 @@ static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) 
 // The search for the plane of a whole region.
 typedef struct {
   uint deepest;  // as in ox_whole_depth
-  // Normals of planes that do not lead out: what faces their way, within acos 0.9 = 26 degrees,
+  // Normals of planes that do not separate: what faces their way, within acos 0.9 = 26 degrees,
   // does not either.
   float3 refused[OX_MOST_TRIES];
   uint refused_count;
@@ -272,7 +272,7 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
   return false;
 }
 
-// The least plane. Where one does not lead out, all of the body has to pass it.
+// The least plane. Where one does not separate them, all of the body has to pass it.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
   search.deepest = 0u;

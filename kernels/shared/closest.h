@@ -74,7 +74,6 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
-    float of_lane[OX_VECTOR_WIDTH];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
@@ -83,6 +82,7 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
         const ox_ints is_near = distance2 <= closest2;
         uint near = ox_mask_of(&is_near) & ox_present_lanes(m->triangle_count, block);
         if (near == 0u) continue;
+        float of_lane[OX_VECTOR_WIDTH];
         ox_store(distance2, 0, of_lane);
         for (; near != 0u; near &= near - 1u) {
           const uint lane = ox_lowest(near);
@@ -97,9 +97,7 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
     }
     __global const ox_meshlet_node* node =
         surfaces->nodes + mesh->meshlet_node_first + (child >> 1);
-    // The nearest box is next: what it has spares most of the others.
-    uint first = walk.count;
-    float least = INFINITY;
+    ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats zero = (ox_floats)(0.0f);
       const ox_vectors off = {
@@ -109,22 +107,11 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
       const ox_ints is_near = distance2 <= closest2;
-      uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
-      ox_store(distance2, 0, of_lane);
-      for (; near != 0u; near &= near - 1u) {
-        const uint lane = ox_lowest(near);
-        walk.child[walk.count] = node->child[OX_VECTOR_WIDTH * block + lane];
-        if (of_lane[lane] < least) {
-          least = of_lane[lane];
-          first = walk.count;
-        }
-        ++walk.count;
-      }
+      const uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
+      const ox_floats nearness = -distance2;
+      ox_push_children(node, block, near, &nearness, &walk, &best);
     }
-    if (first == walk.count) continue;
-    const uint next = walk.child[first];
-    walk.child[first] = walk.child[walk.count - 1u];
-    walk.child[walk.count - 1u] = next;
+    ox_put_best_last(&walk, &best);
   }
   return closest;
 }

@@ -49,6 +49,36 @@ static inline uint ox_present_children(__global const ox_meshlet_node* node, uin
   return ox_present_lanes(node->count, block);
 }
 
+// Of the children of a node that a walk goes on to, the one with the greatest rating.
+typedef struct {
+  uint index;  // among those of the walk; OX_NONE: there is none yet
+  float rating;
+} ox_best_child;
+
+// Puts the children of a block that `wanted` has a bit for on a walk.
+static inline void ox_push_children(__global const ox_meshlet_node* node, uint block, uint wanted,
+                                    const ox_floats* ratings, ox_box_walk* walk,
+                                    ox_best_child* best) {
+  float rating[OX_VECTOR_WIDTH];
+  ox_store(*ratings, 0, rating);
+  for (; wanted != 0u; wanted &= wanted - 1u) {
+    const uint lane = ox_lowest(wanted);
+    if (best->index == OX_NONE || rating[lane] > best->rating) {
+      best->index = walk->count;
+      best->rating = rating[lane];
+    }
+    walk->child[walk->count++] = node->child[OX_VECTOR_WIDTH * block + lane];
+  }
+}
+
+// What the best child holds spares most of the others: it is the next.
+static inline void ox_put_best_last(ox_box_walk* walk, const ox_best_child* best) {
+  if (best->index == OX_NONE) return;
+  const uint child = walk->child[best->index];
+  walk->child[best->index] = walk->child[walk->count - 1u];
+  walk->child[walk->count - 1u] = child;
+}
+
 // A block of the children whose boxes a ray passes between `from` and `limit` [m], a bit for each;
 // entry [m]: from where on.
 static inline uint ox_entered_children(const ox_cast* cast, __global const ox_meshlet_node* node,
