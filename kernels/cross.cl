@@ -10,13 +10,17 @@
 #include "contacts/cross.h"
 #include "shared/cross.h"
 
+static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair* meshlet_pairs,
+                           __global ox_edge_crossing* crossings) {
+  const uint count = ox_length(scene, OX_LIST_MESHLET_PAIRS);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
+    const ox_meshlet_pair both = meshlet_pairs[i];
+    ox_cross_meshlets(scene, crossings, &both);
+  }
+}
+
 __kernel void cross_meshlets(OX_SCENE_PARAMETERS, __global const ox_meshlet_pair* meshlet_pairs,
                              __global ox_edge_crossing* crossings) {
   const ox_scene scene = OX_SCENE;
-  const uint count = ox_length(&scene, OX_LIST_MESHLET_PAIRS);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    const ox_meshlet_pair both = meshlet_pairs[i];
-    ox_cross_meshlets(&scene, crossings, &both);
-  }
+  ox_cross_pairs(&scene, meshlet_pairs, crossings);
 }

@@ -24,16 +24,16 @@ static void ox_store_meshlets(const ox_scene* scene, uint pair_side, ox_kept_mes
   kept->count = 0u;
 }
 
-__kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
-  const ox_scene scene = OX_SCENE;
-  const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
-    __global const ox_pair* pair = pairs + p;
+static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
+  for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count) {
+    __global const ox_pair* pair = scene->pairs + p;
     if (pair->near == 0u) continue;
     const uint side =
-        meshes[pair->mesh[1]].meshlet_count > meshes[pair->mesh[0]].meshlet_count ? 1u : 0u;
-    __global const ox_mesh* source = meshes + pair->mesh[side];
-    __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+        scene->meshes[pair->mesh[1]].meshlet_count > scene->meshes[pair->mesh[0]].meshlet_count
+            ? 1u
+            : 0u;
+    __global const ox_mesh* source = scene->meshes + pair->mesh[side];
+    __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     const float margin = pair->margin;
     const float3 middle = vload3(0, target->box_centre);
     const float3 half_size = vload3(0, target->box_half);
@@ -50,11 +50,11 @@ __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
       const uint child = walk.child[--walk.count];
       if ((child & OX_CHILD_MESHLET) != 0u) {
         kept.meshlet[kept.count++] = source->meshlet_first + (child >> 1);
-        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(&scene, p << 1 | side, &kept, tasks);
+        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, p << 1 | side, &kept, tasks);
         continue;
       }
       __global const ox_meshlet_node* node =
-          meshlet_nodes + source->meshlet_node_first + (child >> 1);
+          scene->surfaces.nodes + source->meshlet_node_first + (child >> 1);
       for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
         uint met = ox_children_in_box(&box, node, first / OX_VECTOR_WIDTH);
         for (; met != 0u; met &= met - 1u) {
@@ -68,6 +68,11 @@ __kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
         }
       }
     }
-    if (kept.count != 0u) ox_store_meshlets(&scene, p << 1 | side, &kept, tasks);
+    if (kept.count != 0u) ox_store_meshlets(scene, p << 1 | side, &kept, tasks);
   }
+}
+
+__kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
+  const ox_scene scene = OX_SCENE;
+  ox_cull(&scene, tasks);
 }

@@ -35,18 +35,19 @@ static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, o
   met->count = 0u;
 }
 
-__kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
-                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings) {
-  const ox_scene scene = OX_SCENE;
-  const uint count = ox_length(&scene, OX_LIST_MESHLETS);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_match(const ox_scene* scene, __global const ox_meshlet_task* tasks,
+                     __global ox_meshlet_pair* meshlet_pairs,
+                     __global ox_edge_crossing* crossings) {
+  const uint count = ox_length(scene, OX_LIST_MESHLETS);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_meshlet_task task = tasks[i];
     const uint side = task.pair_side & 1u;
-    __global const ox_pair* pair = pairs + (task.pair_side >> 1);
-    __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-    const ox_box box = ox_box_there(pair, side, meshlets + task.meshlet, pair->margin);
-    const ox_slab slab = ox_slab_there(pair, side, meshlets + task.meshlet, pair->margin);
+    __global const ox_pair* pair = scene->pairs + (task.pair_side >> 1);
+    __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
+    const ox_box box =
+        ox_box_there(pair, side, scene->surfaces.meshlets + task.meshlet, pair->margin);
+    const ox_slab slab =
+        ox_slab_there(pair, side, scene->surfaces.meshlets + task.meshlet, pair->margin);
     ox_met_meshlets met;
     met.count = 0u;
     ox_box_walk walk = ox_begin_box_walk(target);
@@ -54,7 +55,7 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
       const uint child = walk.child[--walk.count];
       if ((child & OX_CHILD_MESHLET) == 0u) {
         __global const ox_meshlet_node* node =
-            meshlet_nodes + target->meshlet_node_first + (child >> 1);
+            scene->surfaces.nodes + target->meshlet_node_first + (child >> 1);
         for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
           const uint block = first / OX_VECTOR_WIDTH;
           uint children = ox_children_in_box(&box, node, block);
@@ -66,8 +67,14 @@ __kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
       }
       met.meshlet[met.count++] = target->meshlet_first + (child >> 1);
       if (met.count == OX_MOST_AT_ONCE)
-        ox_store_pairs(&scene, &task, &met, meshlet_pairs, crossings);
+        ox_store_pairs(scene, &task, &met, meshlet_pairs, crossings);
     }
-    if (met.count != 0u) ox_store_pairs(&scene, &task, &met, meshlet_pairs, crossings);
+    if (met.count != 0u) ox_store_pairs(scene, &task, &met, meshlet_pairs, crossings);
   }
+}
+
+__kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
+                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings) {
+  const ox_scene scene = OX_SCENE;
+  ox_match(&scene, tasks, meshlet_pairs, crossings);
 }

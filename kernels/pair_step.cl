@@ -70,33 +70,35 @@ static void ox_relate(__global const ox_object* a, __global const ox_object* b,
   vstore3(-(a0 * d.x + a1 * d.y + a2 * d.z), 0, pair->offset[1]);
 }
 
-__kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
-                        __global const uint* pair_objects, __global ox_range* pair_ranges) {
-  const ox_scene scene = OX_SCENE;
-  const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
+static void ox_begin_found(__global ox_found* found) {
 #ifdef OX_PLANES
-    found[p].features = 0u;
-    found[p].first = 0u;
-    found[p].placed = 0u;
-    found[p].candidates = 0u;
+  found->features = 0u;
+  found->first = 0u;
+  found->placed = 0u;
+  found->candidates = 0u;
 #else
-    found[p].hits = 0u;
-    found[p].crossings = 0u;
-    found[p].first_candidate = 0u;
-    found[p].first_crossing = 0u;
+  found->hits = 0u;
+  found->crossings = 0u;
+  found->first_candidate = 0u;
+  found->first_crossing = 0u;
 #endif
-    found[p].head[0] = OX_NONE;
-    found[p].head[1] = OX_NONE;
+  found->head[0] = OX_NONE;
+  found->head[1] = OX_NONE;
+}
+
+static void ox_relate_pairs(const ox_scene* scene, __global const ox_object* objects,
+                            __global const uint* pair_objects, __global ox_range* pair_ranges) {
+  for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count) {
+    ox_begin_found(scene->found + p);
     pair_ranges[p].first = 0u;
     pair_ranges[p].count = 0u;
-    pairs[p].near = 0u;
+    scene->pairs[p].near = 0u;
 
     __global const ox_object* a = objects + pair_objects[2u * p];
     __global const ox_object* b = objects + pair_objects[2u * p + 1u];
-    __global const ox_mesh* mesh_a = meshes + a->mesh;
-    __global const ox_mesh* mesh_b = meshes + b->mesh;
-    __global ox_pair* pair = pairs + p;
+    __global const ox_mesh* mesh_a = scene->meshes + a->mesh;
+    __global const ox_mesh* mesh_b = scene->meshes + b->mesh;
+    __global ox_pair* pair = scene->pairs + p;
     pair->mesh[0] = a->mesh;
     pair->mesh[1] = b->mesh;
     if (mesh_a->chunk_count == 0u || mesh_b->chunk_count == 0u) continue;
@@ -124,6 +126,12 @@ __kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
     const float reach = both_open ? ox_max(mesh_a->reach, mesh_b->reach) : 0.0f;
     if (!ox_boxes_overlap(pair, mesh_a, mesh_b, apart + reach)) continue;
     pair->near = 1u;
-    ox_count(&scene, OX_COUNTER_BOUNDED);
+    ox_count(scene, OX_COUNTER_BOUNDED);
   }
+}
+
+__kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
+                        __global const uint* pair_objects, __global ox_range* pair_ranges) {
+  const ox_scene scene = OX_SCENE;
+  ox_relate_pairs(&scene, objects, pair_objects, pair_ranges);
 }

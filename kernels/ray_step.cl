@@ -8,36 +8,41 @@
 #include "shared/closest.h"
 #include "shared/vertex_ray.h"
 
-__kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __global ox_hit* hits) {
-  const ox_scene scene = OX_SCENE;
-  const uint first = lists[OX_LIST_RAYS].first;
-  const uint count = ox_length(&scene, OX_LIST_RAYS);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
+                         __global ox_hit* hits) {
+  const uint first = scene->lists[OX_LIST_RAYS].first;
+  const uint count = ox_length(scene, OX_LIST_RAYS);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_ray ray = rays[first + i];
     const uint side = ray.pair_side & 1u;
-    __global const ox_pair* pair = pairs + (ray.pair_side >> 1);
-    __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-    ox_vertex_ray vertex_ray = ox_ray_of(pair, side, meshes, vertices + ray.vertex);
+    __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
+    __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
+    ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);
 #ifdef OX_PLANES
     vertex_ray.known = ray.memory != OX_RAY_ASKING;
 #endif
     uint work = 0u;
     uint remember;
-    ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene.surfaces, OX_NONE, 0.0f,
-                                         &remember, &work);
+    ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene->surfaces, OX_NONE,
+                                         0.0f, &remember, &work);
 #ifdef OX_PLANES
     if (ray.memory == OX_RAY_CONTAINED) {
       // Its ray leaves by a face on one side of it, and the closest may be on the other.
-      const uint closest = ox_closest_triangle(
-          &scene.surfaces, target, ox_place(pair, side, vload3(0, vertices[ray.vertex].position)),
-          outcome.triangle == OX_NONE ? INFINITY : outcome.t);
+      const uint closest =
+          ox_closest_triangle(&scene->surfaces, target,
+                              ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position)),
+                              outcome.triangle == OX_NONE ? INFINITY : outcome.t);
       if (closest != OX_NONE) {
         outcome.triangle = closest;
         outcome.kind = OX_HIT_INSIDE;
       }
     }
 #endif
-    ox_append_hit(&scene, &ray, &outcome, hits);
+    ox_append_hit(scene, &ray, &outcome, hits);
   }
+}
+
+__kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __global ox_hit* hits) {
+  const ox_scene scene = OX_SCENE;
+  ox_cast_rays(&scene, rays, hits);
 }

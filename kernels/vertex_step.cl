@@ -8,16 +8,20 @@
 // may overflow: OX_LIST_RAYS
 #include "shared/vertex_ray.h"
 
+static void ox_choose_vertices(const ox_scene* scene, __global const ox_chunk_task* tasks,
+                               __global ox_ray* rays) {
+  const uint count = ox_length(scene, OX_LIST_CHUNKS) * OX_CHUNK_VERTICES;
+  for (uint i = scene->item; i < count; i += scene->item_count) {
+    __global const ox_chunk_task* task =
+        tasks + scene->lists[OX_LIST_CHUNKS].first + i / OX_CHUNK_VERTICES;
+    __global const ox_chunk* chunk = scene->chunks + task->chunk;
+    const uint lane = i % OX_CHUNK_VERTICES;
+    if (lane < chunk->count) ox_append_ray(scene, task->pair_side, chunk->first + lane, rays);
+  }
+}
+
 __kernel void vertex_step(OX_SCENE_PARAMETERS, __global const ox_chunk_task* tasks,
                           __global ox_ray* rays) {
   const ox_scene scene = OX_SCENE;
-  const uint count = ox_length(&scene, OX_LIST_CHUNKS) * OX_CHUNK_VERTICES;
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
-    __global const ox_chunk_task* task =
-        tasks + lists[OX_LIST_CHUNKS].first + i / OX_CHUNK_VERTICES;
-    __global const ox_chunk* chunk = chunks + task->chunk;
-    const uint lane = i % OX_CHUNK_VERTICES;
-    if (lane < chunk->count) ox_append_ray(&scene, task->pair_side, chunk->first + lane, rays);
-  }
+  ox_choose_vertices(&scene, tasks, rays);
 }

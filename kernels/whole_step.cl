@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole step: all steps of a few pairs one after the other, by one work-item. On a processor a
-// launch costs as much as a pair; the kernels loop over their input whatever the grid, so this
-// gives the same bytes.
+// Whole step: all steps of a pair one after the other, by one work-item. On a processor a launch
+// costs as much as a pair, and what one kernel writes of a thousand pairs has left the cache when
+// the next reads it. Each work-item has a share of the lists, which the pairs that it takes fill
+// one after the other; the steps are those of the kernels, so this gives the same bytes.
 //
-// in, out, and what may overflow: of the kernels that it calls
-// item  all; there is one
+// in, out: of the kernels whose steps these are
+//       pairs: near only where a pair does not fit into a share: the kernels collide those
+// item  1 pair (of a queue)
+// may overflow: OX_LIST_CONTACTS; all others without loss
 //
 // Kernels that call kernels are OpenCL C, and yet not every compiler's for GPUs: it is left out
 // where it never runs (OX_WHOLE_STEP, pipeline/collider_start.cpp).
@@ -26,6 +29,74 @@
 #endif
 
 #ifdef OX_PLANES
+// The part of the lists that is one work-item's: what of each pair it appends, and what becomes of
+// that. The next pair takes the place of the last, so it is all in the cache of a core.
+typedef struct {
+  __global ox_meshlet_task* meshlet_tasks;
+  __global ox_meshlet_pair* meshlet_pairs;
+  __global ox_edge_crossing* crossings;
+  __global ox_chunk_task* tasks;
+  __global ox_ray* rays;
+  __global uint* words;
+  __global ox_hit* hits;
+  __global ox_feature* features;
+  __global uint* parents;
+  __global uint* slots;
+  __global ox_region* regions;
+  __global float* members;
+  __global ox_face* faces;
+  __global float* planes;
+  __global uint* edge_planes;
+  __global float* candidates;
+} ox_share;
+
+static void ox_clear_counters(const ox_scene* scene) {
+  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) scene->counters[i * OX_COUNTER_STRIDE] = 0u;
+}
+
+static void ox_add_counters(const ox_scene* scene, __global volatile uint* totals) {
+  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) {
+    const uint counted = scene->counters[i * OX_COUNTER_STRIDE];
+    if (counted != 0u) atomic_add(totals + i * OX_COUNTER_STRIDE, counted);
+  }
+}
+
+static bool ox_fits(const ox_scene* scene, uint list) {
+  return scene->counters[list * OX_COUNTER_STRIDE] <= scene->lists[list].capacity;
+}
+
+// The features of a pair; false: they do not fit into a share.
+static bool ox_find_features(const ox_scene* scene, const ox_share* share) {
+  ox_cull(scene, share->meshlet_tasks);
+  if (!ox_fits(scene, OX_LIST_MESHLETS)) return false;
+  ox_match(scene, share->meshlet_tasks, share->meshlet_pairs, share->crossings);
+  ox_cross_pairs(scene, share->meshlet_pairs, share->crossings);
+  if (!ox_fits(scene, OX_LIST_MESHLET_PAIRS) || !ox_fits(scene, OX_LIST_CROSSINGS)) return false;
+  ox_flood_sides(scene, share->crossings, share->tasks, share->rays, share->words);
+  ox_choose_vertices(scene, share->tasks, share->rays);
+  if (!ox_fits(scene, OX_LIST_FLOOD_WORDS) || !ox_fits(scene, OX_LIST_CHUNKS) ||
+      !ox_fits(scene, OX_LIST_RAYS))
+    return false;
+  ox_cast_rays(scene, share->rays, share->hits);
+  return ox_fits(scene, OX_LIST_HITS);
+}
+
+static void ox_assemble_features(const ox_scene* scene, const ox_share* share) {
+  ox_gather_features(scene, share->crossings, share->hits, share->features, share->parents,
+                     share->slots, share->faces);
+  ox_place_features(scene);
+  ox_link_features(scene, share->features, share->parents, share->slots);
+  ox_join_features(scene, share->crossings, share->features, share->parents, share->slots);
+  ox_begin_regions(scene, share->features, share->parents, share->regions);
+  ox_count_members(scene, share->features, share->parents, share->regions);
+  ox_place_regions(scene, share->regions);
+  ox_fill_regions(scene, share->features, share->regions, share->members, share->faces);
+  ox_propose_planes(scene, share->features, share->regions, share->faces, share->planes,
+                    share->edge_planes);
+  ox_choose_planes(scene, share->features, share->regions, share->members, share->faces,
+                   share->planes, share->edge_planes, share->candidates);
+}
+
 __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                          __global const uint* pair_objects, __global ox_range* pair_ranges,
                          __global ox_meshlet_task* meshlet_tasks,
@@ -37,26 +108,52 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                          __global uint* parents, __global uint* slots, __global ox_region* regions,
                          __global float* members, __global ox_face* faces, __global float* planes,
                          __global uint* edge_planes) {
-  pair_step(OX_SCENE_ARGUMENTS, objects, pair_objects, pair_ranges);
-  cull(OX_SCENE_ARGUMENTS, meshlet_tasks);
-  match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings);
-  cross_meshlets(OX_SCENE_ARGUMENTS, meshlet_pairs, crossings);
-  flood(OX_SCENE_ARGUMENTS, crossings, tasks, rays, words);
-  vertex_step(OX_SCENE_ARGUMENTS, tasks, rays);
-  ray_step(OX_SCENE_ARGUMENTS, rays, hits);
-  feature_gather(OX_SCENE_ARGUMENTS, crossings, hits, features, parents, slots, faces);
-  feature_place(OX_SCENE_ARGUMENTS);
-  feature_link(OX_SCENE_ARGUMENTS, features, parents, slots);
-  feature_join(OX_SCENE_ARGUMENTS, crossings, features, parents, slots);
-  region_begin(OX_SCENE_ARGUMENTS, features, parents, regions);
-  region_count(OX_SCENE_ARGUMENTS, features, parents, regions);
-  region_place(OX_SCENE_ARGUMENTS, regions);
-  region_fill(OX_SCENE_ARGUMENTS, features, regions, members, faces);
-  region_propose(OX_SCENE_ARGUMENTS, features, regions, faces, planes, edge_planes);
-  choose_planes(OX_SCENE_ARGUMENTS, features, regions, members, faces, planes, edge_planes,
-                candidates);
-  reduce_candidates(OX_SCENE_ARGUMENTS, candidates, max_contacts, max_deformable, pair_ranges,
-                    contacts);
+  ox_scene scene = OX_SCENE;
+  __global volatile uint* totals = counters + OX_COUNTERS_TOTALS * OX_COUNTER_WORDS;
+  const uint item = scene.item;
+  scene.counters = counters + (OX_COUNTERS_SHARES + item) * OX_COUNTER_WORDS;
+  scene.lists = lists + OX_LIST_COUNT;
+  scene.item = 0u;
+  scene.item_count = 1u;
+  __global const ox_list* each = scene.lists;
+  const uint n = each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity;
+  const ox_share share = {meshlet_tasks + item * each[OX_LIST_MESHLETS].capacity,
+                          meshlet_pairs + item * each[OX_LIST_MESHLET_PAIRS].capacity,
+                          crossings + item * each[OX_LIST_CROSSINGS].capacity,
+                          tasks + item * each[OX_LIST_CHUNKS].capacity,
+                          rays + item * each[OX_LIST_RAYS].capacity,
+                          words + item * each[OX_LIST_FLOOD_WORDS].capacity,
+                          hits + item * each[OX_LIST_HITS].capacity,
+                          features + item * n,
+                          parents + item * n,
+                          slots + item * OX_SLOTS_PER_FEATURE * n,
+                          regions + item * n,
+                          members + item * OX_MEMBER_WORDS * n,
+                          faces + item * OX_FACES_PER_FEATURE * n,
+                          planes + item * OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * n,
+                          edge_planes + item * 2u * n,
+                          candidates + item * OX_CANDIDATE_WORDS * n};
+  for (;;) {
+    const uint p = atomic_inc(totals + OX_QUEUE_PAIRS * OX_COUNTER_STRIDE);
+    if (p >= pair_count) return;
+    scene.pair_first = p;
+    scene.pair_end = p + 1u;
+    ox_clear_counters(&scene);
+    ox_relate_pairs(&scene, objects, pair_objects, pair_ranges);
+    if (pairs[p].near == 0u) continue;
+    if (ox_find_features(&scene, &share)) {
+      ox_assemble_features(&scene, &share);
+      ox_reduce_candidates(&scene, share.candidates, max_contacts, max_deformable, pair_ranges,
+                           contacts);
+      pairs[p].near = 0u;
+    } else {
+      ox_clear_counters(&scene);
+      ox_count(&scene, OX_COUNTER_BOUNDED);
+      ox_count(&scene, OX_COUNTER_LEFT);
+    }
+    ox_begin_found(found + p);
+    ox_add_counters(&scene, totals);
+  }
 }
 #else
 __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,

@@ -100,17 +100,16 @@ static void ox_choose_sheet(ox_manifold* m) {
                    OX_HIT_POINT, f->at[0], f->triangle);
 }
 
-__kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* features,
-                            __global const ox_region* regions, __global float* members,
-                            __global const ox_face* faces, __global float* planes,
-                            __global const uint* edge_planes, __global float* candidates) {
-  const ox_scene scene = OX_SCENE;
-  const uint region_count = counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
-  for (uint i = ox_next_item(&scene, OX_QUEUE_REGIONS); i < region_count;
-       i = ox_next_item(&scene, OX_QUEUE_REGIONS)) {
+static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* features,
+                             __global const ox_region* regions, __global float* members,
+                             __global const ox_face* faces, __global float* planes,
+                             __global const uint* edge_planes, __global float* candidates) {
+  const uint region_count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
+  for (uint i = ox_next_item(scene, OX_QUEUE_REGIONS); i < region_count;
+       i = ox_next_item(scene, OX_QUEUE_REGIONS)) {
     ox_region_view view;
     if (regions[i].count == 0u) continue;  // within facets
-    view.scene = &scene;
+    view.scene = scene;
     view.index = i;
     view.pair = regions[i].pair;
     view.count = regions[i].count;
@@ -123,11 +122,11 @@ __kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* feat
     view.planes = ox_planes_of(regions + i, planes);
     ox_manifold manifold;
     manifold.region = &view;
-    manifold.candidates = ox_candidates_of(&scene, view.pair, candidates);
-    manifold.count = &found[view.pair].candidates;
+    manifold.candidates = ox_candidates_of(scene, view.pair, candidates);
+    manifold.count = &scene->found[view.pair].candidates;
     manifold.manifold = i * OX_MOST_PLANES;
-    const uint mesh_flags =
-        meshes[pairs[view.pair].mesh[0]].flags | meshes[pairs[view.pair].mesh[1]].flags;
+    const uint mesh_flags = scene->meshes[scene->pairs[view.pair].mesh[0]].flags |
+                            scene->meshes[scene->pairs[view.pair].mesh[1]].flags;
     if ((mesh_flags & OX_MESH_TWO_SIDED) != 0u) {
       ox_choose_sheet(&manifold);
     } else if ((view.flags & (OX_REGION_CROSSED | OX_REGION_VALLEY)) ==
@@ -141,5 +140,13 @@ __kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* feat
         ox_add_whole(&manifold, &choice);
     }
   }
+}
+
+__kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* features,
+                            __global const ox_region* regions, __global float* members,
+                            __global const ox_face* faces, __global float* planes,
+                            __global const uint* edge_planes, __global float* candidates) {
+  const ox_scene scene = OX_SCENE;
+  ox_choose_planes(&scene, features, regions, members, faces, planes, edge_planes, candidates);
 }
 #endif

@@ -15,15 +15,13 @@
 #include "contacts/region_fields.h"
 
 // out: features, each a tree of its own (parents); found: how many each pair has; tables, empty.
-__kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
-                             __global const ox_hit* hits, __global ox_feature* features,
-                             __global uint* parents, __global uint* slots,
-                             __global ox_face* faces) {
-  const ox_scene scene = OX_SCENE;
-  const uint crossed = ox_crossing_count(&scene);
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_gather_features(const ox_scene* scene, __global const ox_edge_crossing* crossings,
+                               __global const ox_hit* hits, __global ox_feature* features,
+                               __global uint* parents, __global uint* slots,
+                               __global ox_face* faces) {
+  const uint crossed = ox_crossing_count(scene);
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     ox_feature f;
     f.face = OX_NONE;
     f.next = OX_NONE;
@@ -40,14 +38,14 @@ __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossin
       f.source = crossing.edge;
       f.triangle = crossing.triangle;
       f.t = crossing.t;
-      f.at[0] = edges[crossing.edge].triangle[0];
-      f.at[1] = edges[crossing.edge].triangle[1];
-      if (ox_is_flat_edge(&scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
+      f.at[0] = scene->edges[crossing.edge].triangle[0];
+      f.at[1] = scene->edges[crossing.edge].triangle[1];
+      if (ox_is_flat_edge(scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
       f.mate[0] = i << 1;
       if (f.at[1] != OX_NONE) f.mate[1] = i << 1 | 1u;
-      if (ox_is_valley(&scene, f.pair, crossing.edge)) f.flags |= OX_FEATURE_VALLEY;
-      const float3 p = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[0]);
-      const float3 d = ox_vertex_of(&scene, f.pair, side, edges[crossing.edge].vertex[1]) - p;
+      if (ox_is_valley(scene, f.pair, crossing.edge)) f.flags |= OX_FEATURE_VALLEY;
+      const float3 p = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[0]);
+      const float3 d = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[1]) - p;
       const float length = sqrt(ox_dot(d, d));
       position = p + (length > 0.0f ? crossing.t / length : 0.0f) * d;
     } else {
@@ -61,16 +59,17 @@ __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossin
       f.t = 0.0f;
       f.next = hit->from;
       // Of what changes its shape every vertex may need a contact.
-      if ((meshes[pairs[f.pair].mesh[side]].flags & OX_MESH_DEFORMABLE) != 0u)
+      if ((scene->meshes[scene->pairs[f.pair].mesh[side]].flags & OX_MESH_DEFORMABLE) != 0u)
         f.flags &= ~OX_FEATURE_FLAT;
-      for (uint k = ring_starts[hit->vertex]; k < ring_starts[hit->vertex + 1u]; ++k) {
-        if (ox_is_flat_edge(&scene, rings[k].edge)) continue;
+      for (uint k = scene->ring_starts[hit->vertex]; k < scene->ring_starts[hit->vertex + 1u];
+           ++k) {
+        if (ox_is_flat_edge(scene, scene->rings[k].edge)) continue;
         f.flags &= ~OX_FEATURE_FLAT;
-        if (!ox_is_valley(&scene, f.pair, rings[k].edge)) continue;
+        if (!ox_is_valley(scene, f.pair, scene->rings[k].edge)) continue;
         f.flags |= OX_FEATURE_VALLEY;
         break;
       }
-      position = ox_vertex_of(&scene, f.pair, side, hit->vertex);
+      position = ox_vertex_of(scene, f.pair, side, hit->vertex);
     }
     vstore3(position, 0, f.position);
     features[i] = f;
@@ -79,17 +78,28 @@ __kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossin
       slots[k] = OX_NONE;
     for (uint k = OX_FACES_PER_FEATURE * i; k < OX_FACES_PER_FEATURE * (i + 1u); ++k)
       faces[k] = ox_no_face();
-    atomic_inc(&found[f.pair].features);
+    atomic_inc(&scene->found[f.pair].features);
   }
 }
 
+__kernel void feature_gather(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
+                             __global const ox_hit* hits, __global ox_feature* features,
+                             __global uint* parents, __global uint* slots,
+                             __global ox_face* faces) {
+  const ox_scene scene = OX_SCENE;
+  ox_gather_features(&scene, crossings, hits, features, parents, slots, faces);
+}
+
 // out: found, where the features of each pair are to start. item: 1 pair.
+static void ox_place_features(const ox_scene* scene) {
+  for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count)
+    if (scene->found[p].features != 0u)
+      scene->found[p].first = ox_take_room(scene, OX_COUNTER_FEATURES, scene->found[p].features);
+}
+
 __kernel void feature_place(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  const uint stride = (uint)get_global_size(0);
-  for (uint p = (uint)get_global_id(0); p < pair_count; p += stride)
-    if (found[p].features != 0u)
-      found[p].first = ox_take_room(&scene, OX_COUNTER_FEATURES, found[p].features);
+  ox_place_features(&scene);
 }
 
 // The root of a tree of features. Others may hang trees on meanwhile; halves the way for the next.
@@ -116,27 +126,31 @@ static void ox_unite(__global volatile uint* parents, uint a, uint b) {
 }
 
 // out: slots; chains of the crossings of each edge; neighbours along the curve are united.
-__kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global uint* parents, __global uint* slots) {
-  const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_link_features(const ox_scene* scene, __global ox_feature* features,
+                             __global uint* parents, __global uint* slots) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = features + i;
     if (ox_is_vertex(f->flags)) {
-      ox_add_feature(&scene, features, slots, i << 2 | OX_ENTRY_VERTEX);
+      ox_add_feature(scene, features, slots, i << 2 | OX_ENTRY_VERTEX);
       continue;
     }
-    const uint of_edge = ox_add_feature(&scene, features, slots, i << 2 | OX_ENTRY_EDGE);
+    const uint of_edge = ox_add_feature(scene, features, slots, i << 2 | OX_ENTRY_EDGE);
     if (of_edge != OX_NONE) f->next = atomic_xchg(&features[of_edge >> 2].next, i);
     for (uint k = 0u; k < 2u && (f->flags & OX_FEATURE_FLAT) == 0u; ++k) {
       if (f->at[k] == OX_NONE) continue;
-      const uint other = ox_add_feature(&scene, features, slots, i << 2 | k);
+      const uint other = ox_add_feature(scene, features, slots, i << 2 | k);
       if (other == OX_NONE) continue;
       f->mate[k] = atomic_xchg(&features[other >> 2].mate[other & 3u], i << 1 | k);
       ox_unite(parents, i, other >> 2);
     }
   }
+}
+
+__kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global uint* parents, __global uint* slots) {
+  const ox_scene scene = OX_SCENE;
+  ox_link_features(&scene, features, parents, slots);
 }
 
 // The feature at the other end of the stretch of the edge inside: the next crossing if one follows
@@ -187,37 +201,40 @@ static void ox_join_neighbours(const ox_scene* scene, __global const ox_feature*
 
 // out: partners; what follows one another along an edge is united. Edges within facets need not be
 // followed: what hangs together by them alone is within one facet.
-__kernel void feature_join(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
-                           __global ox_feature* features, __global uint* parents,
-                           __global const uint* slots) {
-  const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_join_features(const ox_scene* scene, __global const ox_edge_crossing* crossings,
+                             __global ox_feature* features, __global uint* parents,
+                             __global const uint* slots) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = features + i;
     if (!ox_is_vertex(f->flags)) {
       if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
-      f->partner = ox_find_partner(&scene, features, slots, crossings, i);
+      f->partner = ox_find_partner(scene, features, slots, crossings, i);
       if (f->partner != OX_NONE) ox_unite(parents, i, f->partner);
     } else if (f->next == OX_NONE) {
-      ox_join_neighbours(&scene, features, parents, slots, i);
+      ox_join_neighbours(scene, features, parents, slots, i);
     } else if (f->next != f->source) {
-      const uint entry = ox_find_feature(&scene, features, slots,
+      const uint entry = ox_find_feature(scene, features, slots,
                                          ox_inside_key(f->pair, ox_side_of(f->flags), f->next));
       if (entry != OX_NONE) ox_unite(parents, i, entry >> 2);
     }
   }
 }
 
-// out: regions, without their members.
-__kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global const uint* parents, __global ox_region* regions) {
+__kernel void feature_join(OX_SCENE_PARAMETERS, __global const ox_edge_crossing* crossings,
+                           __global ox_feature* features, __global uint* parents,
+                           __global const uint* slots) {
   const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+  ox_join_features(&scene, crossings, features, parents, slots);
+}
+
+// out: regions, without their members.
+static void ox_begin_regions(const ox_scene* scene, __global ox_feature* features,
+                             __global const uint* parents, __global ox_region* regions) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     if (parents[i] != i) continue;
-    const uint r = ox_take_room(&scene, OX_COUNTER_REGIONS, 1u);
+    const uint r = ox_take_room(scene, OX_COUNTER_REGIONS, 1u);
     regions[r].pair = features[i].pair;
     regions[r].count = 0u;
     regions[r].placed = 0u;
@@ -227,13 +244,17 @@ __kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
   }
 }
 
-// out: how many members each region has, and what they say of it.
-__kernel void region_count(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global uint* parents, __global ox_region* regions) {
+__kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global const uint* parents, __global ox_region* regions) {
   const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+  ox_begin_regions(&scene, features, parents, regions);
+}
+
+// out: how many members each region has, and what they say of it.
+static void ox_count_members(const ox_scene* scene, __global ox_feature* features,
+                             __global uint* parents, __global ox_region* regions) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     const uint flags = features[i].flags;
     if ((flags & OX_FEATURE_FLAT) != 0u) continue;
     const uint region = features[ox_root_of(parents, i)].region;
@@ -245,26 +266,33 @@ __kernel void region_count(OX_SCENE_PARAMETERS, __global ox_feature* features,
   }
 }
 
-// out: where the members of each region start, among those of its pair. item: 1 region.
-__kernel void region_place(OX_SCENE_PARAMETERS, __global ox_region* regions) {
+__kernel void region_count(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                           __global uint* parents, __global ox_region* regions) {
   const ox_scene scene = OX_SCENE;
-  const uint count = counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
-  const uint stride = (uint)get_global_size(0);
-  for (uint r = (uint)get_global_id(0); r < count; r += stride) {
-    __global ox_found* of_pair = scene.found + regions[r].pair;
+  ox_count_members(&scene, features, parents, regions);
+}
+
+// out: where the members of each region start, among those of its pair. item: 1 region.
+static void ox_place_regions(const ox_scene* scene, __global ox_region* regions) {
+  const uint count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
+  for (uint r = scene->item; r < count; r += scene->item_count) {
+    __global ox_found* of_pair = scene->found + regions[r].pair;
     regions[r].first = of_pair->first + atomic_add(&of_pair->placed, regions[r].count);
   }
 }
 
+__kernel void region_place(OX_SCENE_PARAMETERS, __global ox_region* regions) {
+  const ox_scene scene = OX_SCENE;
+  ox_place_regions(&scene, regions);
+}
+
 // out: members of each region, in any order; the table of faces that are planes for it, and where
 // in it the faces are that features are of.
-__kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                          __global ox_region* regions, __global float* members,
-                          __global ox_face* faces) {
-  const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+static void ox_fill_regions(const ox_scene* scene, __global ox_feature* features,
+                            __global ox_region* regions, __global float* members,
+                            __global ox_face* faces) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = features + i;
     if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
     __global ox_region* region = regions + f->region;
@@ -274,11 +302,12 @@ __kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
     const bool begins = ox_is_vertex(f->flags) || (f->flags & OX_FEATURE_LEAVES) == 0u ||
                         partner == OX_NONE || ox_is_vertex(features[partner].flags);
     float3 end = vload3(0, partner == OX_NONE ? f->position : features[partner].position);
-    __global const ox_mesh* target = meshes + pairs[f->pair].mesh[1u - side];
+    __global const ox_mesh* target = scene->meshes + scene->pairs[f->pair].mesh[1u - side];
     // Inside a closed mesh; behind an open one it is not known how far.
     if (partner == OX_NONE && !ox_is_vertex(f->flags) && (target->flags & OX_MESH_CLOSED) != 0u)
-      end = ox_vertex_of(&scene, f->pair, side,
-                         edges[f->source].vertex[(f->flags & OX_FEATURE_LEAVES) != 0u ? 0 : 1]);
+      end = ox_vertex_of(
+          scene, f->pair, side,
+          scene->edges[f->source].vertex[(f->flags & OX_FEATURE_LEAVES) != 0u ? 0 : 1]);
     const ox_fields list = ox_members_of(region, members);
     const uint place = atomic_inc(&region->placed);
     ox_set_vector(&list, OX_MEMBER_POSITION, place, vload3(0, f->position));
@@ -288,11 +317,18 @@ __kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
     const bool crossed = !ox_is_vertex(f->flags);
     const uint owner = f->region << 1 | (crossed ? 1u : 0u);
     if (f->triangle != OX_NONE)
-      f->face = ox_add_face(&scene, region, owner, 1u - side, f->triangle, faces);
+      f->face = ox_add_face(scene, region, owner, 1u - side, f->triangle, faces);
     ox_words_of(&list, OX_MEMBER_FACE)[place] = f->face;
     for (uint k = 0u; k < 2u && crossed; ++k)
-      if (f->at[k] != OX_NONE) ox_add_face(&scene, region, owner, side, f->at[k], faces);
+      if (f->at[k] != OX_NONE) ox_add_face(scene, region, owner, side, f->at[k], faces);
   }
+}
+
+__kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
+                          __global ox_region* regions, __global float* members,
+                          __global ox_face* faces) {
+  const ox_scene scene = OX_SCENE;
+  ox_fill_regions(&scene, features, regions, members, faces);
 }
 
 // Puts a plane among those of a region, and says where; OX_NONE: it is none.
@@ -307,35 +343,40 @@ static uint ox_add_plane(__global ox_region* region, __global float* planes, con
 
 // in: faces; features. out: planes of each region, in any order; of each crossing those of its
 // edge, one for each facet at it. item: 1 place in the table of faces; 1 feature.
-__kernel void region_propose(OX_SCENE_PARAMETERS, __global const ox_feature* features,
-                             __global ox_region* regions, __global ox_face* faces,
-                             __global float* planes, __global uint* edge_planes) {
-  const ox_scene scene = OX_SCENE;
-  const uint count = ox_feature_count(&scene);
-  const uint stride = (uint)get_global_size(0);
-  for (uint i = (uint)get_global_id(0); i < OX_FACES_PER_FEATURE * count; i += stride) {
+static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* features,
+                              __global ox_region* regions, __global ox_face* faces,
+                              __global float* planes, __global uint* edge_planes) {
+  const uint count = ox_feature_count(scene);
+  for (uint i = scene->item; i < OX_FACES_PER_FEATURE * count; i += scene->item_count) {
     __global ox_face* face = faces + i;
     if (face->key == OX_NONE) continue;
     __global ox_region* region = regions + (face->owner >> 1);
-    const ox_plane plane = ox_plane_of_face(&scene, region->pair, face->key & 1u, face->triangle);
+    const ox_plane plane = ox_plane_of_face(scene, region->pair, face->key & 1u, face->triangle);
     face->plane =
         ox_add_plane(region, planes, &plane, (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }
-  for (uint i = (uint)get_global_id(0); i < count; i += stride) {
+  for (uint i = scene->item; i < count; i += scene->item_count) {
     __global const ox_feature* f = features + i;
     if ((f->flags & (OX_FEATURE_VERTEX | OX_FEATURE_FLAT)) != 0u) continue;
     for (uint k = 0u; k < 2u; ++k) {
-      const uint mate = ox_mate_of(&scene, features, i << 1 | k);
+      const uint mate = ox_mate_of(scene, features, i << 1 | k);
       if (mate == OX_NONE) {
         edge_planes[2u * i + k] = OX_NONE;
       } else if (ox_side_of(f->flags) == 0u) {  // of two mates that of A proposes
         const ox_plane plane =
-            ox_plane_of_edges(&scene, f->pair, ox_code_of_edge(&scene, f->pair, 0u, f->source),
-                              ox_code_of_edge(&scene, f->pair, 1u, features[mate >> 1].source));
+            ox_plane_of_edges(scene, f->pair, ox_code_of_edge(scene, f->pair, 0u, f->source),
+                              ox_code_of_edge(scene, f->pair, 1u, features[mate >> 1].source));
         edge_planes[2u * i + k] = edge_planes[mate] =
             ox_add_plane(regions + f->region, planes, &plane, 0u);
       }
     }
   }
+}
+
+__kernel void region_propose(OX_SCENE_PARAMETERS, __global const ox_feature* features,
+                             __global ox_region* regions, __global ox_face* faces,
+                             __global float* planes, __global uint* edge_planes) {
+  const ox_scene scene = OX_SCENE;
+  ox_propose_planes(&scene, features, regions, faces, planes, edge_planes);
 }
 #endif

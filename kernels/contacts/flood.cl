@@ -308,29 +308,36 @@ static bool ox_flood(ox_flood_state* s, uint head) {
   return ox_flood_components(s, count != 0u, &next);
 }
 
-__kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
-                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
-  const ox_scene scene = OX_SCENE;
-  for (uint i = ox_next_item(&scene, OX_QUEUE_FLOOD); i < 2u * pair_count;
-       i = ox_next_item(&scene, OX_QUEUE_FLOOD)) {
-    __global const ox_pair* pair = pairs + (i >> 1);
+static void ox_flood_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                           __global ox_chunk_task* tasks, __global ox_ray* rays,
+                           __global uint* words) {
+  const uint first = 2u * scene->pair_first;
+  for (uint i = first + ox_next_item(scene, OX_QUEUE_FLOOD); i < 2u * scene->pair_end;
+       i = first + ox_next_item(scene, OX_QUEUE_FLOOD)) {
+    __global const ox_pair* pair = scene->pairs + (i >> 1);
     if (pair->near == 0u) continue;
     ox_flood_state state;
-    state.scene = scene;
+    state.scene = *scene;
     state.pair = pair;
     state.pair_side = i;
-    state.source = meshes + pair->mesh[i & 1u];
-    state.target = meshes + pair->mesh[1u - (i & 1u)];
+    state.source = scene->meshes + pair->mesh[i & 1u];
+    state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
     state.crossings = crossings;
     state.words = words;
     state.asks = state.refuted = false;
     state.crossed = 0u;
-    state.leaks = !ox_is_flooded(&scene, state.source, state.target);
-    if (!state.leaks) ox_flood(&state, found[i >> 1].head[i & 1u]);
+    state.leaks = !ox_is_flooded(scene, state.source, state.target);
+    if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
     if (state.leaks)
       ox_look_at_all(&state, tasks);
     else
       ox_cast_queue(&state, rays);
   }
+}
+
+__kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
+                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
+  const ox_scene scene = OX_SCENE;
+  ox_flood_sides(&scene, crossings, tasks, rays, words);
 }
 #endif

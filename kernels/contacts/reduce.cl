@@ -136,20 +136,20 @@ static uint ox_next_candidate(const ox_fields* list, uint count, uint last, floa
   return OX_NONE;
 }
 
-__kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates, uint max_contacts,
-                                uint max_deformable, __global ox_range* pair_ranges,
-                                __global ox_contact* contacts) {
-  const ox_scene scene = OX_SCENE;
-  for (uint p = ox_next_item(&scene, OX_QUEUE_REDUCE); p < pair_count;
-       p = ox_next_item(&scene, OX_QUEUE_REDUCE)) {
-    const uint count = found[p].candidates;
+static void ox_reduce_candidates(const ox_scene* scene, __global float* candidates,
+                                 uint max_contacts, uint max_deformable,
+                                 __global ox_range* pair_ranges, __global ox_contact* contacts) {
+  const uint first = scene->pair_first;
+  for (uint p = first + ox_next_item(scene, OX_QUEUE_REDUCE); p < scene->pair_end;
+       p = first + ox_next_item(scene, OX_QUEUE_REDUCE)) {
+    const uint count = scene->found[p].candidates;
     if (count == 0u) continue;
-    __global const ox_mesh* a = meshes + pairs[p].mesh[0];
-    __global const ox_mesh* b = meshes + pairs[p].mesh[1];
-    const ox_fields mine = ox_candidates_of(&scene, p, candidates);
+    __global const ox_mesh* a = scene->meshes + scene->pairs[p].mesh[0];
+    __global const ox_mesh* b = scene->meshes + scene->pairs[p].mesh[1];
+    const ox_fields mine = ox_candidates_of(scene, p, candidates);
     const bool deformable = ((a->flags | b->flags) & OX_MESH_DEFORMABLE) != 0u;
     if (deformable && max_deformable == 0u) {
-      const uint room = ox_place_contacts(&scene, count, pair_ranges + p);
+      const uint room = ox_place_contacts(scene, count, pair_ranges + p);
       for (uint i = 0u; i < room; ++i)
         ox_store_contact(&mine, i, contacts + pair_ranges[p].first + i);
       continue;
@@ -163,9 +163,16 @@ __kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates,
       last = ox_next_candidate(&mine, count, last, merge * merge);
       if (last == OX_NONE) break;
     }
-    const uint room = ox_place_contacts(&scene, n, pair_ranges + p);
+    const uint room = ox_place_contacts(scene, n, pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
       ox_store_contact(&mine, taken[k], contacts + pair_ranges[p].first + k);
   }
+}
+
+__kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates, uint max_contacts,
+                                uint max_deformable, __global ox_range* pair_ranges,
+                                __global ox_contact* contacts) {
+  const ox_scene scene = OX_SCENE;
+  ox_reduce_candidates(&scene, candidates, max_contacts, max_deformable, pair_ranges, contacts);
 }
 #endif

@@ -17,9 +17,11 @@ typedef struct {
 typedef struct {
   __global volatile uint* counters;
   __global const ox_list* lists;
-  uint modes;  // OX_MODE_...
-  uint pair_count;
-  __global const ox_pair* pairs;
+  uint modes;                 // OX_MODE_...
+  uint pair_first, pair_end;  // of the pairs that are looked at
+  uint item, item_count;      // of the work-items that do
+  __global volatile uint* contact_count;
+  __global ox_pair* pairs;
   __global ox_found* found;  // of each pair
   __global const ox_mesh* meshes;
   __global const ox_chunk* chunks;
@@ -48,12 +50,13 @@ typedef struct {
   counters, lists, modes, pair_count, pairs, found, meshes, chunks, vertices, edges, ring_starts, \
       rings, components, facets, triangles, meshlets, meshlet_nodes
 
-#define OX_SCENE                                                                       \
-  {                                                                                    \
-    counters, lists, modes, pair_count, pairs, found, meshes, chunks, vertices, edges, \
-        ring_starts, rings, components, facets, {                                      \
-      triangles, meshlets, meshlet_nodes                                               \
-    }                                                                                  \
+#define OX_SCENE                                                                                \
+  {                                                                                             \
+    counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0),   \
+        counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks, vertices, \
+        edges, ring_starts, rings, components, facets, {                                        \
+      triangles, meshlets, meshlet_nodes                                                        \
+    }                                                                                           \
   }
 
 #endif

@@ -56,7 +56,16 @@ typedef float ox_f32;
 #define OX_COUNTER_FEATURES 20u  // room for them handed out to pairs
 #define OX_COUNTER_REGIONS 21u
 #define OX_QUEUE_REGIONS 22u
-#define OX_COUNTER_COUNT 23u
+#define OX_QUEUE_PAIRS 23u
+#define OX_COUNTER_LEFT 24u  // pairs that the whole step left to the kernels
+#define OX_COUNTER_COUNT 25u
+#define OX_COUNTER_WORDS (OX_COUNTER_COUNT * OX_COUNTER_STRIDE)
+
+// There are several of each: what the kernels count comes first, then what the work-items of
+// whole_step.cl have counted together, then the share of each of them. Lists too: those of the
+// kernels, then what one share has of each.
+#define OX_COUNTERS_TOTALS 1u
+#define OX_COUNTERS_SHARES 2u
 
 // Lists of one kind of record share a buffer: this one has `capacity` records from `first` on.
 typedef struct {

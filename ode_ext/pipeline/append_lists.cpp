@@ -15,7 +15,23 @@ static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SM
               static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
               kArrowCount == OX_LIST_COUNT);
 
-constexpr std::size_t kCounterBytes = OX_COUNTER_COUNT * OX_COUNTER_STRIDE * sizeof(ox_u32);
+constexpr std::size_t kCounterBytes = OX_COUNTER_WORDS * sizeof(ox_u32);
+// That are read: those of the lists, and those of all shares together.
+constexpr std::size_t kReadBytes = OX_COUNTERS_SHARES * kCounterBytes;
+
+// Records of each list that a share has room for. A thousand features and what becomes of them are
+// about what the cache of a core holds; a pair with more is work for many.
+constexpr ArrowCounts kShare = [] {
+  ArrowCounts counts{};
+  counts[OX_LIST_CHUNKS] = 256;
+  counts[OX_LIST_RAYS] = 1024;
+  counts[OX_LIST_MESHLETS] = 256;
+  counts[OX_LIST_MESHLET_PAIRS] = 4096;
+  counts[OX_LIST_HITS] = 1024;
+  counts[OX_LIST_CROSSINGS] = 1024;
+  counts[OX_LIST_FLOOD_WORDS] = 32768;
+  return counts;
+}();
 
 // Counters and indices have 32 bits. Tiles are cut so that vertices need no more; what else there
 // is too much of is seen, since counters stop at 2^31 (shared/append.h), and does not fit the
@@ -76,9 +92,14 @@ AppendLists::AppendLists(Device& device)
       faces_(device),
       planes_(device),
       edge_planes_(device) {
-  read_counters_.reserve(kCounterBytes);
-  counters_.reserve(kCounterBytes);
+  read_counters_.reserve(kReadBytes);
+  counters_.reserve(kReadBytes);
   lists_.reserve(sizeof(host_lists_));
+}
+
+void AppendLists::keep_shares(std::size_t count) {
+  shares_ = count;
+  counters_.reserve((OX_COUNTERS_SHARES + count) * kCounterBytes);
 }
 
 void AppendLists::reserve(const ArrowCounts& counts) {
@@ -149,7 +170,17 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
 }
 
 void AppendLists::resize(const ArrowCounts& capacities) {
-  const Ends ends = lay_out(capacities);
+  Ends ends = lay_out(capacities);
+  const auto at_least = [&](std::uint64_t& end, std::size_t list) {
+    end = std::max(end, shares_ * kShare[list]);
+  };
+  at_least(ends.tasks, OX_LIST_CHUNKS);
+  at_least(ends.rays, OX_LIST_RAYS);
+  at_least(ends.meshlets, OX_LIST_MESHLETS);
+  at_least(ends.meshlet_pairs, OX_LIST_MESHLET_PAIRS);
+  at_least(ends.hits, OX_LIST_HITS);
+  at_least(ends.crossings, OX_LIST_CROSSINGS);
+  at_least(ends.flood_words, OX_LIST_FLOOD_WORDS);
   try {
     tasks_.reserve(ends.tasks * sizeof(ox_chunk_task));
     rays_.reserve(ends.rays * sizeof(ox_ray));
@@ -205,7 +236,10 @@ void AppendLists::begin(const ArrowCounts& most) {
   ArrowCounts room{};
   for (std::size_t i = 0; i < kArrowCount; ++i) room[i] = std::min(capacities_[i], most[i]);
   lay_out(room);
-  counters_.fill_zero(kCounterBytes);
+  for (std::size_t i = 0; i < kArrowCount; ++i)
+    host_lists_[kArrowCount + i] = {0, static_cast<ox_u32>(kShare[i])};
+  host_lists_[kArrowCount + OX_LIST_CONTACTS] = host_lists_[OX_LIST_CONTACTS];  // of all in common
+  counters_.fill_zero(kReadBytes);
   if (written_lists_ && std::memcmp(&*written_lists_, &host_lists_, sizeof(Layout)) == 0) return;
   written_lists_.reset();
   lists_.write(host_lists_.data(), sizeof(Layout));
@@ -213,7 +247,7 @@ void AppendLists::begin(const ArrowCounts& most) {
 }
 
 void AppendLists::count() {
-  counters_.read(read_counters_.data(), kCounterBytes);
+  counters_.read(read_counters_.data(), kReadBytes);
   device_->finish();
 }
 

@@ -41,6 +41,10 @@ class AppendLists {
   }
   // Crossings and hits become features (kernels/contacts), in place of what else becomes of them.
   void keep_features() { keeps_features_ = true; }
+  // Beside the lists, `count` work-items have a share of their room each, for a pair at a time
+  // (kernels/whole_step.cl).
+  void keep_shares(std::size_t count);
+  std::size_t shares() const { return shares_; }
   bool overflowed(const ArrowCounts& counts) const;
   // Records of all lists of vertex chunks of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
@@ -52,11 +56,13 @@ class AppendLists {
   void forget() { written_lists_.reset(); }
   // Reads all counters. Waits, for what else is to be read too.
   void count();
-  // As of the last count(): what was appended, and how much of it is there.
+  // As of the last count(): what was appended, to the lists and in shares; to the lists alone; and
+  // how much of that is there.
   std::uint64_t counted(Arrow list) const { return counted(static_cast<std::size_t>(list)); }
   std::uint64_t counted(std::size_t counter) const {
-    return static_cast<const ox_u32*>(read_counters_.data())[counter * OX_COUNTER_STRIDE];
+    return appended(counter) + read_counter(OX_COUNTERS_TOTALS, counter);
   }
+  std::uint64_t appended(std::size_t counter) const { return read_counter(0, counter); }
   std::uint64_t length(Arrow list) const { return std::min(counted(list), capacity(list)); }
 
   const Buffer& counters() const { return counters_; }
@@ -85,6 +91,10 @@ class AppendLists {
   const Buffer& edge_planes() const { return edge_planes_; }
 
  private:
+  std::uint64_t read_counter(std::size_t of, std::size_t counter) const {
+    const std::size_t word = of * OX_COUNTER_WORDS + counter * OX_COUNTER_STRIDE;
+    return static_cast<const ox_u32*>(read_counters_.data())[word];
+  }
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
   struct Ends {
     std::uint64_t tasks, rays, meshlets, meshlet_pairs, hits, crossings, flood_words, contacts;
@@ -100,11 +110,12 @@ class AppendLists {
   ArrowCounts capacities_{};
   ArrowCounts most_used_{};  // in the steps noted so far
   int steps_noted_ = 0;
-  using Layout = std::array<ox_list, kArrowCount>;
+  using Layout = std::array<ox_list, 2 * kArrowCount>;  // of the lists, and of a share of them
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
   bool keeps_features_ = false;
+  std::size_t shares_ = 0;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_, features_,
       feature_parents_, feature_slots_, regions_, members_, faces_, planes_, edge_planes_;

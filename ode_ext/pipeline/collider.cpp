@@ -69,20 +69,27 @@ void Collider::run(Step& step) {
   read_ranges_.reserve(pairs * sizeof(ox_range));
   read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
 
-  if (workload.is_few())
-    steps_.run_whole(data_);
-  else
-    launch_steps(step);
+  const bool is_whole = workload.is_whole_step();
+  const bool launches = !is_whole || workload.expects_left();
+  if (is_whole) steps_.run_whole(workload.launch_shares(), data_);
+  if (launches) launch_steps(step);
+  read_answer(step);
+  if (launches || data_.lists.counted(OX_COUNTER_LEFT) == 0) return;
+  launch_steps(step);
+  read_answer(step);
+}
 
+void Collider::read_answer(const Step& step) {
+  const std::size_t pairs = step.workload.tile().count;
   data_.pairs.ranges.read(read_ranges_.data(), pairs * sizeof(ox_range));
-  read_contacts(workload.predicted(Arrow::kContacts));
+  read_contacts(step.workload.predicted(Arrow::kContacts));
   data_.lists.count();
 }
 
 void Collider::launch_steps(Step& step) {
   Workload& workload = step.workload;
   const std::size_t pairs = workload.tile().count;
-  steps_.relate(workload.launch(pairs), data_);
+  if (!workload.is_whole_step() || !planes_) steps_.relate(workload.launch(pairs), data_);
   if (options_.edges) {
     steps_.cull(workload.launch(pairs), data_);
     workload.settle_launches();
@@ -141,6 +148,7 @@ void Collider::deliver(Step& step) {
   report_.pairs_bounded += lists.counted(OX_COUNTER_BOUNDED);
   report_.unproven += lists.counted(OX_COUNTER_UNPROVEN);
   report_.dropped += lists.counted(OX_COUNTER_DROPPED);
+  report_.left += lists.counted(OX_COUNTER_LEFT);
   if (report_.backtracked) {
     result_.ranges.clear();
     result_.contacts.clear();
@@ -190,7 +198,7 @@ void Collider::finish(Step& step) {
   report_.ms = take_milliseconds();
   data_.lists.note_use(report_.actual, step.memory != nullptr);
   if (step.memory == nullptr) return;
-  step.memory->history = {report_.pairs, report_.actual};
+  step.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
   // A little more each time: what did not fit once may have been short of memory for a moment.
   if (step.memory->tile_pairs != 0) step.memory->tile_pairs += step.memory->tile_pairs / 16 + 1;
 }

@@ -38,6 +38,7 @@ class Collider {
   void run(Step& step);
   void launch_steps(Step& step);
   void launch_vertices(Step& step);
+  void read_answer(const Step& step);
   void read_contacts(std::uint64_t count);
   void read_unpredicted(const Step& step);
   void deliver(Step& step);

@@ -46,6 +46,8 @@ Collider::Collider(const ColliderOptions& options)
   if (has_planes(options_)) {
     planes_.emplace(program_);
     data_.lists.keep_features();
+    if (may_run_whole(options_, device_.info()))
+      data_.lists.keep_shares(device_.info().compute_units);
   }
   if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
       options_.vector_width != 8 && options_.vector_width != 16)
@@ -94,7 +96,7 @@ void Collider::warm_up() {
     steps_.add_edge_contacts(wide, wide, data_);
     steps_.reduce(wide, data_);
   }
-  if (step.workload.is_few()) steps_.run_whole(data_);
+  if (step.workload.is_whole_step()) steps_.run_whole({1, 1}, data_);
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

@@ -32,6 +32,8 @@ enum class PredictionRule { kPairScaled, kPlain };
 struct History {
   std::uint64_t pairs = 0;
   ArrowCounts counts{};
+  ArrowCounts appended{};  // of those, not in shares of the lists (kernels/whole_step.cl)
+  std::uint64_t left = 0;  // pairs that did not fit into one
 };
 
 // Eq. 1 (pair-scaled) or Eq. 2 (plain) for a pass of `pairs` pairs, rounded up; at least 1. Where

@@ -19,6 +19,8 @@ struct StepReport {
   std::uint64_t pairs = 0;
   std::uint64_t pairs_bounded = 0;                // whose bounding volumes overlap
   ArrowCounts predicted{}, actual{}, capacity{};  // [records], all tiles together
+  ArrowCounts appended{};                         // of those, not in shares (kernels/whole_step.cl)
+  std::uint64_t left = 0;                         // pairs that did not fit into a share
   int redone = 0;
   int synchronizations = 0;
   bool backtracked = false;    // nothing was delivered

@@ -69,7 +69,7 @@ void Steps::reduce(Launch per_pair, const StepData& data) {
               data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
 }
 
-void Steps::run_whole(const StepData& data) {
+void Steps::run_whole(Launch shares, const StepData& data) {
   const auto& [meshes, pairs, lists, settings] = data;
   if (assembly_)
     data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
@@ -78,7 +78,7 @@ void Steps::run_whole(const StepData& data) {
                 lists.crossing_order(), settings.max_contacts, settings.max_contacts_deformable,
                 lists.contacts());
   else
-    data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
+    data.launch(*whole_, shares, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
                 lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
                 lists.flood_words(), lists.hits(), lists.candidates(), settings.max_contacts,
                 settings.max_contacts_deformable, lists.contacts(), lists.features(),

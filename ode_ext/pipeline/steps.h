@@ -33,7 +33,7 @@ class Steps {
   void reduce(Launch per_pair, const StepData& data);
 
   // All of them in one launch: whole_step.cl. Only if has_whole.
-  void run_whole(const StepData& data);
+  void run_whole(Launch shares, const StepData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms);

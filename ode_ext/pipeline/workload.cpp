@@ -50,10 +50,17 @@ Workload::Workload(const ColliderOptions& options, const Device& device, AppendL
                               options.confidence);
   // Without a history nothing was predicted that could be wrong.
   misprediction_ = has_history ? options.misprediction : Misprediction::kRedo;
+  // Of what whole steps do the lists have the contacts alone.
+  ArrowCounts expected = report_.predicted;
+  if (has_shares()) {
+    const History left = {pairs, has_history ? memory->history.appended : ArrowCounts{}};
+    expected = predict(left, pairs, PredictionRule::kPlain, options.confidence);
+    at(expected, Arrow::kContacts) = report_.predicted[static_cast<std::size_t>(Arrow::kContacts)];
+  }
   const std::size_t tile_pairs =
       memory != nullptr && memory->tile_pairs != 0 ? memory->tile_pairs : pairs;
   for (const Tile tile : cut_into_tiles(scene, options.tile_vertices, tile_pairs))
-    tiles_.push_back({tile, share(report_.predicted, tile.count, pairs)});
+    tiles_.push_back({tile, share(expected, tile.count, pairs)});
   std::reverse(tiles_.begin(), tiles_.end());
 }
 
@@ -118,6 +125,7 @@ void Workload::report_tile() {
   const ArrowCounts counts = stored();
   for (std::size_t i = 0; i < kArrowCount; ++i) {
     report_.actual[i] += lists_.counted(i);
+    report_.appended[i] += lists_.appended(i);
     if (may_lose() && counts[i] > lists_.capacities()[i])
       report_.missed += counts[i] - lists_.capacities()[i];
   }
@@ -175,6 +183,14 @@ Launch Workload::launch(Arrow list) const {
   return launch(items);
 }
 
+bool Workload::is_whole_step() const { return has_shares() || is_few(); }
+
+bool Workload::expects_left() const { return memory_ != nullptr && memory_->history.left != 0; }
+
+Launch Workload::launch_shares() const {
+  return {std::min<std::size_t>(std::max<std::size_t>(lists_.shares(), 1), tile_.tile.count), 1};
+}
+
 bool Workload::is_few() const {
   return may_run_whole(options_, device_) && is_small(scene_, tile_.tile, options_.few_pairs);
 }
@@ -188,7 +204,7 @@ void Workload::settle_launches() {
 // (kernels/match.cl).
 ArrowCounts Workload::stored() const {
   ArrowCounts counts;
-  for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = lists_.counted(i);
+  for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = lists_.appended(i);
   if (options_.organisation == Organisation::kMonolithic)
     std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kMeshlets), 0u);
   std::uint64_t& pairs = at(counts, Arrow::kMeshletPairs);

@@ -52,6 +52,11 @@ class Workload {
   // Whether the tile is so small that one work-item does all of it sooner than its kernels are
   // launched (kernels/whole_step.cl).
   bool is_few() const;
+  bool is_whole_step() const;
+  // Of that: a work-item for each share of the lists.
+  Launch launch_shares() const;
+  // Whether some pairs will not fit into a share, as in the last step.
+  bool expects_left() const;
   // Where launches go by what there is: waits until it is known of all lists.
   void settle_launches();
 
@@ -67,6 +72,7 @@ class Workload {
   // Records may be lost, as the paper has it.
   bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
   ArrowCounts stored() const;
+  bool has_shares() const { return lists_.shares() != 0; }
   void reserve(const ArrowCounts& counts);
   bool remembers() const { return memory_ != nullptr && memory_->temporal != nullptr; }
 
