@@ -75,17 +75,10 @@ __kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
-#ifdef OX_PLANES
     found[p].features = 0u;
     found[p].first = 0u;
     found[p].placed = 0u;
     found[p].candidates = 0u;
-#else
-    found[p].hits = 0u;
-    found[p].crossings = 0u;
-    found[p].first_candidate = 0u;
-    found[p].first_crossing = 0u;
-#endif
     found[p].head[0] = OX_NONE;
     found[p].head[1] = OX_NONE;
     pair_ranges[p].first = 0u;
@@ -108,15 +101,8 @@ __kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
     const float distance = fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]);
     const float epsilon = 0x1p-20f * (distance + mesh_a->extent + mesh_b->extent);
     pair->epsilon = epsilon;
-#ifdef OX_PLANES
     pair->margin = OX_MARGIN * epsilon;
     const float apart = pair->margin;
-#else
-    // What crosses where is decided within epsilon of either end of an edge, by coordinates that
-    // carry as much rounding.
-    pair->margin = 2.0f * epsilon;
-    const float apart = epsilon;
-#endif
     pair->snap = ox_snap_of(distance + mesh_a->extent + mesh_b->extent + pair->margin);
     // Inside a closed target is inside its box, and the rays of a closed source end within it; but
     // those of an open one that meet another may leave its box.

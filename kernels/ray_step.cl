@@ -2,7 +2,7 @@
 // Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target?
 //
 // in    rays, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
-// out   hits, and per pair their number
+// out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
 #include "shared/closest.h"
@@ -19,14 +19,11 @@ __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __globa
     __global const ox_pair* pair = pairs + (ray.pair_side >> 1);
     __global const ox_mesh* target = meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, meshes, vertices + ray.vertex);
-#ifdef OX_PLANES
     vertex_ray.known = ray.memory != OX_RAY_ASKING;
-#endif
     uint work = 0u;
     uint remember;
     ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene.surfaces, OX_NONE, 0.0f,
                                          &remember, &work);
-#ifdef OX_PLANES
     if (ray.memory == OX_RAY_CONTAINED) {
       // Its ray leaves by a face on one side of it, and the closest may be on the other.
       const uint closest = ox_closest_triangle(
@@ -37,7 +34,6 @@ __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __globa
         outcome.kind = OX_HIT_INSIDE;
       }
     }
-#endif
-    ox_append_hit(&scene, &ray, &outcome, hits);
+    ox_append_hit(&scene, &ray, vertex_ray.known, ray.triangle, &outcome, hits);
   }
 }

@@ -8,7 +8,6 @@
 // room  parents; slots, faces: tables (contacts/feature_table.h, contacts/face_table.h)
 // item  1 feature (grid-stride); of feature_place 1 pair
 // may overflow: none; all go by the number of crossings and hits
-#ifdef OX_PLANES
 #include "contacts/face_table.h"
 #include "contacts/feature_table.h"
 #include "contacts/mate.h"
@@ -338,4 +337,3 @@ __kernel void region_propose(OX_SCENE_PARAMETERS, __global const ox_feature* fea
     }
   }
 }
-#endif

@@ -16,7 +16,6 @@
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
-#ifdef OX_PLANES
 #include "shared/closest.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -333,4 +332,3 @@ __kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
       ox_cast_queue(&state, rays);
   }
 }
-#endif

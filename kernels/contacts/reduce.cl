@@ -7,7 +7,6 @@
 // out   contacts, pair_ranges
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS
-#ifdef OX_PLANES
 #include "contacts/candidate_list.h"
 #include "shared/lanes.h"
 
@@ -168,4 +167,3 @@ __kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates,
       ox_store_contact(&mine, taken[k], contacts + pair_ranges[p].first + k);
   }
 }
-#endif

@@ -39,8 +39,6 @@ class AppendLists {
   std::uint64_t first(Arrow list) const {
     return host_lists_[static_cast<std::size_t>(list)].first;
   }
-  // Crossings and hits become features (kernels/contacts), in place of what else becomes of them.
-  void keep_features() { keeps_features_ = true; }
   bool overflowed(const ArrowCounts& counts) const;
   // Records of all lists of vertex chunks of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
@@ -67,11 +65,7 @@ class AppendLists {
   const Buffer& meshlets() const { return meshlets_; }
   const Buffer& meshlet_pairs() const { return meshlet_pairs_; }
   const Buffer& hits() const { return hits_; }
-  // One per hit, OX_POINTS_PER_CROSSING per crossing.
-  const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
-  const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
-  const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& flood_words() const { return flood_words_; }
   const Buffer& contacts() const { return contacts_; }
   // For each crossing and hit, as kernels/contacts/types.h says.
@@ -83,6 +77,7 @@ class AppendLists {
   const Buffer& faces() const { return faces_; }
   const Buffer& planes() const { return planes_; }
   const Buffer& edge_planes() const { return edge_planes_; }
+  const Buffer& candidates() const { return candidates_; }
 
  private:
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
@@ -92,9 +87,6 @@ class AppendLists {
   Ends lay_out(const ArrowCounts& room);
   void resize(const ArrowCounts& capacities);
   void reserve_features(std::uint64_t count);
-  // What a record of a list takes in all buffers together [bytes].
-  std::uint64_t record_bytes(std::size_t list) const;
-  std::uint64_t bytes_of(const ArrowCounts& counts) const;
 
   Device* device_;
   ArrowCounts capacities_{};
@@ -104,10 +96,9 @@ class AppendLists {
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
-  bool keeps_features_ = false;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
-      crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_, features_,
-      feature_parents_, feature_slots_, regions_, members_, faces_, planes_, edge_planes_;
+      crossings_, flood_words_, contacts_, features_, feature_parents_, feature_slots_, regions_,
+      members_, faces_, planes_, edge_planes_;
 };
 
 }  // namespace ode_ext
