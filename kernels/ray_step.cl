@@ -8,6 +8,10 @@
 #include "shared/closest.h"
 #include "shared/vertex_ray.h"
 
+static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float margin) {
+  return ox_dot(vload3(0, triangle->normal), p - vload3(0, triangle->a)) <= margin;
+}
+
 __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __global ox_hit* hits) {
   const ox_scene scene = OX_SCENE;
   const uint first = lists[OX_LIST_RAYS].first;
@@ -25,11 +29,12 @@ __kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __globa
     ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene.surfaces, OX_NONE, 0.0f,
                                          &remember, &work);
     if (ray.memory == OX_RAY_CONTAINED) {
-      // Its ray leaves by a face on one side of it, and the closest may be on the other.
-      const uint closest = ox_closest_triangle(
-          &scene.surfaces, target, ox_place(pair, side, vload3(0, vertices[ray.vertex].position)),
-          outcome.triangle == OX_NONE ? INFINITY : outcome.t);
-      if (closest != OX_NONE) {
+      // Its ray leaves by a face on one side of it, and the closest may be on the other. In a solid
+      // that cuts itself that may be a wall in front of which it is: not by that does it come out.
+      const float3 p = ox_place(pair, side, vload3(0, vertices[ray.vertex].position));
+      const uint closest = ox_closest_triangle(&scene.surfaces, target, p,
+                                               outcome.triangle == OX_NONE ? INFINITY : outcome.t);
+      if (closest != OX_NONE && ox_is_behind(triangles + closest, p, pair->margin)) {
         outcome.triangle = closest;
         outcome.kind = OX_HIT_INSIDE;
       }
