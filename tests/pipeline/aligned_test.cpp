@@ -118,7 +118,7 @@ TEST(Aligned, EqualBoxesAreInContactAtEveryOverlap) {
         ASSERT_GT(records.contacts.size(), 0u) << overlap << ", " << n;
         EXPECT_NEAR(records.contacts[0].depth, overlap, tolerance_of(records))
             << overlap << ", " << n << ", frame " << i;
-        if (overlap == 1) continue;  // any way out is as short
+        if (overlap == 1) continue;  // any plane is as near
         for (const ox_contact& contact : records.contacts)
           EXPECT_NEAR(std::fabs(contact.normal[i % 3]), 1, 1e-5) << overlap << ", " << n;
       }

@@ -138,7 +138,7 @@ TEST(Manifolds, OfACubeOnACubeAreAllFourCorners) {
   }
 }
 
-TEST(Manifolds, LeadACubeInsideACubeOutThroughItsNearestSide) {
+TEST(Manifolds, MoveACubeInsideACubeOutThroughItsNearestSide) {
   for (const int n : {1, 4}) {
     const Placed cubes{make_cube(0.3, n), make_cube(2), at(0.5, 0.1, -0.05), at(0, 0, 0)};
     for (const TestPose& frame : frames()) {
@@ -151,7 +151,7 @@ TEST(Manifolds, LeadACubeInsideACubeOutThroughItsNearestSide) {
 }
 
 // Its near side, which is 0.4 m deep, would add nothing to the far one behind it.
-TEST(Manifolds, LeadABodyOutByItsDeepestSide) {
+TEST(Manifolds, MoveABodyOutByItsDeepestSide) {
   const Placed cubes{make_cube(0.6), make_cube(2), at(0.3, 0.1, -0.05), at(0, 0, 0)};
   for (const TestPose& frame : frames()) {
     const auto found = cubes.contacts(frame);
@@ -184,7 +184,7 @@ TEST(Manifolds, AreThereAtBothPlacesWhereABeamLies) {
   }
 }
 
-TEST(Manifolds, LeadAPlateThatStandsDeepInABlockBackUp) {
+TEST(Manifolds, MoveAPlateUprightDeepInABlockBackUp) {
   const Placed plate{make_box({1, 0.1, 1}), make_cube(2), at(0.05, 0.03, 1.2), at(0, 0, 0)};
   for (const TestPose& frame : frames()) {
     const auto found = plate.contacts(frame);
@@ -197,13 +197,13 @@ TEST(Manifolds, LeadAPlateThatStandsDeepInABlockBackUp) {
 
 // A level plate, 5 mm thick, 10 mm below the top of a block, whose end reaches askew across the rim
 // from a corner just inside one side to beyond the next side. The corner, and where it is finely
-// cut its neighbours, leave by the side; the rest of the end is led out by none but the top.
+// cut its neighbours, leave by the side; the rest of the end is moved out by none but the top.
 Placed plate_in_rim(const Point& middle, double angle, int cells) {
   return {make_box({0.3, 0.15, 0.005}, 2 * cells, cells), make_cube(0.2, cells),
           turned({0, 0, 1}, angle, middle), at(0, 0, 0)};
 }
 
-void expect_led_up(const Placed& plate) {
+void expect_moved_up(const Placed& plate) {
   for (const TestPose& frame : frames()) {
     const auto found = plate.contacts(frame);
     ASSERT_FALSE(found.empty());
@@ -212,12 +212,12 @@ void expect_led_up(const Placed& plate) {
   }
 }
 
-TEST(Manifolds, LeadALongEdgeOutThatRunsDeepFromAVertexThatIsNot) {
-  expect_led_up(plate_in_rim({0.2265, 0.08538, 0.0925}, 0.219, 1));
+TEST(Manifolds, MoveALongEdgeOutThatRunsDeepFromAVertexThatIsNot) {
+  expect_moved_up(plate_in_rim({0.2265, 0.08538, 0.0925}, 0.219, 1));
 }
 
-TEST(Manifolds, LeadVerticesOutThatAreDeepWhereNoEdgeCrosses) {
-  expect_led_up(plate_in_rim({0.23309, -0.00541, 0.0925}, -0.2368, 5));
+TEST(Manifolds, MoveVerticesOutThatAreDeepWhereNoEdgeCrosses) {
+  expect_moved_up(plate_in_rim({0.23309, -0.00541, 0.0925}, -0.2368, 5));
 }
 
 TEST(Manifolds, OfCubesThatCoincideDoNotOpposeOneAnother) {
@@ -246,8 +246,8 @@ void expect_none_opposed(const Placed& bodies, const std::vector<TestPose>& fram
   }
 }
 
-// Not turned: where rounding decides which vertices are inside, regions are led out one by one.
-TEST(Manifolds, ThatAreAsFarApartAsTheWayOutIsLongDoNotOpposeOneAnother) {
+// Not turned: where rounding decides which vertices are inside, regions are moved out one by one.
+TEST(Manifolds, ThatAreAsFarApartAsTheyAreDeepDoNotOpposeOneAnother) {
   const TestMesh cylinder = make_cylinder(0.4, 1, 16);
   expect_none_opposed({cylinder, cylinder, at(0, 0, 0), at(0, 0, 0)}, {at(0, 0, 0), at(3, -4, 5)});
 }

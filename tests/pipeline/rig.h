@@ -211,10 +211,12 @@ class Rig {
       meshlet_count_ += topology(*mesh).meshlets.meshlets.size();
     }
     std::uint64_t vertices = 1, edges = 1;
+    bool deforms = false;  // then all candidates are contacts
     for (const auto& pair : scene.pairs) {
       for (const std::uint32_t object : pair) {
         const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
         vertices += mesh.vertices.size();
+        deforms = deforms || mesh.deformable;
         if (!with_edges) continue;
         edges += topology(mesh).edges.size() + topology(mesh).flat_edges.size();
       }
@@ -227,7 +229,7 @@ class Rig {
     // An edge may cross every triangle; that all of them do takes more memory than there is, so
     // the room for what the search finds follows what it did.
     lists.reserve({tasks, tasks, tasks, vertices, vertices, vertices, edges, edges, vertices, edges,
-                   1, std::uint64_t{count} * max_contacts + 1});
+                   1, std::uint64_t{count} * max_contacts + (deforms ? edges + vertices : 1)});
     lists.begin(lists.capacities());
     lists.tasks().reserve(tasks * sizeof(ox_chunk_task));
     temporal_.begin_without(count);
