@@ -14,13 +14,11 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                shared/general_position shared/cull shared/lanes shared/ray_triangle
                shared/ray_meshlet shared/meshlet_tree shared/nearest shared/closest shared/full_ray
                shared/vertex_ray paper/types paper/iterative_ray paper/choose paper/cast
-               paper/note_work contacts/types contacts/fields contacts/candidate_list shared/contradiction shared/candidate_order
-               shared/patches shared/meshlet shared/exact_sign shared/intersect shared/cross contacts/cross
-               shared/edge_pair shared/crossing_order shared/crossing_table shared/regions
-               shared/pair_hits contacts/feature contacts/feature_table contacts/mate contacts/face_table
-               contacts/plane contacts/region_fields contacts/region contacts/ways contacts/whole_region contacts/units
-               contacts/candidates shared/spokesmen shared/edge_axis shared/way_out
-               shared/deform shared/moves)
+               paper/note_work shared/meshlet shared/exact_sign shared/intersect contacts/types
+               contacts/fields contacts/candidate_list contacts/cross contacts/feature
+               contacts/feature_table contacts/mate contacts/face_table contacts/plane
+               contacts/region_fields contacts/region contacts/ways contacts/whole_region
+               contacts/units contacts/candidates shared/deform shared/moves)
   set(header ${header}.h)
   if(header IN_LIST headers)
     list(APPEND ODE_EXT_KERNEL_FILES ${header})

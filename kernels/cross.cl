@@ -3,12 +3,10 @@
 // position two surfaces intersect exactly where an edge of one crosses a face of the other.
 //
 // in    meshlet_pairs, pairs, meshes, meshlets
-// out   crossings, and per pair the number of those of contacts; found: those of each side
-//       that is flooded, one after the other
+// out   crossings; found: those of each side that is flooded, one after the other
 // item  1 pair of meshlets (grid-stride); an edge against sixteen triangles at a time
 // may overflow: OX_LIST_CROSSINGS
 #include "contacts/cross.h"
-#include "shared/cross.h"
 
 static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair* meshlet_pairs,
                            __global ox_edge_crossing* crossings) {

@@ -8,7 +8,6 @@
 // item  1 meshlet of the list (grid-stride)
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
 #include "contacts/cross.h"
-#include "shared/cross.h"
 
 typedef struct {
   uint count;

@@ -71,17 +71,10 @@ static void ox_relate(__global const ox_object* a, __global const ox_object* b,
 }
 
 static void ox_begin_found(__global ox_found* found) {
-#ifdef OX_PLANES
   found->features = 0u;
   found->first = 0u;
   found->placed = 0u;
   found->candidates = 0u;
-#else
-  found->hits = 0u;
-  found->crossings = 0u;
-  found->first_candidate = 0u;
-  found->first_crossing = 0u;
-#endif
   found->head[0] = OX_NONE;
   found->head[1] = OX_NONE;
 }
@@ -110,15 +103,8 @@ static void ox_relate_pairs(const ox_scene* scene, __global const ox_object* obj
     const float distance = fabs(offset[0]) + fabs(offset[1]) + fabs(offset[2]);
     const float epsilon = 0x1p-20f * (distance + mesh_a->extent + mesh_b->extent);
     pair->epsilon = epsilon;
-#ifdef OX_PLANES
     pair->margin = OX_MARGIN * epsilon;
     const float apart = pair->margin;
-#else
-    // What crosses where is decided within epsilon of either end of an edge, by coordinates that
-    // carry as much rounding.
-    pair->margin = 2.0f * epsilon;
-    const float apart = epsilon;
-#endif
     pair->snap = ox_snap_of(distance + mesh_a->extent + mesh_b->extent + pair->margin);
     // Inside a closed target is inside its box, and the rays of a closed source end within it; but
     // those of an open one that meet another may leave its box.

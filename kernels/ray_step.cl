@@ -2,11 +2,15 @@
 // Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target?
 //
 // in    rays, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
-// out   hits, and per pair their number
+// out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
 #include "shared/closest.h"
 #include "shared/vertex_ray.h"
+
+static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float margin) {
+  return ox_dot(vload3(0, triangle->normal), p - vload3(0, triangle->a)) <= margin;
+}
 
 static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
                          __global ox_hit* hits) {
@@ -18,27 +22,24 @@ static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
     __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);
-#ifdef OX_PLANES
     vertex_ray.known = ray.memory != OX_RAY_ASKING;
-#endif
     uint work = 0u;
     uint remember;
     ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene->surfaces, OX_NONE,
                                          0.0f, &remember, &work);
-#ifdef OX_PLANES
     if (ray.memory == OX_RAY_CONTAINED) {
-      // Its ray leaves by a face on one side of it, and the closest may be on the other.
-      const uint closest =
-          ox_closest_triangle(&scene->surfaces, target,
-                              ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position)),
-                              outcome.triangle == OX_NONE ? INFINITY : outcome.t);
-      if (closest != OX_NONE) {
+      // Its ray leaves by a face on one side of it, and the closest may be on the other. In a solid
+      // that cuts itself that may be a wall in front of which it is: not by that does it come out.
+      const float3 p = ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position));
+      const uint closest = ox_closest_triangle(&scene->surfaces, target, p,
+                                               outcome.triangle == OX_NONE ? INFINITY : outcome.t);
+      if (closest != OX_NONE &&
+          ox_is_behind(scene->surfaces.triangles + closest, p, pair->margin)) {
         outcome.triangle = closest;
         outcome.kind = OX_HIT_INSIDE;
       }
     }
-#endif
-    ox_append_hit(scene, &ray, &outcome, hits);
+    ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, &outcome, hits);
   }
 }
 

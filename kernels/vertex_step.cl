@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertex step (GRAPP section 3.2): can this vertex be in contact with the target? Then it gets a
-// ray. Of those sides of pairs alone of which crossings cannot tell (shared/flooded.h, flood.cl).
+// ray. Of those sides of pairs alone of which crossings cannot tell (shared/flooded.h,
+// contacts/flood.cl).
 //
 // in    tasks, pairs, meshes, chunks, vertices
 // out   rays

@@ -9,26 +9,22 @@
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS; all others without loss
 //
-// Kernels that call kernels are OpenCL C, and yet not every compiler's for GPUs: it is left out
-// where it never runs (OX_WHOLE_STEP, pipeline/collider_start.cpp).
+// It is left out where it never runs: on a GPU there is more to gain from many work-items than
+// from a cache (OX_WHOLE_STEP, pipeline/collider_start.cpp).
 #ifdef OX_WHOLE_STEP
 #ifndef OX_WHOLE_PROGRAM
-#include "contact_step.cl"
 #include "contacts/choose.cl"
 #include "contacts/features.cl"
 #include "contacts/flood.cl"
 #include "contacts/reduce.cl"
 #include "cross.cl"
 #include "cull.cl"
-#include "edge_contact.cl"
-#include "flood.cl"
 #include "match.cl"
 #include "pair_step.cl"
 #include "ray_step.cl"
 #include "vertex_step.cl"
 #endif
 
-#ifdef OX_PLANES
 // The part of the lists that is one work-item's: what of each pair it appends, and what becomes of
 // that. The next pair takes the place of the last, so it is all in the cache of a core.
 typedef struct {
@@ -155,30 +151,5 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
     ox_add_counters(&scene, totals);
   }
 }
-#else
-__kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
-                         __global const uint* pair_objects, __global ox_range* pair_ranges,
-                         __global ox_meshlet_task* meshlet_tasks,
-                         __global ox_meshlet_pair* meshlet_pairs,
-                         __global ox_edge_crossing* crossings, __global ox_chunk_task* tasks,
-                         __global ox_ray* rays, __global uint* words, __global ox_hit* hits,
-                         __global ox_candidate* candidates, __global ox_pair_crossing* gathered,
-                         __global uint* order, uint max_contacts, uint max_deformable,
-                         __global ox_contact* contacts) {
-  pair_step(OX_SCENE_ARGUMENTS, objects, pair_objects, pair_ranges);
-  cull(OX_SCENE_ARGUMENTS, meshlet_tasks);
-  match(OX_SCENE_ARGUMENTS, meshlet_tasks, meshlet_pairs, crossings);
-  cross_meshlets(OX_SCENE_ARGUMENTS, meshlet_pairs, crossings);
-  flood(OX_SCENE_ARGUMENTS, crossings, tasks, rays, words);
-  vertex_step(OX_SCENE_ARGUMENTS, tasks, rays);
-  ray_step(OX_SCENE_ARGUMENTS, rays, hits);
-  contact_place(OX_SCENE_ARGUMENTS);
-  contact_gather(OX_SCENE_ARGUMENTS, hits, candidates);
-  crossing_gather(OX_SCENE_ARGUMENTS, crossings, gathered, order);
-  edge_contacts(OX_SCENE_ARGUMENTS, gathered, order, candidates);
-  contact_reduce(OX_SCENE_ARGUMENTS, candidates, max_contacts, max_deformable, pair_ranges,
-                 contacts);
-}
-#endif
 
 #endif

@@ -16,9 +16,9 @@ namespace falling_objects {
 namespace {
 
 constexpr std::array<const char*, dBatchStageCount> kStageNames{
-    "gather",         "meshes",   "deform_step", "pair_step",     "vertex_step",
-    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic",    "cull",
-    "match",          "cross",    "flood",       "edge_contacts", "contact_step",
+    "gather",         "meshes",   "deform_step", "pair_step",  "vertex_step",
+    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic", "cull",
+    "match",          "cross",    "flood",       "assembly",   "contact_step",
     "whole_step",     "device",   "export",      "pass"};
 
 // `value` of those steps for which it is not negative.

@@ -11,9 +11,9 @@ namespace paper {
 namespace {
 
 constexpr std::array<const char*, dBatchStageCount> kStages{
-    "gather",         "meshes",   "deform_step", "pair_step",     "vertex_step",
-    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic",    "cull",
-    "match",          "cross",    "flood",       "edge_contacts", "contact_step",
+    "gather",         "meshes",   "deform_step", "pair_step",  "vertex_step",
+    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic", "cull",
+    "match",          "cross",    "flood",       "assembly",   "contact_step",
     "whole_step",     "device",   "export",      "pass"};
 
 constexpr std::array<const char*, dBatchBufferCount> kBuffers{

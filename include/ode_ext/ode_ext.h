@@ -299,7 +299,7 @@ enum {
   dBatchStageMatch = 10,     /**< which of those can meet one another, */
   dBatchStageCross = 11,     /**< where edges cross triangles */
   dBatchStageFlood = 12,     /**< which vertices are inside, by where edges cross */
-  dBatchStageEdgeContacts = 13, /**< what crossings say that vertices do not */
+  dBatchStageAssembly = 13,  /**< of crossings and vertices inside: regions, planes, candidates */
   dBatchStageContactStep = 14,
   dBatchStageWholeStep = 15, /**< all of the above from the pair step on in one launch: few pairs */
   dBatchStageDevice = 16,    /**< first upload to last read-back, host clock */

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The candidates of a pair, of which some become contacts: types.h says how they lie. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
 #define ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
 
@@ -35,5 +34,4 @@ static inline uint ox_place_contacts(const ox_scene* scene, uint count, __global
   return range->count;
 }
 
-#endif
 #endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Candidates for contacts: where a plane parts a region, and how deep. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
 #define ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
 
@@ -152,5 +151,4 @@ static inline void ox_add_cleared(const ox_manifold* m, const ox_plane_choice* c
   }
 }
 
-#endif
 #endif

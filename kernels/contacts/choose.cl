@@ -9,7 +9,6 @@
 // out   candidates for contacts of each pair, and their number
 // item  1 region (of a queue)
 // may overflow: none; a feature makes one candidate at most
-#ifdef OX_PLANES
 #include "contacts/candidates.h"
 
 // The units that are to be cleared are the first of the members, ever fewer.
@@ -149,4 +148,3 @@ __kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* feat
   const ox_scene scene = OX_SCENE;
   ox_choose_planes(&scene, features, regions, members, faces, planes, edge_planes, candidates);
 }
-#endif

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edges of one meshlet against the triangles of another, of meshes in general position. Device
 // only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_CROSS_H
 #define ODE_EXT_KERNELS_CONTACTS_CROSS_H
 
@@ -190,5 +189,4 @@ static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_cro
   ox_store_crossings(&fresh);
 }
 
-#endif
 #endif

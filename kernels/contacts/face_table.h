@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The faces that are planes for each region, one of each facet: a hash table with open addressing
 // for each, filled by many work-items at a time. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_FACE_TABLE_H
 #define ODE_EXT_KERNELS_CONTACTS_FACE_TABLE_H
 
@@ -31,5 +30,4 @@ static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* 
   }
 }
 
-#endif
 #endif

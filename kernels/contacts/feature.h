@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Features, and what they are of. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_FEATURE_H
 #define ODE_EXT_KERNELS_CONTACTS_FEATURE_H
 
@@ -68,5 +67,4 @@ static inline bool ox_is_before(__global const ox_feature* a, __global const ox_
   return a->triangle < b->triangle;
 }
 
-#endif
 #endif

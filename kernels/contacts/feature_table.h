@@ -4,7 +4,6 @@
 //
 // An entry is feature << 2 | what it is by. Of those with the same key the first to come is in the
 // table, so nothing may depend on which that is.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_FEATURE_TABLE_H
 #define ODE_EXT_KERNELS_CONTACTS_FEATURE_TABLE_H
 
@@ -99,5 +98,4 @@ static inline uint ox_add_feature(const ox_scene* scene, __global const ox_featu
   }
 }
 
-#endif
 #endif

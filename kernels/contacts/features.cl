@@ -8,7 +8,6 @@
 // room  parents; slots, faces: tables (contacts/feature_table.h, contacts/face_table.h)
 // item  1 feature (grid-stride); of feature_place 1 pair
 // may overflow: none; all go by the number of crossings and hits
-#ifdef OX_PLANES
 #include "contacts/face_table.h"
 #include "contacts/feature_table.h"
 #include "contacts/mate.h"
@@ -379,4 +378,3 @@ __kernel void region_propose(OX_SCENE_PARAMETERS, __global const ox_feature* fea
   const ox_scene scene = OX_SCENE;
   ox_propose_planes(&scene, features, regions, faces, planes, edge_planes);
 }
-#endif

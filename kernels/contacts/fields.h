@@ -4,7 +4,6 @@
 //
 // The last lanes that are loaded may lie beyond the last record: in the next field, or in what is
 // left free at the end of the buffer.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_FIELDS_H
 #define ODE_EXT_KERNELS_CONTACTS_FIELDS_H
 
@@ -47,5 +46,4 @@ static inline void ox_dot_fields(const ox_fields* fields, uint field, uint block
               OX_LOAD_FLOATS(fields, field + 2u, block) * v.z;
 }
 
-#endif
 #endif

@@ -16,7 +16,6 @@
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
-#ifdef OX_PLANES
 #include "shared/closest.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -340,4 +339,3 @@ __kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
   const ox_scene scene = OX_SCENE;
   ox_flood_sides(&scene, crossings, tasks, rays, words);
 }
-#endif

@@ -4,7 +4,6 @@
 // Two facets have stretches of the line in common where their planes meet. Both ends of a stretch
 // have the pair of facets in common, and mostly they are the only ones that have. Where facets are
 // not convex there may be several, which lie one behind the other on the line.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_MATE_H
 #define ODE_EXT_KERNELS_CONTACTS_MATE_H
 
@@ -67,5 +66,4 @@ static inline uint ox_mate_of(const ox_scene* scene, __global const ox_feature* 
   return ox_find_other_end(scene, features, mate) == entry ? mate : OX_NONE;
 }
 
-#endif
 #endif

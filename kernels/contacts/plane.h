@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Separating planes: a face of either mesh, or the common normal of two edges. In the frame of B.
 // Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_PLANE_H
 #define ODE_EXT_KERNELS_CONTACTS_PLANE_H
 
@@ -213,5 +212,4 @@ static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, 
   return farthest + origin;
 }
 
-#endif
 #endif

@@ -7,7 +7,6 @@
 // out   contacts, pair_ranges
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS
-#ifdef OX_PLANES
 #include "contacts/candidate_list.h"
 #include "shared/lanes.h"
 
@@ -175,4 +174,3 @@ __kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates,
   const ox_scene scene = OX_SCENE;
   ox_reduce_candidates(&scene, candidates, max_contacts, max_deformable, pair_ranges, contacts);
 }
-#endif

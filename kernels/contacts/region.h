@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A region of overlap and what a plane costs it. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_REGION_H
 #define ODE_EXT_KERNELS_CONTACTS_REGION_H
 
@@ -125,5 +124,4 @@ static inline bool ox_is_better_choice(const ox_plane_choice* a, const ox_plane_
   return a->plane.id[1] < b->plane.id[1];
 }
 
-#endif
 #endif

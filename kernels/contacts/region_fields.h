@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The members of a region and its planes: types.h says how they lie. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_REGION_FIELDS_H
 #define ODE_EXT_KERNELS_CONTACTS_REGION_FIELDS_H
 
@@ -45,5 +44,4 @@ static inline uint ox_of_kind(const ox_fields* list, uint block, uint mask, uint
   return ox_mask_of(&is);
 }
 
-#endif
 #endif

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The units of a region that is not whole, and what planes cost them. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_UNITS_H
 #define ODE_EXT_KERNELS_CONTACTS_UNITS_H
 
@@ -283,5 +282,4 @@ static inline uint ox_cleared_units(const ox_region_view* r, uint block, uint wa
   return (cleared | ox_mask_of(&past_own)) & ox_present_lanes(waiting, block);
 }
 
-#endif
 #endif

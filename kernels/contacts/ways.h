@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way that a plane sends a point: whether it comes out there, and whether another is shorter.
 // Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_WAYS_H
 #define ODE_EXT_KERNELS_CONTACTS_WAYS_H
 
@@ -42,5 +41,4 @@ static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float
                              : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
 }
 
-#endif
 #endif

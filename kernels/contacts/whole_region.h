@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The plane by which a region parts as a whole: the least of the faces at its features and of
 // pairs of edges, found by going on from the best in each direction. Device only.
-#ifdef OX_PLANES
 #ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 #define ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 
@@ -292,5 +291,4 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   return of_body;
 }
 
-#endif
 #endif

@@ -5,7 +5,7 @@
 //
 // in    tasks: one for every chunk of every pair, most with nothing to do; pairs, meshes,
 //       chunks, vertices, triangles, meshlets, meshlet_nodes, temporal_before
-// out   hits, and per pair their number; temporal
+// out   hits: of vertices that are inside; temporal
 // item  1 vertex of 1 chunk of 1 pair, whether it can collide or not (grid-stride)
 // may overflow: OX_LIST_HITS
 #include "paper/cast.h"
@@ -53,7 +53,7 @@ __kernel void monolithic(OX_SCENE_PARAMETERS, __global const ox_chunk_task* task
             done = ox_cast_ray(&scene, OX_LIST_RAYS, &ray, walk_limit, temporal, &outcome, &work);
         }
       }
-      ox_append_hit(&scene, &ray, &outcome, hits);
+      ox_append_hit(&scene, &ray, false, OX_NONE, &outcome, hits);
     }
     ox_note_work(works, i, &work);
   }

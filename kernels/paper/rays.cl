@@ -4,7 +4,7 @@
 //
 // in    rays of one algorithm (its list), pairs, meshes, vertices, triangles, meshlets,
 //       meshlet_nodes
-// out   hits, and per pair their number
+// out   hits: of vertices that are inside
 //       temporal: the triangle from which the next step may start
 //       rays: those that the iterative algorithm hands on to a full one
 // item  1 ray (grid-stride); no barrier
@@ -26,7 +26,7 @@ static inline void ox_cast_list(const ox_scene* scene, uint list, __global ox_ra
     const bool done = ox_cast_ray(scene, list, &ray, walk_limit, temporal, &outcome, &work);
     ox_note_work(works, i, &work);
     if (done) {
-      ox_append_hit(scene, &ray, &outcome, hits);
+      ox_append_hit(scene, &ray, false, OX_NONE, &outcome, hits);
       continue;
     }
     ox_count(scene, OX_COUNTER_UNPROVEN);

@@ -20,7 +20,7 @@ static inline void ox_cross_lanes(const ox_vectors* a, const ox_vectors* b, ox_v
   product->z = a->x * b->y - a->y * b->x;
 }
 
-// [m^2] from a point to the side of each triangle that goes from a corner, both as seen from the
+// Squared, from a point to the side of each triangle that goes from a corner, both as seen from the
 // point, the lesser of that and what was there; and whether the point is on the inner side of it.
 static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
                                 const ox_vectors* normal, ox_floats* distance2, ox_ints* within) {
@@ -40,14 +40,21 @@ static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
   *within &= turn >= 0.0f;
 }
 
-// [m^2] from a point to the triangles of a block of a meshlet; infinite where one is of no area.
-static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p,
+// A power of two by which lengths about a mesh are to be multiplied, so that products of six of
+// them neither overflow nor underflow: the reciprocal of its extent, rounded to one.
+static inline float ox_unit_scale(__global const ox_mesh* mesh) {
+  return as_float(0x7f000000u - (as_uint(mesh->extent) & 0x7f800000u));
+}
+
+// From a point to the triangles of a block of a meshlet, squared, of all lengths times `scale`;
+// infinite where one is of no area.
+static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p, float scale,
                                  ox_floats* distance2) {
   ox_vectors corner[3];
   for (uint k = 0u; k < 3u; ++k) {
-    corner[k].x = ox_load(block, m->corner[k][0]) - p.x;
-    corner[k].y = ox_load(block, m->corner[k][1]) - p.y;
-    corner[k].z = ox_load(block, m->corner[k][2]) - p.z;
+    corner[k].x = (ox_load(block, m->corner[k][0]) - p.x) * scale;
+    corner[k].y = (ox_load(block, m->corner[k][1]) - p.y) * scale;
+    corner[k].z = (ox_load(block, m->corner[k][2]) - p.z) * scale;
   }
   const ox_vectors ab = {corner[1].x - corner[0].x, corner[1].y - corner[0].y,
                          corner[1].z - corner[0].z};
@@ -70,7 +77,8 @@ static inline void ox_distances2(__global const ox_meshlet* m, uint block, float
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
                                        float3 p, float bound) {
   uint closest = OX_NONE;
-  float closest2 = bound * bound;
+  const float scale = ox_unit_scale(mesh);
+  float closest2 = bound * scale * bound * scale;
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
@@ -78,7 +86,7 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2;
-        ox_distances2(m, block, p, &distance2);
+        ox_distances2(m, block, p, scale, &distance2);
         const ox_ints is_near = distance2 <= closest2;
         uint near = ox_mask_of(&is_near) & ox_present_lanes(m->triangle_count, block);
         if (near == 0u) continue;
@@ -106,6 +114,7 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
           fmax(fmax(ox_load(block, node->lo[2]) - p.z, p.z - ox_load(block, node->hi[2])), zero)};
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
+      distance2 *= scale * scale;
       const ox_ints is_near = distance2 <= closest2;
       const uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
       const ox_floats nearness = -distance2;

@@ -7,11 +7,7 @@
 #include "shared/transform.h"
 
 // [m] what is not known of where the vertices of a pair are.
-#ifdef OX_PLANES
 #define OX_CULL_MARGIN(pair) ((pair)->margin)
-#else
-#define OX_CULL_MARGIN(pair) ((pair)->epsilon)
-#endif
 
 // Whether a vertex of the chunk can be in contact with the target.
 static inline bool ox_keep_chunk(__global const ox_pair* pair, uint side,

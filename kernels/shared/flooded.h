@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of which sides of a pair crossings tell which vertices are inside (flood.cl). Device only.
+// Of which sides of a pair crossings tell which vertices are inside (contacts/flood.cl). Device
+// only.
 #ifndef ODE_EXT_KERNELS_SHARED_FLOODED_H
 #define ODE_EXT_KERNELS_SHARED_FLOODED_H
 

@@ -157,11 +157,7 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
   ox_vertex_ray ray;
   ray.direction = ox_turn(pair, side, vload3(0, vertex->direction));
-#ifdef OX_PLANES
   ray.ahead = OX_INFLATION * pair->epsilon;
-#else
-  ray.ahead = 0.0f;
-#endif
   ray.origin = ox_place(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
   ray.epsilon = pair->epsilon;
   ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;

@@ -32,15 +32,4 @@ static inline float ox_grid_of(float snap) {
   return as_float(as_uint(snap) & 0x7f800000u) * 0x1p-23f;
 }
 
-// Where a vertex of mesh `side` is in general position. Bit for bit what ox_place_generally
-// (shared/intersect.h) gives for lanes.
-static inline float3 ox_general_vertex(__global const ox_pair* pair, uint side,
-                                       __global const ox_vertex* vertex) {
-  float3 p = vload3(0, vertex->position);
-  if (side == 0u)
-    p = ox_place(pair, 0u, p) -
-        OX_INFLATION * pair->epsilon * ox_turn(pair, 0u, vload3(0, vertex->direction));
-  return p + pair->snap - pair->snap;
-}
-
 #endif

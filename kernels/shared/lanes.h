@@ -106,7 +106,6 @@ static inline uint ox_present_lanes(uint count, uint block) {
   return count - before < OX_VECTOR_WIDTH ? (1u << (count - before)) - 1u : OX_ALL_LANES;
 }
 
-static inline int ox_or_of(const ox_ints* v) { return OX_FOLD(*v, OX_OR); }
 static inline int ox_and_of(const ox_ints* v) { return OX_FOLD(*v, OX_AND); }
 static inline float ox_least_of(const ox_floats* v) { return OX_FOLD(*v, OX_LESSER); }
 static inline float ox_greatest_of(const ox_floats* v) { return OX_FOLD(*v, OX_GREATER); }

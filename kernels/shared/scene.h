@@ -45,11 +45,6 @@ typedef struct {
       __global const uint *facets, __global const ox_triangle *triangles,                       \
       __global const ox_meshlet *meshlets, __global const ox_meshlet_node *meshlet_nodes
 
-// To hand them on to another kernel.
-#define OX_SCENE_ARGUMENTS                                                                        \
-  counters, lists, modes, pair_count, pairs, found, meshes, chunks, vertices, edges, ring_starts, \
-      rings, components, facets, triangles, meshlets, meshlet_nodes
-
 #define OX_SCENE                                                                                \
   {                                                                                             \
     counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0),   \

@@ -4,9 +4,6 @@
 #ifndef ODE_EXT_KERNELS_SHARED_TYPES_H
 #define ODE_EXT_KERNELS_SHARED_TYPES_H
 
-// A program is built with OX_PLANES where contacts are those of separating planes
-// (kernels/contacts), which stand beside the assembly that they are to replace (edge_contact.cl,
-// contact_step.cl). Records that differ have the same size in both.
 #ifdef __OPENCL_C_VERSION__
 // A fused multiply-subtract is not antisymmetric: two triangles would disagree about the side of
 // their shared edge on which a ray passes, and it would slip through. Holds to the end of the
@@ -45,20 +42,16 @@ typedef float ox_f32;
 #define OX_LIST_CONTACTS 11u
 #define OX_LIST_COUNT 12u
 #define OX_COUNTER_BOUNDED 12u   // pairs whose bounding volumes overlap
-#define OX_COUNTER_SEGMENTS 13u  // candidates handed out to pairs
-#define OX_COUNTER_CROSSED 14u   // crossings handed out to pairs
-#define OX_COUNTER_UNPROVEN 15u  // paper: iterative rays that had to be cast in full
-#define OX_COUNTER_DROPPED 16u   // paper: vertices dropped for want of temporal data
-#define OX_QUEUE_FLOOD 17u       // how many items the work-items have taken (ox_next_item)
-#define OX_QUEUE_EDGE_CONTACTS 18u
+#define OX_COUNTER_UNPROVEN 13u  // paper: iterative rays that had to be cast in full
+#define OX_COUNTER_DROPPED 14u   // paper: vertices dropped for want of temporal data
+#define OX_COUNTER_FEATURES 15u  // room for them handed out to pairs (kernels/contacts)
+#define OX_COUNTER_REGIONS 16u
+#define OX_QUEUE_FLOOD 17u  // how many items the work-items have taken (ox_next_item)
+#define OX_QUEUE_REGIONS 18u
 #define OX_QUEUE_REDUCE 19u
-// Of contacts by separating planes (kernels/contacts).
-#define OX_COUNTER_FEATURES 20u  // room for them handed out to pairs
-#define OX_COUNTER_REGIONS 21u
-#define OX_QUEUE_REGIONS 22u
-#define OX_QUEUE_PAIRS 23u
-#define OX_COUNTER_LEFT 24u  // pairs that the whole step left to the kernels
-#define OX_COUNTER_COUNT 25u
+#define OX_QUEUE_PAIRS 20u
+#define OX_COUNTER_LEFT 21u  // pairs that the whole step left to the kernels
+#define OX_COUNTER_COUNT 22u
 #define OX_COUNTER_WORDS (OX_COUNTER_COUNT * OX_COUNTER_STRIDE)
 
 // There are several of each: what the kernels count comes first, then what the work-items of
@@ -258,7 +251,6 @@ typedef struct {
 } ox_pair;
 OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
 
-#ifdef OX_PLANES
 // What has been found of a pair so far.
 typedef struct {
   ox_u32 head[2];   // per side the last of its crossings, which links lead on from; OX_NONE: none
@@ -269,17 +261,6 @@ typedef struct {
   ox_u32 padding[2];
 } ox_found;
 OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
-#else
-// What has been found of a pair so far.
-typedef struct {
-  ox_u32 hits;       // later: candidates
-  ox_u32 crossings;  // of contacts
-  ox_u32 head[2];    // per side the last of its crossings, which links lead on from; OX_NONE: none
-  ox_u32 first_candidate, first_crossing;  // where those of the pair start; void where it has none
-  ox_u32 padding[2];
-} ox_found;
-OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
-#endif
 
 // Vertices to be looked at. pair_side = pair << 1 | side; side 0: vertices of A against B, side 1:
 // of B against A. The last two fields are the paper's (paper/types.h).
@@ -316,9 +297,7 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 #define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side
 #define OX_HIT_SIDE 8u      // of side 1
 #define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own
-#define OX_HIT_STANDS 32u   // of a candidate: without it its region has nothing (reconcile.h)
 
-#ifdef OX_PLANES
 // A vertex that is inside, and what its ray meets.
 typedef struct {
   ox_u32 pair_side;
@@ -344,88 +323,9 @@ typedef struct {
   ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
-#else
-typedef struct {
-  ox_u32 pair_side;
-  ox_u32 vertex;
-  ox_u32 triangle;  // index into all triangles, in the order of the leaves
-  ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
-  ox_f32 depth;     // [m] to the plane of the triangle
-  ox_f32 t;         // [m] along the ray
-  ox_u32 slot;      // how many hits of this pair were appended before it
-  ox_u32 padding;
-} ox_hit;
-OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
-
-// Where an edge of one mesh crosses the surface of the other, as it is found. Those without a slot
-// are of no contact: of an edge within a facet; or, without an edge, a vertex (`triangle`) that may
-// lie on the surface.
-typedef struct {
-  ox_u32 pair_side;
-  ox_u32 edge;
-  ox_u32 triangle;  // crossed, over all triangles
-  ox_f32 t;         // [m] along the edge, from its first vertex
-  ox_u32 leaves;    // whether the edge leaves the target here: a back face
-  ox_u32 slot;      // how many crossings of this pair were appended before it; OX_NONE: see above
-  ox_u32 before;    // of flooded sides: the crossing of the side that was found before it; OX_NONE
-  ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
-} ox_edge_crossing;
-OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
-#endif
-
-#define OX_CROSSING_SIDE 1u     // of an edge of mesh B
-#define OX_CROSSING_LEAVES 2u   // the edge leaves the target here
-#define OX_CROSSING_COVERED 4u  // a contact is there, or its vertex has one
-#define OX_CROSSING_MARKED 8u   // of the first of a region: see deep_parts.h
-
-// A crossing among those of its pair.
-typedef struct {
-  ox_u32 flags;  // OX_CROSSING_...
-  ox_u32 edge;
-  ox_u32 triangle;  // crossed, over all triangles
-  ox_f32 t;         // [m] along the edge, from its first vertex
-  ox_u32 facet;     // of the triangle
-  ox_u32 at[2];     // the facets at the edge; the second is OX_NONE at a border
-  ox_u32 other;     // the crossing at the other end of its chord, among those of the pair; OX_NONE
-  ox_f32 other_t;   // [m] the other end of the chord, the stretch of the edge inside the target
-  ox_u32 region;    // of overlap, counted from 0 in every pair; OX_NONE: not known yet
-  ox_f32 position[3];  // in the frame of B
-  ox_f32 paired;       // [m] the depth of the deepest contact of two edges here; 0: none
-  ox_u32 hit;          // the candidate of the vertex inside at the end of its chord; OX_NONE: none
-  ox_u32 padding;
-} ox_pair_crossing;
-OX_STATIC_ASSERT(sizeof(ox_pair_crossing) == 64, ox_pair_crossing_is_64_bytes);
-
-// Room for what edges add to the candidates of a pair.
-#define OX_POINTS_PER_CROSSING 4u
-// Room for the orders of the crossings of a pair and of those points: by edge and then by facet; by
-// region; where each region starts; its first point; the next point of each point. Before there are
-// points the room of those two is that of a table of crossings (shared/crossing_table.h), and the
-// keys of orders lie in rooms not yet in use (edge_contact.cl).
-#define OX_ORDERS_PER_CROSSING (4u + OX_POINTS_PER_CROSSING)
-
-#ifndef OX_PLANES
-// A hit among those of its pair, in the frame of B.
-typedef struct {
-  ox_f32 position[3];
-  ox_f32 depth;
-  ox_f32 normal[3];  // into A
-  ox_f32 t;
-  ox_u32 side_kind;  // OX_HIT_..., with OX_HIT_SIDE
-  ox_u32 vertex;     // of a point: the triangle of the source, over all triangles
-  ox_u32 triangle;
-  ox_u32 patch;      // OX_NO_PATCH, a patch, OX_TAKEN or OX_DROPPED
-  ox_f32 distance2;  // [m^2] to the nearest contact already taken from its patch; while candidates
-                     // are sorted, the depth of `ordered`
-  ox_u32 region;     // that it alone speaks for, where the pair has several; OX_NONE: none
-  ox_u32 listed;     // of the i-th candidate of a pair: which is the i-th listed (patches.h)
-  ox_u32 ordered;  // of the i-th candidate of a pair: which is the i-th of the order or heap in use
-} ox_candidate;
-OX_STATIC_ASSERT(sizeof(ox_candidate) == 64, ox_candidate_is_64_bytes);
-#endif
 
 typedef struct {
-  ox_u32 side_kind;  // as in ox_candidate, and so are the others
+  ox_u32 side_kind;  // as of a candidate (contacts/types.h), and so are the others
   ox_u32 vertex;
   ox_u32 triangle;
   ox_f32 depth;

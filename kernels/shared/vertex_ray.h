@@ -27,8 +27,6 @@ static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint ver
   rays[slot].triangle = OX_NONE;
 }
 
-#ifdef OX_PLANES
-
 // Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
 static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
                                     uint from, __global ox_ray* rays) {
@@ -40,34 +38,23 @@ static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint 
   rays[slot].triangle = from;
 }
 
-#endif
-
-// With OX_PLANES: the vertex of a ray, if it is inside. Else whatever its ray came to.
-static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray,
+// The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in
+// ox_hit.
+static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool known, uint from,
                                  const ox_outcome* outcome, __global ox_hit* hits) {
   const uint kind = outcome->kind & OX_HIT_KIND;
-#ifdef OX_PLANES
   const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
-  if (!leaves && ray->memory == OX_RAY_ASKING) return;
-  const uint triangle = leaves ? outcome->triangle : OX_NONE;
-#else
-  if (kind == OX_HIT_NONE) return;
-  const uint triangle = outcome->triangle;
-#endif
+  if (!leaves && !known) return;
   const uint slot = ox_append(scene, OX_LIST_HITS);
   if (slot == OX_NONE) return;
   __global ox_hit* hit = hits + slot;
   hit->pair_side = ray->pair_side;
   hit->vertex = ray->vertex;
-  hit->triangle = triangle;
+  hit->triangle = leaves ? outcome->triangle : OX_NONE;
   hit->kind = outcome->kind;
   hit->depth = outcome->depth;
   hit->t = outcome->t;
-#ifdef OX_PLANES
-  hit->from = ray->triangle;
-#else
-  hit->slot = atomic_inc(&scene->found[ray->pair_side >> 1].hits);
-#endif
+  hit->from = from;
 }
 
 #endif

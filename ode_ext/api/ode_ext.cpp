@@ -126,16 +126,6 @@ std::string selection_or_environment(const char* selection) {
   return environment == nullptr ? "" : environment;
 }
 
-// docs/separating-planes.md
-bool asks_for_planes() {
-  const char* environment = std::getenv("ODE_EXT_CONTACTS");
-  const std::string contacts = environment == nullptr ? "" : environment;
-  if (!contacts.empty() && contacts != "edges" && contacts != "planes")
-    throw std::invalid_argument("ODE_EXT_CONTACTS is '" + contacts +
-                                "', not 'edges' (as without it) or 'planes'");
-  return contacts == "planes";
-}
-
 ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   ode_ext::ColliderOptions options;
   options.device = selection_or_environment(p.device);
@@ -160,7 +150,6 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
         std::min<dReal>(p.displacement_limit, std::numeric_limits<float>::max()));
   options.count_work = p.count_work != 0;
   options.edges = p.edges == dBatchEdgesOn;
-  options.planes = asks_for_planes();
   if (p.work_group_size != 0)
     options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
   if (p.initial_capacity != 0)

@@ -19,7 +19,7 @@ bool comes_before(const Vec3f& a, const Vec3f& b) {
 }  // namespace
 
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
-                 const std::vector<std::uint32_t>& facets, bool by_place) {
+                 const std::vector<std::uint32_t>& facets) {
   Edges edges;
   std::vector<Edge> found;
   std::vector<Vec3f> middles;
@@ -30,7 +30,7 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>
     Edge edge{{a.low, a.high}, {a.side / 3, paired ? sides[i + 1].side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
     if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
-    if (by_place && comes_before(vertices[a.high], vertices[a.low])) {
+    if (comes_before(vertices[a.high], vertices[a.low])) {
       std::swap(edge.vertices[0], edge.vertices[1]);
       if (paired) std::swap(edge.triangles[0], edge.triangles[1]);
     }

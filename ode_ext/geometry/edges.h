@@ -13,8 +13,10 @@
 namespace ode_ext {
 
 struct Edge {
-  std::array<std::uint32_t, 2> vertices;   // ascending
-  std::array<std::uint32_t, 2> triangles;  // the second is kNone where there is none
+  // By their places, however they are numbered: an inverted mesh has the edges of the upright one.
+  std::array<std::uint32_t, 2> vertices;
+  // The first runs the edge from the first vertex on. The second is kNone where there is none.
+  std::array<std::uint32_t, 2> triangles;
 };
 
 struct Edges {
@@ -27,9 +29,7 @@ struct Edges {
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
 // come by their vertices. Where more than two triangles meet, they are taken two by two: each of
 // them is at one of the edges.
-// `by_place`, as separating planes want it (kernels/contacts): edges run from the vertex that is
-// first by its place, and are first at the triangle that runs them so, however they are numbered.
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
-                 const std::vector<std::uint32_t>& facets, bool by_place = false);
+                 const std::vector<std::uint32_t>& facets);
 
 }  // namespace ode_ext

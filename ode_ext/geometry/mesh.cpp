@@ -25,8 +25,8 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 }
 
 // What depends on edges.
-void connect(Mesh& mesh, bool edges_by_place) {
-  Edges edges = find_edges(mesh.vertices, mesh.triangles, mesh.facets, edges_by_place);
+void connect(Mesh& mesh) {
+  Edges edges = find_edges(mesh.vertices, mesh.triangles, mesh.facets);
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
   mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, all);
@@ -69,7 +69,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
-    connect(mesh, options.edges_by_place);
+    connect(mesh);
     return mesh;
   }
 
@@ -77,7 +77,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
-  connect(mesh, options.edges_by_place);
+  connect(mesh);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);

@@ -95,7 +95,6 @@ Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 struct MeshOptions {
   float open_thickness = 0;  // [m] bounds the exits of an open mesh; 0: its mean edge
   bool deformable = false;
-  bool edges_by_place = false;  // see find_edges
 };
 
 // Builds everything above. Throws std::bad_alloc only.

@@ -71,8 +71,7 @@ const ColliderOptions& announced(const ColliderOptions& options) {
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
                              bool trust_meshes, bool triangle_callbacks)
     : collider_(announced(options)),
-      meshes_({.open_thickness = open_thickness, .edges_by_place = has_planes(options)},
-              trust_meshes),
+      meshes_({.open_thickness = open_thickness}, trust_meshes),
       triangle_callbacks_(triangle_callbacks) {
   const DeviceInfo& info = collider_.device_info();
   log(LogLevel::kInfo, "the kernels are ready");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include "ode/answers.h"
@@ -84,6 +85,10 @@ void Members::prune(std::uint64_t pass) {
 
 bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
+  const auto position = [](const PairMember& m) {
+    return std::tie(m.pose.position.x, m.pose.position.y, m.pose.position.z);
+  };
+  if (position(a) != position(b)) return position(a) < position(b);
   const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
   if (poses != 0) return poses < 0;
   if (a.mesh->content_hash != b.mesh->content_hash)

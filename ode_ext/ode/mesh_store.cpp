@@ -49,9 +49,7 @@ void MeshStore::update(Entry& entry) {
     if (entry.base != nullptr) shape = deformed(entry.base, soup_);
     if (shape == nullptr)
       shape = entry.base = std::make_shared<const Mesh>(
-          build_mesh(soup_, {.open_thickness = options_.open_thickness,
-                             .deformable = true,
-                             .edges_by_place = options_.edges_by_place}));
+          build_mesh(soup_, {.open_thickness = options_.open_thickness, .deformable = true}));
     entry.mesh = std::move(shape);
   }
   const std::string reason = why_refused(soup_);

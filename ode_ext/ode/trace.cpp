@@ -43,7 +43,7 @@ constexpr Stage kKernels[] = {{"deform_step", dBatchStageDeformStep},
                               {"match", dBatchStageMatch},
                               {"cross", dBatchStageCross},
                               {"flood", dBatchStageFlood},
-                              {"edge_contacts", dBatchStageEdgeContacts},
+                              {"assembly", dBatchStageAssembly},
                               {"contact_step", dBatchStageContactStep},
                               {"whole_step", dBatchStageWholeStep}};
 

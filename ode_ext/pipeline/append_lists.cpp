@@ -25,7 +25,7 @@ constexpr ArrowCounts kShare = [] {
   ArrowCounts counts{};
   counts[OX_LIST_CHUNKS] = 256;
   counts[OX_LIST_RAYS] = 1024;
-  counts[OX_LIST_MESHLETS] = 256;
+  counts[OX_LIST_MESHLETS] = 1024;
   counts[OX_LIST_MESHLET_PAIRS] = 4096;
   counts[OX_LIST_HITS] = 1024;
   counts[OX_LIST_CROSSINGS] = 1024;
@@ -38,6 +38,13 @@ constexpr ArrowCounts kShare = [] {
 // device.
 constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 30;
 
+// What becomes of a feature, a crossing or a hit [bytes].
+constexpr std::size_t kFeatureBytes =
+    sizeof(ox_feature) + sizeof(ox_region) + OX_MEMBER_WORDS * sizeof(ox_f32) +
+    OX_CANDIDATE_WORDS * sizeof(ox_f32) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
+    OX_FACES_PER_FEATURE * sizeof(ox_face) +
+    OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * sizeof(ox_f32) + 3 * sizeof(ox_u32);
+
 // What a record of each list takes in all buffers together [bytes].
 constexpr ArrowCounts kRecordBytes = [] {
   ArrowCounts bytes{};
@@ -45,21 +52,18 @@ constexpr ArrowCounts kRecordBytes = [] {
     bytes[i] = i <= OX_LIST_CHUNKS_DEFORMABLE ? sizeof(ox_chunk_task) : sizeof(ox_ray);
   bytes[OX_LIST_MESHLETS] = sizeof(ox_meshlet_task);
   bytes[OX_LIST_MESHLET_PAIRS] = sizeof(ox_meshlet_pair);
-  bytes[OX_LIST_HITS] = sizeof(ox_hit) + sizeof(ox_candidate);
-  bytes[OX_LIST_CROSSINGS] = sizeof(ox_edge_crossing) + sizeof(ox_pair_crossing) +
-                             OX_ORDERS_PER_CROSSING * sizeof(ox_u32) +
-                             OX_POINTS_PER_CROSSING * sizeof(ox_candidate);
+  bytes[OX_LIST_HITS] = sizeof(ox_hit) + kFeatureBytes;
+  bytes[OX_LIST_CROSSINGS] = sizeof(ox_edge_crossing) + kFeatureBytes;
   bytes[OX_LIST_FLOOD_WORDS] = sizeof(ox_u32);
   bytes[OX_LIST_CONTACTS] = sizeof(ox_contact);
   return bytes;
 }();
 
-// What becomes of a feature, a crossing or a hit [bytes].
-constexpr std::size_t kFeatureBytes =
-    sizeof(ox_feature) + sizeof(ox_region) + OX_MEMBER_WORDS * sizeof(ox_f32) +
-    OX_CANDIDATE_WORDS * sizeof(ox_f32) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
-    OX_FACES_PER_FEATURE * sizeof(ox_face) +
-    OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * sizeof(ox_f32) + 3 * sizeof(ox_u32);
+std::uint64_t bytes_of(const ArrowCounts& counts) {
+  std::uint64_t bytes = 0;
+  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * kRecordBytes[i];
+  return bytes;
+}
 
 // Memory goes back where for this many steps, a few seconds of simulation, less than a quarter of
 // it was of use; what is less than the floor is not worth the growing again.
@@ -80,8 +84,6 @@ AppendLists::AppendLists(Device& device)
       hits_(device),
       candidates_(device),
       crossings_(device),
-      gathered_crossings_(device),
-      crossing_order_(device),
       flood_words_(device),
       contacts_(device),
       features_(device),
@@ -110,34 +112,21 @@ void AppendLists::reserve(const ArrowCounts& counts) {
   resize(grown);
 }
 
-std::uint64_t AppendLists::record_bytes(std::size_t list) const {
-  if (keeps_features_ && list == OX_LIST_HITS) return sizeof(ox_hit) + kFeatureBytes;
-  if (keeps_features_ && list == OX_LIST_CROSSINGS) return sizeof(ox_edge_crossing) + kFeatureBytes;
-  return kRecordBytes[list];
-}
-
-std::uint64_t AppendLists::bytes_of(const ArrowCounts& counts) const {
-  std::uint64_t bytes = 0;
-  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * record_bytes(i);
-  return bytes;
-}
-
 void AppendLists::limit(const ArrowCounts& counts) { resize(counts); }
 
 ArrowCounts AppendLists::affordable(const ArrowCounts& expected) const {
   const std::uint64_t cheap = device_->info().largest_buffer / 16;  // [bytes]
   ArrowCounts counts{};
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / record_bytes(i)));
+    counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / kRecordBytes[i]));
   return counts;
 }
 
 void AppendLists::release() {
   capacities_ = {};
-  for (Buffer* buffer :
-       {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_, &crossings_,
-        &gathered_crossings_, &crossing_order_, &flood_words_, &contacts_, &features_,
-        &feature_parents_, &feature_slots_, &regions_, &members_, &faces_, &planes_, &edge_planes_})
+  for (Buffer* buffer : {&tasks_, &rays_, &meshlets_, &meshlet_pairs_, &hits_, &candidates_,
+                         &crossings_, &flood_words_, &contacts_, &features_, &feature_parents_,
+                         &feature_slots_, &regions_, &members_, &faces_, &planes_, &edge_planes_})
     buffer->release();
 }
 
@@ -190,14 +179,7 @@ void AppendLists::resize(const ArrowCounts& capacities) {
     crossings_.reserve(ends.crossings * sizeof(ox_edge_crossing));
     flood_words_.reserve(ends.flood_words * sizeof(ox_u32));
     contacts_.reserve(ends.contacts * sizeof(ox_contact));
-    if (keeps_features_) {
-      reserve_features(ends.crossings + ends.hits);
-    } else {
-      candidates_.reserve((ends.hits + OX_POINTS_PER_CROSSING * ends.crossings) *
-                          sizeof(ox_candidate));
-      gathered_crossings_.reserve(ends.crossings * sizeof(ox_pair_crossing));
-      crossing_order_.reserve(OX_ORDERS_PER_CROSSING * ends.crossings * sizeof(ox_u32));
-    }
+    reserve_features(ends.crossings + ends.hits);
   } catch (...) {
     release();
     throw;

@@ -39,8 +39,6 @@ class AppendLists {
   std::uint64_t first(Arrow list) const {
     return host_lists_[static_cast<std::size_t>(list)].first;
   }
-  // Crossings and hits become features (kernels/contacts), in place of what else becomes of them.
-  void keep_features() { keeps_features_ = true; }
   // Beside the lists, `count` work-items have a share of their room each, for a pair at a time
   // (kernels/whole_step.cl).
   void keep_shares(std::size_t count);
@@ -73,11 +71,7 @@ class AppendLists {
   const Buffer& meshlets() const { return meshlets_; }
   const Buffer& meshlet_pairs() const { return meshlet_pairs_; }
   const Buffer& hits() const { return hits_; }
-  // One per hit, OX_POINTS_PER_CROSSING per crossing.
-  const Buffer& candidates() const { return candidates_; }
   const Buffer& crossings() const { return crossings_; }
-  const Buffer& gathered_crossings() const { return gathered_crossings_; }  // by pair
-  const Buffer& crossing_order() const { return crossing_order_; }  // OX_ORDERS_PER_CROSSING each
   const Buffer& flood_words() const { return flood_words_; }
   const Buffer& contacts() const { return contacts_; }
   // For each crossing and hit, as kernels/contacts/types.h says.
@@ -89,6 +83,7 @@ class AppendLists {
   const Buffer& faces() const { return faces_; }
   const Buffer& planes() const { return planes_; }
   const Buffer& edge_planes() const { return edge_planes_; }
+  const Buffer& candidates() const { return candidates_; }
 
  private:
   std::uint64_t read_counter(std::size_t of, std::size_t counter) const {
@@ -102,9 +97,6 @@ class AppendLists {
   Ends lay_out(const ArrowCounts& room);
   void resize(const ArrowCounts& capacities);
   void reserve_features(std::uint64_t count);
-  // What a record of a list takes in all buffers together [bytes].
-  std::uint64_t record_bytes(std::size_t list) const;
-  std::uint64_t bytes_of(const ArrowCounts& counts) const;
 
   Device* device_;
   ArrowCounts capacities_{};
@@ -114,11 +106,10 @@ class AppendLists {
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
-  bool keeps_features_ = false;
   std::size_t shares_ = 0;
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
-      crossings_, gathered_crossings_, crossing_order_, flood_words_, contacts_, features_,
-      feature_parents_, feature_slots_, regions_, members_, faces_, planes_, edge_planes_;
+      crossings_, flood_words_, contacts_, features_, feature_parents_, feature_slots_, regions_,
+      members_, faces_, planes_, edge_planes_;
 };
 
 }  // namespace ode_ext

@@ -89,7 +89,7 @@ void Collider::read_answer(const Step& step) {
 void Collider::launch_steps(Step& step) {
   Workload& workload = step.workload;
   const std::size_t pairs = workload.tile().count;
-  if (!workload.is_whole_step() || !planes_) steps_.relate(workload.launch(pairs), data_);
+  if (!workload.is_whole_step()) steps_.relate(workload.launch(pairs), data_);
   if (options_.edges) {
     steps_.cull(workload.launch(pairs), data_);
     workload.settle_launches();
@@ -102,19 +102,11 @@ void Collider::launch_steps(Step& step) {
   else
     launch_vertices(step);
   workload.settle_launches();
-  if (planes_) {
-    const Launch of_crossings = workload.launch(Arrow::kCrossings);
-    const Launch of_hits = workload.launch(Arrow::kHits);
-    planes_->assemble(workload.launch(pairs),
-                      of_crossings.groups > of_hits.groups ? of_crossings : of_hits,
-                      workload.launch_queue(pairs), data_);
-    planes_->reduce(workload.launch_queue(pairs), data_);
-    return;
-  }
-  steps_.gather(workload.launch(pairs), workload.launch(Arrow::kHits), data_);
-  if (options_.edges)
-    steps_.add_edge_contacts(workload.launch_queue(pairs), workload.launch(Arrow::kCrossings),
-                             data_);
+  const Launch of_crossings = workload.launch(Arrow::kCrossings);
+  const Launch of_hits = workload.launch(Arrow::kHits);
+  steps_.assemble(workload.launch(pairs),
+                  of_crossings.groups > of_hits.groups ? of_crossings : of_hits,
+                  workload.launch_queue(pairs), data_);
   steps_.reduce(workload.launch_queue(pairs), data_);
 }
 
@@ -188,7 +180,6 @@ StageTimes Collider::take_milliseconds() {
   add_time(ms, Stage::kDeformStep, data_.meshes);
   steps_.take_milliseconds(ms);
   if (paper_) paper_->take_milliseconds(ms);
-  if (planes_) planes_->take_milliseconds(ms);
   return ms;
 }
 

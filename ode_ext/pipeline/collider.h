@@ -9,7 +9,6 @@
 #include "paper/vertex_rays.h"
 #include "pipeline/options.h"
 #include "pipeline/pass_memory.h"
-#include "pipeline/plane_assembly.h"
 #include "pipeline/scene.h"
 #include "pipeline/step.h"
 #include "pipeline/step_data.h"
@@ -54,7 +53,6 @@ class Collider {
   Steps steps_;
   StepData data_;
   std::optional<paper::VertexRays> paper_;  // where options ask for it
-  std::optional<PlaneAssembly> planes_;     // in place of the last of `steps_`
   PinnedMemory read_ranges_, read_contacts_;
   PairContacts result_;
   StepReport report_;

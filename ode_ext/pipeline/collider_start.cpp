@@ -26,7 +26,6 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   if (options.vector_width != 0)
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
-  if (has_planes(options)) text += " -DOX_PLANES";
   if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   return text;
 }
@@ -37,18 +36,14 @@ Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer),
       program_(device_, program_options(options, device_.info())),
-      steps_(program_, may_run_whole(options_, device_.info()), !has_planes(options_)),
+      steps_(program_, may_run_whole(options_, device_.info())),
       data_(program_),
       read_ranges_(device_),
       read_contacts_(device_) {
   data_.settings = settings_of(options);
   if (follows_paper(options_)) paper_.emplace(program_, options_);
-  if (has_planes(options_)) {
-    planes_.emplace(program_);
-    data_.lists.keep_features();
-    if (may_run_whole(options_, device_.info()))
-      data_.lists.keep_shares(device_.info().compute_units);
-  }
+  if (may_run_whole(options_, device_.info()))
+    data_.lists.keep_shares(device_.info().compute_units);
   if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
       options_.vector_width != 8 && options_.vector_width != 16)
     throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
@@ -88,14 +83,8 @@ void Collider::warm_up() {
     steps_.choose_vertices(wide, data_);
     steps_.cast(wide, data_);
   }
-  if (planes_) {
-    planes_->assemble(wide, wide, wide, data_);
-    planes_->reduce(wide, data_);
-  } else {
-    steps_.gather(wide, wide, data_);
-    steps_.add_edge_contacts(wide, wide, data_);
-    steps_.reduce(wide, data_);
-  }
+  steps_.assemble(wide, wide, wide, data_);
+  steps_.reduce(wide, data_);
   if (step.workload.is_whole_step()) steps_.run_whole({1, 1}, data_);
   data_.meshes.warm_up(wide);
   device_.finish();

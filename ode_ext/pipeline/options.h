@@ -29,15 +29,12 @@ struct ColliderOptions {
   std::uint64_t initial_capacity = 16384;  // [records] of each append list
   std::uint32_t walk_limit = 32;           // triangles an iterative ray crosses at most
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
-  // Contacts by separating planes (docs/separating-planes.md), which stand beside the assembly that
-  // they are to replace. Not with what follows the paper.
-  bool planes = false;
-  bool edges = true;               // crossings of edges are searched too
+  bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
   bool count_work = false;
-  // On a processor no more than so many pairs of small meshes are collided by one launch
-  // (kernels/whole_step.cl). The same bytes.
-  std::size_t few_pairs = 4;
+  // On a processor each pair is taken through all steps by one work-item (kernels/whole_step.cl).
+  // The same bytes.
+  bool whole_steps = true;
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that none
   // of their counters and indices passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;
@@ -45,7 +42,7 @@ struct ColliderOptions {
 };
 
 // Whether vertices are looked at one by one, as in the paper (paper/vertex_rays.h); else crossings
-// of edges tell which of them are inside (kernels/flood.cl), of which none may be lost.
+// of edges tell which of them are inside (kernels/contacts/flood.cl), of which none may be lost.
 inline bool follows_paper(const ColliderOptions& options) {
   return !options.edges || options.rays != Rays::kFull ||
          options.deformable_target != DeformableTarget::kRefit ||
@@ -53,11 +50,7 @@ inline bool follows_paper(const ColliderOptions& options) {
          options.misprediction != Misprediction::kRedo || options.count_work;
 }
 
-inline bool has_planes(const ColliderOptions& options) {
-  return options.planes && !follows_paper(options);
-}
-
-// The largest max_contacts (OX_MAX_CONTACTS in kernels/shared/patches.h).
+// The largest max_contacts (OX_MAX_CONTACTS in kernels/contacts/candidate_list.h).
 inline constexpr std::uint32_t kMaxContacts = 64;
 
 }  // namespace ode_ext

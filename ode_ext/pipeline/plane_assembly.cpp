@@ -44,7 +44,7 @@ void PlaneAssembly::reduce(Launch per_pair, const StepData& data) {
 void PlaneAssembly::take_milliseconds(StageTimes& ms) {
   for (Kernel* kernel : {&gather_, &place_, &link_, &join_, &begin_, &count_, &place_regions_,
                          &fill_, &propose_, &choose_})
-    add_time(ms, Stage::kEdgeContacts, *kernel);
+    add_time(ms, Stage::kAssembly, *kernel);
   add_time(ms, Stage::kContactStep, reduce_);
 }
 

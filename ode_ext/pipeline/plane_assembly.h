@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From crossings and vertices inside to contacts by separating planes: kernels/contacts. Of a
-// program that is built with OX_PLANES.
+// From crossings and vertices inside to contacts by separating planes: kernels/contacts.
 #pragma once
 
 #include "device/program.h"

@@ -21,7 +21,7 @@ enum class Stage : std::size_t {
   kMatch,
   kCross,
   kFlood,
-  kEdgeContacts,
+  kAssembly,
   kContactStep,
   kWholeStep
 };

@@ -18,7 +18,7 @@ struct Step {
   Workload workload;
   std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
   // What is among its objects: deformable meshes, and closed ones alone, of which a flood leaves
-  // nothing to the vertex step (flood.cl).
+  // nothing to the vertex step (contacts/flood.cl).
   bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });
   bool floods_all = !any_object([](const Mesh& mesh) { return !mesh.closed; });
 

@@ -3,22 +3,15 @@
 
 namespace ode_ext {
 
-Steps::Assembly::Assembly(Program& program)
-    : place(program, "contact_place"),
-      gather(program, "contact_gather"),
-      gather_crossings(program, "crossing_gather"),
-      edge_contacts(program, "edge_contacts"),
-      reduce(program, "contact_reduce") {}
-
-Steps::Steps(Program& program, bool has_whole, bool assembles)
+Steps::Steps(Program& program, bool has_whole)
     : pair_step_(program, "pair_step"),
       cull_(program, "cull"),
       match_(program, "match"),
       cross_(program, "cross_meshlets"),
       flood_(program, "flood"),
       vertex_step_(program, "vertex_step"),
-      ray_step_(program, "ray_step") {
-  if (assembles) assembly_.emplace(program);
+      ray_step_(program, "ray_step"),
+      assembly_(program) {
   if (has_whole) whole_.emplace(program, "whole_step");
 }
 
@@ -52,38 +45,14 @@ void Steps::cast(Launch per_ray, const StepData& data) {
   data.launch(ray_step_, per_ray, data.lists.rays(), data.lists.hits());
 }
 
-void Steps::gather(Launch per_pair, Launch per_hit, const StepData& data) {
-  data.launch(assembly_->place, per_pair);
-  data.launch(assembly_->gather, per_hit, data.lists.hits(), data.lists.candidates());
-}
-
-void Steps::add_edge_contacts(Launch per_pair, Launch per_crossing, const StepData& data) {
-  data.launch(assembly_->gather_crossings, per_crossing, data.lists.crossings(),
-              data.lists.gathered_crossings(), data.lists.crossing_order());
-  data.launch(assembly_->edge_contacts, per_pair, data.lists.gathered_crossings(),
-              data.lists.crossing_order(), data.lists.candidates());
-}
-
-void Steps::reduce(Launch per_pair, const StepData& data) {
-  data.launch(assembly_->reduce, per_pair, data.lists.candidates(), data.settings.max_contacts,
-              data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
-}
-
 void Steps::run_whole(Launch shares, const StepData& data) {
   const auto& [meshes, pairs, lists, settings] = data;
-  if (assembly_)
-    data.launch(*whole_, {1, 1}, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
-                lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
-                lists.flood_words(), lists.hits(), lists.candidates(), lists.gathered_crossings(),
-                lists.crossing_order(), settings.max_contacts, settings.max_contacts_deformable,
-                lists.contacts());
-  else
-    data.launch(*whole_, shares, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
-                lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
-                lists.flood_words(), lists.hits(), lists.candidates(), settings.max_contacts,
-                settings.max_contacts_deformable, lists.contacts(), lists.features(),
-                lists.feature_parents(), lists.feature_slots(), lists.regions(), lists.members(),
-                lists.faces(), lists.planes(), lists.edge_planes());
+  data.launch(*whole_, shares, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
+              lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),
+              lists.flood_words(), lists.hits(), lists.candidates(), settings.max_contacts,
+              settings.max_contacts_deformable, lists.contacts(), lists.features(),
+              lists.feature_parents(), lists.feature_slots(), lists.regions(), lists.members(),
+              lists.faces(), lists.planes(), lists.edge_planes());
 }
 
 void Steps::take_milliseconds(StageTimes& ms) {
@@ -94,12 +63,7 @@ void Steps::take_milliseconds(StageTimes& ms) {
   add_time(ms, Stage::kFlood, flood_);
   add_time(ms, Stage::kVertexStep, vertex_step_);
   add_time(ms, Stage::kBvhRays, ray_step_);
-  if (assembly_) {
-    for (Kernel* kernel : {&assembly_->gather_crossings, &assembly_->edge_contacts})
-      add_time(ms, Stage::kEdgeContacts, *kernel);
-    for (Kernel* kernel : {&assembly_->place, &assembly_->gather, &assembly_->reduce})
-      add_time(ms, Stage::kContactStep, *kernel);
-  }
+  assembly_.take_milliseconds(ms);
   if (whole_.has_value()) add_time(ms, Stage::kWholeStep, *whole_);
 }
 

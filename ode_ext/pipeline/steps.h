@@ -6,6 +6,7 @@
 
 #include "device/program.h"
 #include "pipeline/launch.h"
+#include "pipeline/plane_assembly.h"
 #include "pipeline/stage.h"
 #include "pipeline/step_data.h"
 
@@ -13,9 +14,8 @@ namespace ode_ext {
 
 class Steps {
  public:
-  // has_whole: the program was built for a whole step too. assembles: what becomes of hits and
-  // crossings is its own affair, and not that of separating planes (plane_assembly.h).
-  Steps(Program& program, bool has_whole, bool assembles = true);
+  // has_whole: the program was built for a whole step too.
+  Steps(Program& program, bool has_whole);
 
   // Which pairs overlap: kernels/pair_step.cl.
   void relate(Launch per_pair, const StepData& data);
@@ -23,14 +23,16 @@ class Steps {
   void cull(Launch per_pair, const StepData& data);
   void match(Launch per_meshlet, const StepData& data);
   void cross(Launch per_meshlet_pair, const StepData& data);
-  // Which vertices are inside, and where their rays leave: flood.cl, vertex_step.cl, ray_step.cl.
+  // Which vertices are inside, and where their rays leave: contacts/flood.cl, vertex_step.cl,
+  // ray_step.cl.
   void flood(Launch per_side, const StepData& data);
   void choose_vertices(Launch per_vertex, const StepData& data);
   void cast(Launch per_ray, const StepData& data);
-  // What becomes of hits and crossings: contact_step.cl and edge_contact.cl.
-  void gather(Launch per_pair, Launch per_hit, const StepData& data);
-  void add_edge_contacts(Launch per_pair, Launch per_crossing, const StepData& data);
-  void reduce(Launch per_pair, const StepData& data);
+  // What becomes of hits and crossings: contacts/features.cl, choose.cl, reduce.cl.
+  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const StepData& data) {
+    assembly_.assemble(per_pair, per_feature, per_region, data);
+  }
+  void reduce(Launch per_pair, const StepData& data) { assembly_.reduce(per_pair, data); }
 
   // All of them in one launch: whole_step.cl. Only if has_whole.
   void run_whole(Launch shares, const StepData& data);
@@ -39,13 +41,8 @@ class Steps {
   void take_milliseconds(StageTimes& ms);
 
  private:
-  struct Assembly {
-    explicit Assembly(Program& program);
-    Kernel place, gather, gather_crossings, edge_contacts, reduce;
-  };
-
   Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_;
-  std::optional<Assembly> assembly_;
+  PlaneAssembly assembly_;
   std::optional<Kernel> whole_;
 };
 

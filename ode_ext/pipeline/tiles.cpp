@@ -34,9 +34,7 @@ std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t,
   const auto edges = [](const Mesh& mesh) {
     return std::uint64_t{mesh.edges.size()} + mesh.flat_edges.size();
   };
-  // Of two meshlets each vertex may touch the other.
-  return edges(a) * b.triangles.size() + edges(b) * a.triangles.size() +
-         2 * OX_LANES * a.meshlets.meshlets.size() * b.meshlets.meshlets.size();
+  return edges(a) * b.triangles.size() + edges(b) * a.triangles.size();
 }
 
 }  // namespace
@@ -68,9 +66,7 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
     else
       contacts += options.max_contacts_deformable != 0
                       ? options.max_contacts_deformable
-                      : of_pair + (options.edges ? OX_POINTS_PER_CROSSING *
-                                                       most_crossings(scene, scene.pairs[i])
-                                                 : 0);
+                      : of_pair + (options.edges ? most_crossings(scene, scene.pairs[i]) : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
   // A table has fewer than 8 places for each crossing it starts from, or 4 for each key: a vertex,

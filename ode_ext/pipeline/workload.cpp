@@ -16,23 +16,10 @@ bool is_out_of_memory(int code) {
          code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
 }
 
-// A launch takes about as long as 1,000 triangles do; more than these are worth sharing out among
-// cores (docs/performance.md).
-constexpr std::size_t kFewTriangles = 16384;
-
-bool is_small(const Scene& scene, Tile tile, std::size_t few_pairs) {
-  if (tile.count > few_pairs) return false;
-  std::size_t triangles = 0;
-  for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
-    for (const std::uint32_t object : scene.pairs[i])
-      triangles += topology(*scene.meshes[scene.objects[object].mesh]).triangles.size();
-  return triangles <= kFewTriangles;
-}
-
 }  // namespace
 
 bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device) {
-  return options.few_pairs != 0 && !follows_paper(options) &&
+  return options.whole_steps && !follows_paper(options) &&
          options.launches == LaunchRule::kPredicted && (device.type & CL_DEVICE_TYPE_CPU) != 0;
 }
 
@@ -52,7 +39,7 @@ Workload::Workload(const ColliderOptions& options, const Device& device, AppendL
   misprediction_ = has_history ? options.misprediction : Misprediction::kRedo;
   // Of what whole steps do the lists have the contacts alone.
   ArrowCounts expected = report_.predicted;
-  if (has_shares()) {
+  if (is_whole_step()) {
     const History left = {pairs, has_history ? memory->history.appended : ArrowCounts{}};
     expected = predict(left, pairs, PredictionRule::kPlain, options.confidence);
     at(expected, Arrow::kContacts) = report_.predicted[static_cast<std::size_t>(Arrow::kContacts)];
@@ -183,17 +170,9 @@ Launch Workload::launch(Arrow list) const {
   return launch(items);
 }
 
-bool Workload::is_whole_step() const { return has_shares() || is_few(); }
-
 bool Workload::expects_left() const { return memory_ != nullptr && memory_->history.left != 0; }
 
-Launch Workload::launch_shares() const {
-  return {std::min<std::size_t>(std::max<std::size_t>(lists_.shares(), 1), tile_.tile.count), 1};
-}
-
-bool Workload::is_few() const {
-  return may_run_whole(options_, device_) && is_small(scene_, tile_.tile, options_.few_pairs);
-}
+Launch Workload::launch_shares() const { return {std::min(lists_.shares(), tile_.tile.count), 1}; }
 
 void Workload::settle_launches() {
   if (options_.launches == LaunchRule::kExact) lists_.count();

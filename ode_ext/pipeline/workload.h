@@ -17,8 +17,8 @@
 
 namespace ode_ext {
 
-// Whether few pairs of small meshes are collided by one launch (kernels/whole_step.cl): on a
-// processor, where the lists are what the product's are.
+// Whether pairs are taken through all steps one by one (kernels/whole_step.cl): on a processor,
+// where the lists are what the product's are.
 bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device);
 
 // Of one step. What it finds out is noted in `memory`, if there is one, and in `report`.
@@ -49,10 +49,8 @@ class Workload {
   Launch launch_queue(std::uint64_t items) const;
   // Of one that takes a list.
   Launch launch(Arrow list) const;
-  // Whether the tile is so small that one work-item does all of it sooner than its kernels are
-  // launched (kernels/whole_step.cl).
-  bool is_few() const;
-  bool is_whole_step() const;
+  // Whether each pair is taken through all steps at once, as far as it fits (kernels/whole_step.cl).
+  bool is_whole_step() const { return lists_.shares() != 0; }
   // Of that: a work-item for each share of the lists.
   Launch launch_shares() const;
   // Whether some pairs will not fit into a share, as in the last step.
@@ -72,7 +70,6 @@ class Workload {
   // Records may be lost, as the paper has it.
   bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
   ArrowCounts stored() const;
-  bool has_shares() const { return lists_.shares() != 0; }
   void reserve(const ArrowCounts& counts);
   bool remembers() const { return memory_ != nullptr && memory_->temporal != nullptr; }
 

@@ -45,14 +45,6 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
 
 TEST(ApiParams, InitIgnoresNull) { dBatchColliderParamsInit(nullptr); }
 
-TEST(ApiCreate, RefusesContactsThatThereAreNot) {
-  setenv("ODE_EXT_CONTACTS", "plane", 1);
-  const dBatchColliderID collider = dBatchColliderCreate(nullptr);
-  unsetenv("ODE_EXT_CONTACTS");
-  EXPECT_EQ(collider, nullptr);
-  EXPECT_THAT(dBatchColliderGetLastErrorMessage(), HasSubstr("ODE_EXT_CONTACTS is 'plane'"));
-}
-
 TEST(ApiCreate, TakesNullForDefaults) {
   OdeWorld world;
   const dBatchColliderID collider = dBatchColliderCreate(nullptr);

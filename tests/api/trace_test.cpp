@@ -47,7 +47,7 @@ TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
   for (const char* name :
        {"pass", "gather", "meshes", "device", "export", "pair_step", "vertex_step",
         "iterative_rays", "bvh_rays", "basic_rays", "monolithic", "cull", "match", "cross", "flood",
-        "edge_contacts", "contact_step", "deform_step", "whole_step"})
+        "assembly", "contact_step", "deform_step", "whole_step"})
     EXPECT_EQ(count(text.str(), std::string("\"name\":\"") + name + "\""), 2) << name;
   EXPECT_EQ(text.str().substr(0, 2), "[\n");
   EXPECT_EQ(text.str().substr(text.str().size() - 3), "\n]\n");

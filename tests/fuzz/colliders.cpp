@@ -21,10 +21,10 @@ Collider make_kept(std::size_t index) {
       params.initial_capacity = 1;
       params.confidence = 0.01;
       break;
-    case 2:  // looks at every vertex
+    case 2:  // looks at every vertex, so its contacts are others
       params.rays = dBatchRaysIterative;
       params.organisation = dBatchOrganisationMonolithic;
-      collider.floods = false;
+      collider.alike = false;
       params.deformable_target = dBatchDeformableBasic;
       params.work_group_size = kGroupSizes[1];
       break;

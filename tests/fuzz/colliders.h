@@ -15,10 +15,8 @@ namespace ode_ext::fuzz {
 struct Collider {
   dBatchColliderID id = nullptr;
   bool complete = true;  // it promises to overlook nothing, and to notice every change
-  // The answers of all these are the same, byte for byte; for what is not solid, of those that find
-  // vertices inside in the same way.
+  // The answers of all these are the same, byte for byte.
   bool alike = true;
-  bool floods = true;
 };
 
 class Colliders {

@@ -170,8 +170,7 @@ void Judge::compare(Geom& a, Geom& b, const Contacts& contacts, int limit, const
   for (std::size_t i = 0; i < Colliders::kKept; ++i) {
     const Collider& other = colliders_.kept(i);
     if (!other.alike || other.id == by.id) continue;
-    const bool solids = a.mesh->decoded.solid && b.mesh->decoded.solid;
-    if ((other.floods != by.floods && !solids) || ++compared_ > kMostCompared) continue;
+    if (++compared_ > kMostCompared) continue;
     const dGeomID pair[] = {a.id, b.id};
     Contacts others(static_cast<std::size_t>(limit));
     int count = 0;

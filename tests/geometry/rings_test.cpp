@@ -78,7 +78,7 @@ TEST(Rings, NameTheEdgeToEachNeighbour) {
     for (std::uint32_t k = mesh.rings.starts[v]; k < mesh.rings.starts[v + 1]; ++k) {
       const RingNeighbour& neighbour = mesh.rings.neighbours[k];
       const auto& ends = edges.at(neighbour.edge).vertices;
-      EXPECT_EQ(ends, (std::array{std::min(v, neighbour.vertex), std::max(v, neighbour.vertex)}));
+      EXPECT_EQ(std::minmax(ends[0], ends[1]), std::minmax(v, neighbour.vertex));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "contacts/types.h"
 #include "device/error.h"
 
 namespace ode_ext {
@@ -31,14 +32,33 @@ TEST(AppendLists, GrowByAQuarterMoreThanAsked) {
   EXPECT_GE(lists.tasks().capacity(), 3750 * sizeof(ox_chunk_task));
   EXPECT_GE(lists.rays().capacity(), 3750 * sizeof(ox_ray));
   EXPECT_GE(lists.hits().capacity(), 1250 * sizeof(ox_hit));
-  EXPECT_GE(lists.candidates().capacity(), 1250 * sizeof(ox_candidate));
   EXPECT_GE(lists.contacts().capacity(), 1250 * sizeof(ox_contact));
+}
+
+// Every crossing and every hit is one, and may be a region and a contact of its own.
+TEST(AppendLists, HaveRoomForTheFeaturesOfAllCrossingsAndHits) {
+  Device device("");
+  AppendLists lists(device);
+  ArrowCounts counts{};
+  counts[OX_LIST_CROSSINGS] = 4000;
+  counts[OX_LIST_HITS] = 8000;
+  lists.reserve(counts);
+  EXPECT_GE(lists.features().capacity(), 15000 * sizeof(ox_feature));
+  EXPECT_GE(lists.regions().capacity(), 15000 * sizeof(ox_region));
+  EXPECT_GE(lists.members().capacity(), 15000 * OX_MEMBER_WORDS * sizeof(ox_f32));
+  EXPECT_GE(lists.candidates().capacity(), 15000 * OX_CANDIDATE_WORDS * sizeof(ox_f32));
+  EXPECT_GE(lists.feature_slots().capacity(), OX_SLOTS_PER_FEATURE * 15000 * sizeof(ox_u32));
+  EXPECT_GE(lists.faces().capacity(), OX_FACES_PER_FEATURE * 15000 * sizeof(ox_face));
+  EXPECT_GE(lists.planes().capacity(),
+            OX_PLANES_PER_FEATURE * 15000 * OX_PLANE_WORDS * sizeof(ox_f32));
+  EXPECT_GE(lists.feature_parents().capacity(), 15000 * sizeof(ox_u32));
+  EXPECT_GE(lists.edge_planes().capacity(), 2 * 15000 * sizeof(ox_u32));
 }
 
 TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   Device device("");
   AppendLists lists(device);
-  lists.reserve({4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44});
+  lists.reserve({4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48});
   EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
   EXPECT_EQ(lists.first(Arrow::kChunks), 5u);
   EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
@@ -49,6 +69,7 @@ TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   EXPECT_EQ(lists.first(Arrow::kMeshletPairs), 0u);
   EXPECT_EQ(lists.first(Arrow::kHits), 0u);
   EXPECT_EQ(lists.first(Arrow::kCrossings), 0u);
+  EXPECT_EQ(lists.first(Arrow::kFloodWords), 0u);
   EXPECT_EQ(lists.first(Arrow::kContacts), 0u);
 }
 
@@ -112,6 +133,9 @@ TEST(AppendLists, GiveBackWhatNobodyUsedForLong) {
   for (int i = 0; i < 256; ++i) lists.note_use(all(1000), true);
   EXPECT_EQ(lists.capacities(), all(0));
   EXPECT_EQ(lists.candidates().capacity(), 0u);
+  EXPECT_EQ(lists.features().capacity(), 0u);
+  EXPECT_EQ(lists.faces().capacity(), 0u);
+  EXPECT_EQ(lists.planes().capacity(), 0u);
   lists.reserve(all(1000));
   for (int i = 0; i < 1000; ++i) lists.note_use(all(1), true);
   EXPECT_EQ(lists.capacities(), all(1250)) << "so little is not worth growing again";

@@ -70,45 +70,5 @@ TEST(AppendOrder, ChangesNoByteOfTheContactsOfWhatIsAligned) {
   expect_the_same_for_every_launch(aligned_scene(2000));
 }
 
-ox_candidate candidate(ox_u32 kind, ox_u32 vertex, Point position, float depth, Point normal) {
-  ox_candidate c{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    c.position[k] = static_cast<float>(position[k]);
-    c.normal[k] = static_cast<float>(normal[k]);
-  }
-  c.depth = c.t = depth;
-  c.side_kind = kind;
-  c.vertex = vertex;
-  c.patch = c.region = OX_NONE;
-  c.distance2 = INFINITY;
-  return c;
-}
-
-// Two points in one place and of the same triangles, as where several edges of two bodies at rest
-// meet, one deeper than the other: the farthest of a patch in several directions.
-TEST(AppendOrder, OfHitsDoesNotDecideBetweenPointsOfOneKey) {
-  const TestMesh ball = make_icosphere(1, 2);
-  const TestScene scene = one_pair(ball, at(0, 0, 0), ball, at(0, 0, 1.9));
-  Random random(92);
-  std::vector<ox_candidate> hits;
-  for (ox_u32 i = 0; i < 40; ++i)
-    hits.push_back(candidate(OX_HIT_INSIDE, i, {random.uniform(-1, 1), random.uniform(-1, 1), 0},
-                             static_cast<float>(random.uniform(0, 0.1)), {0, 0, 1}));
-  std::vector<std::vector<Words>> expected;
-  for (int order = 0; order < 50; ++order) {
-    for (std::size_t i = hits.size(); i > 1; --i)
-      std::swap(hits[i - 1], hits[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
-    std::vector<ox_candidate> candidates = hits;
-    for (const float depth : {0.03f, 0.05f, 0.01f, 0.04f})
-      candidates.push_back(candidate(OX_HIT_INSIDE | OX_HIT_POINT, 7, {3, 3, 0}, depth,
-                                     {depth, 0, std::sqrt(1 - double{depth} * depth)}));
-    const auto found = contacts_of(Rig::shared().run_reduction(scene.scene, candidates));
-    ASSERT_EQ(found.size(), 1u);
-    EXPECT_GT(found[0].size(), 4u);
-    if (order == 0) expected = found;
-    EXPECT_EQ(found, expected) << "order " << order;
-  }
-}
-
 }  // namespace
 }  // namespace ode_ext::test

@@ -28,20 +28,15 @@ struct Curves {
 
 // The steps up to the crossings, with room for all that there may be in these tests.
 Curves find_curves(const TestScene& scene) {
-  Scene by_place = scene.scene;
-  by_place.meshes.clear();
-  for (const TestMesh& mesh : scene.meshes)
-    by_place.meshes.push_back(
-        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.edges_by_place = true})));
+  const auto& meshes = scene.scene.meshes;
   Device device("");
-  Program program(device, "-DOX_PLANES");
-  Steps steps(program, false, false);
+  Program program(device, "");
+  Steps steps(program, false);
   StepData data(program);
   data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
-  data.meshes.set(by_place.meshes);
-  data.pairs.upload_objects(by_place);
-  data.pairs.upload_pairs(by_place, {0, by_place.pairs.size()});
-  data.lists.keep_features();
+  data.meshes.set(meshes);
+  data.pairs.upload_objects(scene.scene);
+  data.pairs.upload_pairs(scene.scene, {0, scene.pairs.size()});
   ArrowCounts room{};
   room.fill(1u << 18);
   data.lists.reserve(room);
@@ -57,17 +52,15 @@ Curves find_curves(const TestScene& scene) {
     for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = data.lists.counted(i);
     return counts;
   }()));
-  // A crossing begins with the same words whether or not its program has OX_PLANES.
   std::vector<ox_edge_crossing> crossings(data.lists.counted(std::size_t{OX_LIST_CROSSINGS}));
   data.lists.crossings().read(crossings.data(), crossings.size() * sizeof(ox_edge_crossing));
   std::size_t edge_count = 0;
-  for (const auto& mesh : by_place.meshes)
-    edge_count += mesh->edges.size() + mesh->flat_edges.size();
+  for (const auto& mesh : meshes) edge_count += mesh->edges.size() + mesh->flat_edges.size();
   std::vector<ox_edge> device_edges(edge_count);
   data.meshes.edges().read(device_edges.data(), edge_count * sizeof(ox_edge));
   device.finish();
   std::size_t triangle_count = 0;
-  for (const auto& mesh : by_place.meshes) triangle_count += mesh->triangles.size();
+  for (const auto& mesh : meshes) triangle_count += mesh->triangles.size();
   std::vector<ox_u32> facets(triangle_count);
   data.meshes.facets().read(facets.data(), triangle_count * sizeof(ox_u32));
   device.finish();

@@ -5,18 +5,27 @@
 #include <set>
 #include <stdexcept>
 
-#include "reference/reference_hits.h"
-
 namespace ode_ext::test {
+namespace {
+
+bool is_flat(const Mesh& mesh, std::uint32_t place, const ox_edge& edge) {
+  if (mesh.facets.empty() || edge.triangle[1] == OX_NONE) return false;
+  const auto facet = [&](std::size_t k) {
+    return mesh.facets.at(Rig::shared().local_triangle(place, edge.triangle[k]));
+  };
+  return facet(0) == facet(1);
+}
+
+}  // namespace
 
 std::map<CrossingKey, FoundCrossing> found_crossings(const TestScene& scene,
                                                      const StepRecords& records) {
   std::map<CrossingKey, FoundCrossing> found;
   for (const ox_edge_crossing& c : records.crossings) {
-    if (c.slot == OX_NONE) continue;
     const std::size_t pair = c.pair_side >> 1, side = c.pair_side & 1;
     const std::uint32_t source = scene.objects[scene.pairs[pair][side]].mesh;
     const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
+    if (is_flat(*scene.scene.meshes[source], source, records.edges.at(c.edge))) continue;
     const auto end = [&](std::size_t k) {
       const ox_u32 vertex = records.edges.at(c.edge).vertex[k];
       return point_of(
@@ -49,15 +58,14 @@ Comparison compare_crossings(const TestScene& scene, const std::vector<Reference
   std::set<CrossingKey> possible;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
-    const double tolerance =
-        rounding_bound(mesh_size(scene.mesh_of(i, 0)) + mesh_size(scene.mesh_of(i, 1)) +
-                       distance(pa.position, pb.position));
+    const double epsilon = pair_epsilon(scene, i);
+    // What rounds, and the grid, which is half an epsilon at most.
+    const double tolerance = 1.5 * epsilon;
     const auto surface = [&](std::size_t side) -> const ReferenceSurface& {
       return surfaces[scene.objects[scene.pairs[i][side]].mesh];
     };
-    for (const ReferenceCrossing& expected : reference_crossings(
-             surface(0), pa, surface(1), pb,
-             comparison_tolerance(scene.mesh_of(i, 0), pa, scene.mesh_of(i, 1), pb))) {
+    for (const ReferenceCrossing& expected :
+         reference_crossings(surface(0), pa, surface(1), pb, tolerance, kInflation * epsilon)) {
       const CrossingKey key{i, expected.side, expected.from, expected.to, expected.triangle};
       possible.insert(key);
       ++(expected.ambiguous ? comparison.ambiguous : comparison.certain);

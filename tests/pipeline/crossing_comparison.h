@@ -22,7 +22,7 @@ struct FoundCrossing {
   bool leaves;
 };
 
-// Of contacts: those within facets, which the flood alone needs, are left out. Throws
+// Those within facets, which are there for the flood alone, are left out. Throws
 // std::runtime_error where one edge crosses one triangle twice.
 std::map<CrossingKey, FoundCrossing> found_crossings(const TestScene& scene,
                                                      const StepRecords& records);

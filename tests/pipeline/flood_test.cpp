@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which vertices are inside follows from where edges cross: the contacts are those that rays of all
-// vertices give, for a fraction of the rays. The other way to them, iterative rays, looks at every
-// vertex in the other's box.
+// Which vertices are inside follows from where edges cross. Inside closed meshes they are those
+// that solid angles say; behind open ones those that rays of all vertices find, for a fraction of
+// the rays.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include "pipeline/collider.h"
+#include "pipeline/inside_oracle.h"
 #include "pipeline/moving_scene.h"
 
 namespace ode_ext::test {
@@ -15,18 +19,8 @@ namespace {
 
 ColliderOptions flooded() {
   ColliderOptions options;
-  options.few_pairs = 0;  // the kernel by itself
+  options.whole_steps = false;  // the kernel by itself
   return options;
-}
-
-ColliderOptions of_every_vertex() {
-  ColliderOptions options;
-  options.rays = Rays::kIterative;  // without memory of the last step: each ray in full
-  return options;
-}
-
-std::uint64_t rays(const Collider& collider) {
-  return collider.report().actual[static_cast<std::size_t>(Arrow::kRays)];
 }
 
 std::uint64_t hits(const Collider& collider) {
@@ -35,29 +29,54 @@ std::uint64_t hits(const Collider& collider) {
 
 class Flood : public testing::Test {
  protected:
-  void collide(const Scene& scene) {  // both ways
-    const auto expected = bits_of(all_.collide(scene, nullptr));
-    EXPECT_EQ(bits_of(flood_.collide(scene, nullptr)), expected);
-    rays_ += rays(flood_);
-    rays_of_all_ += rays(all_);
-    hits_ += hits(flood_);
+  void find(const Scene& scene) {
+    Rig& rig = Rig::shared();
+    const StepRecords all = rig.run(scene);
+    records_ = rig.run_with_edges(scene, Organisation::kPipelined, {8, 64}, true);
+    for (const std::string& difference : oracles_.differences(scene, records_))
+      ADD_FAILURE() << difference;
+    EXPECT_EQ(behind_open(scene, records_), behind_open(scene, all));
+    rays_ += records_.rays.size();
+    rays_of_all_ += all.rays.size();
+    hits_ += records_.hits.size();
+    chunks_ += records_.tasks.size();
   }
 
-  Collider all_{of_every_vertex()}, flood_{flooded()};
-  std::uint64_t rays_ = 0, rays_of_all_ = 0, hits_ = 0;
+  // Of vertices that are not near the surface: their ray's triangle and depth too.
+  std::set<std::tuple<ox_u32, ox_u32, ox_u32, ox_f32>> behind_open(const Scene& scene,
+                                                                   const StepRecords& records) {
+    std::set<std::tuple<ox_u32, ox_u32, ox_u32, ox_f32>> found;
+    for (const ox_hit& h : records.hits) {
+      const auto& target =
+          oracles_.of(scene.meshes[InsideOracles::mesh_of(scene, h.pair_side ^ 1)]);
+      if (target.closed()) continue;
+      const std::uint32_t source = InsideOracles::mesh_of(scene, h.pair_side);
+      const Vec3f vertex =
+          scene.meshes[source]->vertices[Rig::shared().local_vertex(source, h.vertex)];
+      const double doubt = kDoubt * static_cast<double>(records.pairs[h.pair_side >> 1].epsilon);
+      if (target.is_near(InsideOracles::in_target(scene, h.pair_side, vertex), doubt)) continue;
+      found.emplace(h.pair_side, h.vertex, h.triangle, h.depth);
+    }
+    return found;
+  }
+
+  InsideOracles oracles_;
+  StepRecords records_;  // of the last scene
+  Collider flood_{flooded()};
+  std::uint64_t rays_ = 0, rays_of_all_ = 0, hits_ = 0, chunks_ = 0;
 };
 
 TEST_F(Flood, FindsTheVerticesInsideOfSmoothMeshes) {
   MovingScene moving(smooth_meshes(), 40, 0.01, 1);
-  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
-  EXPECT_GT(hits_, 10000u);
-  // What it casts meets something, but for what is near the surface.
-  EXPECT_LT(rays_, hits_ + hits_ / 20);
+  for (int i = 0; i < 4; ++i, moving.advance()) find(moving.scene());
+  EXPECT_GT(hits_, 4000u);
+  EXPECT_EQ(rays_, hits_) << "each of a vertex inside";
+  EXPECT_LT(100 * oracles_.near, hits_);
 }
 
 TEST_F(Flood, FindsTheVerticesInsideOfMeshesOfAllKinds) {
   MovingScene moving(small_closed_meshes(), 200, 0.02, 2);
-  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
+  for (int i = 0; i < 10; ++i, moving.advance()) find(moving.scene());
   EXPECT_GT(hits_, 3000u);
 }
 
@@ -66,7 +85,7 @@ TEST_F(Flood, RunsAcrossFlatFaces) {
   const std::vector<TestMesh> meshes = {make_cube(1, 8), make_plate(1.5, 0.2, 9),
                                         make_box({0.5, 0.7, 1.2}, 3, 7, 11)};
   MovingScene moving(meshes, 60, 0.02, 3);
-  for (int i = 0; i < 10; ++i, moving.advance()) collide(moving.scene());
+  for (int i = 0; i < 10; ++i, moving.advance()) find(moving.scene());
   EXPECT_GT(hits_, 3000u);
 }
 
@@ -75,7 +94,7 @@ TEST_F(Flood, FindsMeshesThatAreWhollyInside) {
     const TestScene scene = one_pair(make_icosphere(1, 3), at(0, 0, 0), make_icosphere(0.3, 2),
                                      turned({1, 2, 3}, 0.4, place));
     hits_ = 0;
-    collide(scene.scene);
+    find(scene.scene);
     EXPECT_EQ(hits_, place[0] < 1 ? 162u : 0u);
   }
 }
@@ -86,7 +105,7 @@ TEST_F(Flood, FindsPartsOfAMeshThatAreWhollyInside) {
   const TestMesh parts =
       merged(merged(moved(ball, {2, 0, 0}), moved(ball, {1, 0, 0})), moved(ball, {0.3, 0.2, 0}));
   const TestScene scene = one_pair(make_icosphere(1, 3), at(0, 0, 0), parts, at(0, 0, 0));
-  collide(scene.scene);
+  find(scene.scene);
   EXPECT_GT(hits_, 162u + 50u);
   EXPECT_LT(hits_, 2 * 162u);
 }
@@ -101,7 +120,7 @@ TEST_F(Flood, FindsAMeshWhoseFacesAloneCross) {
   ball.vertices[3 * top + 2] = 0.4f;
   const TestScene scene =
       one_pair(ball, at(0, 0, 0), make_cube(1), turned({0, 0, 1}, 0.3, {0.07, 0.03, 0}));
-  collide(scene.scene);
+  find(scene.scene);
   EXPECT_GE(hits_, 8u);
 }
 
@@ -110,7 +129,7 @@ TEST_F(Flood, FindsTheVerticesInsideOfSolidsThatCutThemselves) {
   for (int i = 0; i < 6; ++i) {
     const TestScene scene =
         one_pair(crossed, at(0, 0, 0), make_icosphere(0.6, 3), at(0.2 * i, 0.7, 0.1));
-    collide(scene.scene);
+    find(scene.scene);
   }
   EXPECT_GT(hits_, 300u);
 }
@@ -121,8 +140,8 @@ TEST_F(Flood, FindsWhatIsWhollyInsideOfSolidsThatCutThemselves) {
   for (const Point& place : {Point{-0.2, -0.1, -0.2}, Point{0.7, 0.3, 0.3}, Point{0.25, 0.1, 0}}) {
     const TestScene scene =
         one_pair(crossed, at(0, 0, 0), make_icosphere(0.05, 2), at(place[0], place[1], place[2]));
-    collide(scene.scene);
-    EXPECT_FALSE(flood_.collide(scene.scene, nullptr).contacts.empty());
+    find(scene.scene);
+    EXPECT_FALSE(records_.contacts.empty());
   }
 }
 
@@ -132,7 +151,7 @@ TEST_F(Flood, FindsBothEndsOfWhatLiesAcrossAWallInside) {
   TestMesh bar = make_box({0.8, 0.1, 0.1}, 8, 2, 2);
   const TestScene scene =
       one_pair(crossed, at(0, 0, 0), bar, turned({0, 0, 1}, 0.1, {0.2, 0.05, 0.02}));
-  collide(scene.scene);
+  find(scene.scene);
   // All of its vertices are inside, and have a ray.
   const std::size_t vertices = scene.scene.meshes[1]->vertices.size();
   EXPECT_EQ(rays_, vertices);
@@ -156,7 +175,7 @@ TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
       scene.add_pair(static_cast<std::uint32_t>(random.below(3)), a, 3, TestPose{});
     }
     hits_ = 0;
-    collide(scene.scene);
+    find(scene.scene);
     EXPECT_GT(hits_, 100u) << offset;
   }
 }
@@ -182,7 +201,7 @@ TEST_F(Flood, FindsTheVerticesBehindOpenMeshes) {
     body.position = {random.uniform(-3.5, 3.5), random.uniform(-3.5, 3.5),
                      random.uniform(-0.4, 0.7)};
     const TestScene scene = one_pair(bodies[i % 4], body, hills(false), TestPose{});
-    collide(scene.scene);
+    find(scene.scene);
   }
   EXPECT_GT(hits_, 1000u);
   EXPECT_LT(rays_, rays_of_all_ / 2);
@@ -191,14 +210,12 @@ TEST_F(Flood, FindsTheVerticesBehindOpenMeshes) {
 // There, over edges that do not cross, what is behind the surface leads to what is before it.
 TEST_F(Flood, LeavesVerticesToTheVertexStepWhereItGetsRoundABorder) {
   const TestMesh ball = jittered(make_icosphere(0.4, 3), 0.002, 1);
-  std::uint64_t tasks = 0;
   for (int i = 0; i < 8; ++i) {
     const TestScene scene = one_pair(ball, at(4, -3 + 0.8 * i, 0.05), hills(false), TestPose{});
-    collide(scene.scene);
-    tasks += flood_.report().actual[static_cast<std::size_t>(Arrow::kChunks)];
+    find(scene.scene);
   }
   EXPECT_GT(hits_, 500u);
-  EXPECT_GT(tasks, 100u);
+  EXPECT_GT(chunks_, 100u);
 }
 
 // Vertices on either side of what pierces the face between them: rays of all would find some behind
@@ -217,7 +234,7 @@ TEST_F(Flood, FindsWhatIsBehindOpenGroundFromVerticesThatLieOnIt) {
   for (const double z : {0.0, 1e-8}) {
     TestMesh body = make_box({0.5, 0.5, 0.5}, 4, 4, 4);
     const TestScene scene = one_pair(body, at(0.03, 0.02, z), make_sheet(4, 3), TestPose{});
-    collide(scene.scene);
+    find(scene.scene);
   }
   EXPECT_GT(hits_, 20u);
 }
@@ -229,15 +246,14 @@ TEST_F(Flood, CastsNoRayFromABodyJustAboveHills) {
         one_pair(jittered(make_icosphere(0.1, 3), 0.001, 1),
                  at(-std::numbers::pi / 3, 0, (closed ? 0.5 : 0) - 0.2 + 0.12 + 0.1), hills(closed),
                  TestPose{});
-    collide(scene.scene);
-    EXPECT_EQ(flood_.report().pairs_bounded, 1u);
+    find(scene.scene);
+    EXPECT_EQ(records_.bounded, 1u);
     EXPECT_EQ(rays_, 0u);
     EXPECT_GT(rays_of_all_, 0u);
     // Of the 1,280 triangles of the body, none reaches down as far as the hills below it do up.
-    const ArrowCounts& counts = flood_.report().actual;
-    EXPECT_LT(counts[static_cast<std::size_t>(Arrow::kMeshlets)], 200u);
-    EXPECT_LT(counts[static_cast<std::size_t>(Arrow::kMeshletPairs)], 200u);
-    EXPECT_EQ(counts[static_cast<std::size_t>(Arrow::kCrossings)], 0u);
+    EXPECT_LT(records_.meshlet_tasks.size(), 200u);
+    EXPECT_LT(records_.meshlet_pairs.size(), 200u);
+    EXPECT_TRUE(records_.crossings.empty());
   }
 }
 
@@ -267,19 +283,15 @@ TEST_F(Flood, GrowsWhatItNeedsRoomForAtABorder) {
   EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kChunks)], 20u);
 }
 
-TEST_F(Flood, FindsWhatBasicRaysAtADeformableTargetFind) {
-  ColliderOptions basic = flooded();
-  basic.deformable_target = DeformableTarget::kBasic;
-  Collider collider(basic);
+TEST_F(Flood, FindsTheVerticesInsideOfADeformableMesh) {
   Scene scene;
   scene.meshes = {std::make_shared<const Mesh>(
                       build_mesh(soup_of(make_icosphere(0.6, 2)), {.deformable = true})),
                   std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(1, 4))))};
   scene.objects = {{Pose{}, 0, 1}, {Pose{{0.1, 0.2, 0.8}}, 1, 2}};
   scene.pairs = {{0, 1}};
-  EXPECT_EQ(bits_of(collider.collide(scene, nullptr)), bits_of(flood_.collide(scene, nullptr)));
-  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kRaysBasic)], 0u);
-  EXPECT_GT(hits(collider), 5u);
+  find(scene);
+  EXPECT_GT(hits_, 5u);
 }
 
 TEST_F(Flood, IsTheSameInGroupsOfAnySize) {

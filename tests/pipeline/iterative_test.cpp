@@ -14,6 +14,7 @@ using Bits = std::vector<std::vector<ContactBits>>;
 ColliderOptions with_rays(Rays rays) {
   ColliderOptions options;
   options.rays = rays;
+  options.count_work = rays == Rays::kFull;  // all of them list vertices by their own rays
   return options;
 }
 

@@ -19,7 +19,7 @@ ColliderOptions small_options() {
   ColliderOptions options;
   options.work_group_size = 16;
   options.initial_capacity = 256;
-  options.few_pairs = 0;  // every kernel by itself
+  options.whole_steps = false;  // every kernel by itself
   return options;
 }
 
@@ -49,20 +49,12 @@ TEST(OclgrindPipeline, CollidesClosedMeshes) {
 
 TEST(OclgrindPipeline, CollidesClosedMeshesByPlanes) {
   TestScene scene;
-  const auto add = [&](const TestMesh& mesh) {
-    scene.scene.meshes.push_back(
-        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.edges_by_place = true})));
-    scene.meshes.push_back(mesh);
-    return static_cast<std::uint32_t>(scene.meshes.size() - 1);
-  };
-  const std::uint32_t cube = add(make_cube(1));
-  const std::uint32_t torus = add(make_torus(0.5, 0.2, 8, 6));
+  const std::uint32_t cube = scene.add_mesh(make_cube(1));
+  const std::uint32_t torus = scene.add_mesh(make_torus(0.5, 0.2, 8, 6));
   scene.add_pair(cube, turned({1, 2, 3}, 0.1, {0.2, 0.1, 0.9}), cube, at(0, 0, 0));
   scene.add_pair(torus, turned({1, 0, 0}, 0.7), cube, at(0.5, 0, 0.6));
   scene.add_pair(cube, at(3, 3, 3), cube, at(0, 0, 0));  // apart
-  ColliderOptions options = small_options();
-  options.planes = true;
-  Collider collider(options);
+  Collider collider(small_options());
   const auto found = counts(collider, scene);
   EXPECT_GT(found[0], 0u);
   EXPECT_GT(found[1], 1u);
@@ -95,7 +87,7 @@ TEST(OclgrindPipeline, CollidesTheSameInOneLaunch) {
   const auto expected = bits_of(stepwise.collide(scene.scene, nullptr));
   EXPECT_FALSE(expected[0].empty());
   ColliderOptions options = small_options();
-  options.few_pairs = 2;
+  options.whole_steps = true;
   Collider collider(options);
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
   EXPECT_EQ(collider.report().ms[static_cast<std::size_t>(Stage::kWholeStep)] > 0,
@@ -143,8 +135,8 @@ TEST(OclgrindPipeline, DecidesGrazingRaysAndTouches) {
   EXPECT_GT(found[3], 0u);
 }
 
-// Edges against edges, and whatever else crossings lead to (edge_contact.cl): regions with and
-// without a contact of a vertex, in closed and open targets, several in a pair, thin parts deep in
+// Edges against edges, and whatever else crossings lead to (contacts/choose.cl): regions with and
+// without a vertex inside, in closed and open targets, several in a pair, thin parts deep in
 // the target, all of a mesh inside, and surfaces that touch.
 TEST(OclgrindPipeline, FindsContactsOfEdges) {
   const double right = 1.5707963267948966;

@@ -79,8 +79,8 @@ TEST(PairStep, DropsExactlyThePairsWhoseBoxesAreApart) {
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const StepRecords records = Rig::shared().run_pair_step(single(scene, i).scene);
     const double gap = gap_of_pair(scene, i);
-    const double epsilon = static_cast<double>(records.pairs[0].epsilon);
-    if (gap > 2 * epsilon) {
+    const double margin = static_cast<double>(records.pairs[0].margin);
+    if (gap > 2 * margin) {
       ++apart;
       EXPECT_EQ(records.bounded, 0u) << "pair " << i << ", gap " << gap;
       EXPECT_TRUE(records.tasks.empty());
@@ -162,7 +162,7 @@ double longest_exit(const Mesh& mesh, const VertexChunk& chunk) {
 Tasks tasks_of(const TestScene& scene, const std::vector<ox_pair>& pairs) {
   Tasks tasks;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const double epsilon = static_cast<double>(pairs[i].epsilon);
+    const double margin = static_cast<double>(pairs[i].margin);
     const double gap = gap_of_pair(scene, i);
     for (std::uint32_t side = 0; side < 2; ++side) {
       const Mesh& source = scene.built_mesh_of(i, side);
@@ -175,7 +175,7 @@ Tasks tasks_of(const TestScene& scene, const std::vector<ox_pair>& pairs) {
         double apart = -INFINITY;  // along the axes of the target only
         for (const Point& axis : whole.axes) apart = std::max(apart, gap_along(box, whole, axis));
         if (!target.closed) apart -= longest_exit(source, chunk);  // its rays reach beyond it
-        if (gap < 2 * epsilon && apart < 2 * epsilon) tasks.possible.insert({i, side, k});
+        if (gap < 2 * margin && apart < 2 * margin) tasks.possible.insert({i, side, k});
         if (gap < 0 && apart < 0 &&
             (target.closed ? has_vertex_inside(scene, i, side, chunk)
                            : has_ray_that_meets(scene, i, side, chunk)))
@@ -223,7 +223,10 @@ TEST(PairStep, ClearsTheCountsOfEveryPair) {
   Rig::shared().run(scene.scene);
   const StepRecords records = Rig::shared().run_pair_step(scene.scene);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    EXPECT_EQ(records.found[i].hits, 0u);
+    EXPECT_EQ(records.found[i].features, 0u);
+    EXPECT_EQ(records.found[i].placed, 0u);
+    EXPECT_EQ(records.found[i].candidates, 0u);
+    for (const ox_u32 head : records.found[i].head) EXPECT_EQ(head, OX_NONE);
     EXPECT_EQ(records.ranges[i].count, 0u);
   }
 }

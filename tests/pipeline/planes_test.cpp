@@ -17,26 +17,10 @@
 namespace ode_ext::test {
 namespace {
 
-ColliderOptions planes() {
-  ColliderOptions options;
-  options.planes = true;
-  return options;
-}
-
-// The meshes of a scene with edges as these contacts want them.
-Scene for_planes(const TestScene& scene) {
-  Scene result = scene.scene;
-  result.meshes.clear();
-  for (const TestMesh& mesh : scene.meshes)
-    result.meshes.push_back(
-        std::make_shared<const Mesh>(build_mesh(soup_of(mesh), {.edges_by_place = true})));
-  return result;
-}
-
 std::vector<Contact> contacts_of(const TestScene& scene) {
   // One for all: building the kernels takes a second. Never destroyed: the driver may be gone.
-  static Collider* const collider = new Collider(planes());
-  return collider->collide(for_planes(scene), nullptr).contacts;
+  static Collider* const collider = new Collider({});
+  return collider->collide(scene.scene, nullptr).contacts;
 }
 
 // [m] the deepest of those that push up, or aside.
@@ -177,32 +161,31 @@ TEST(SeparatingPlanes, AreAsDeepAsThoseOfTheReference) {
 
 TEST(SeparatingPlanes, AreTheSameBytesWhateverTheLaunchAndTheCompany) {
   const TestScene scene = random_scene(200, 61);
-  const Scene meshes = for_planes(scene);
   const auto bits = [&](const ColliderOptions& options) {
     Collider collider(options);
-    return bits_of(collider.collide(meshes, nullptr));
+    return bits_of(collider.collide(scene.scene, nullptr));
   };
-  const auto expected = bits(planes());
+  const auto expected = bits({});
   std::size_t colliding = 0;
   for (const auto& pair : expected) colliding += !pair.empty();
   EXPECT_GT(colliding, 50u);
   for (const std::uint32_t size : {1u, 32u, 256u}) {
-    ColliderOptions options = planes();
+    ColliderOptions options;
     options.work_group_size = size;
     EXPECT_EQ(bits(options), expected) << size;
   }
   for (const std::uint32_t width : {1u, 4u, 8u, 16u}) {
-    ColliderOptions options = planes();
+    ColliderOptions options;
     options.vector_width = width;
     EXPECT_EQ(bits(options), expected) << width;
   }
-  ColliderOptions exact = planes();
+  ColliderOptions exact;
   exact.launches = LaunchRule::kExact;
   EXPECT_EQ(bits(exact), expected);
-  Collider alone(planes());
+  Collider alone({});
   for (std::size_t i = 0; i < scene.pairs.size(); i += 7) {
-    Scene pair = meshes;
-    pair.pairs = {meshes.pairs[i]};
+    Scene pair = scene.scene;
+    pair.pairs = {scene.scene.pairs[i]};
     EXPECT_EQ(bits_of(alone.collide(pair, nullptr)).front(), expected[i]) << i;
   }
 }

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reduction of contact_step.cl, plainly: on a sorted list, one candidate after the other. And
-// how near each decision was to going the other way.
+// The reduction of contacts/reduce.cl, plainly: one rule after the other on a sorted list. And how
+// near each decision was to going the other way.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
+#include <set>
+#include <tuple>
 #include <vector>
 
 #include "geometry/vec.h"
-#include "shared/types.h"
+#include "pipeline/field_records.h"
 
 namespace ode_ext::test {
 
+// Deeper first; of equally deep ones by where they are and what they are of.
+inline auto reduction_key(const Candidate& c) {
+  return std::tuple(-c.depth, c.position[0], c.position[1], c.position[2], c.side_kind, c.vertex,
+                    c.triangle, c.normal[0], c.normal[1], c.normal[2]);
+}
+
 struct Reduction {
-  std::vector<std::size_t> taken;  // into the candidates, in order
+  std::vector<Candidate> taken;  // in order
   // The least by which a choice was made: of depths and distances in multiples of `size`, of the
   // cosines between normals as they are.
   double margin = std::numeric_limits<double>::infinity();
@@ -23,127 +31,94 @@ struct Reduction {
 
 class ReferenceReduce {
  public:
-  // Candidates sorted by (side, position, vertex); `merge` [m]: what is nearer to another adds
-  // nothing.
-  ReferenceReduce(const std::vector<ox_candidate>& candidates, float merge, double size)
-      : candidates_(candidates),
-        merge2_(merge * merge),
-        size_(size),
-        patch_(candidates.size(), kNoPatch),
-        taken_(candidates.size(), false),
-        nearest2_(candidates.size(), std::numeric_limits<float>::infinity()) {}
+  // `merge` [m]: what is nearer to another adds nothing.
+  ReferenceReduce(std::vector<Candidate> candidates, float merge, double size)
+      : left_(std::move(candidates)), merge_(merge), size_(size) {
+    std::sort(left_.begin(), left_.end(), [](const Candidate& a, const Candidate& b) {
+      return reduction_key(a) < reduction_key(b);
+    });
+  }
 
   Reduction run(std::size_t limit) {
-    std::uint32_t best_kind = OX_HIT_TOUCHING;
-    for (std::size_t i = 0; i < candidates_.size(); ++i) best_kind = std::min(best_kind, kind(i));
-    deepest_of_each_patch(best_kind, limit);
-    farthest_apart(best_kind, limit);
-    if (best_kind == OX_HIT_INSIDE) deep_ones_on_their_own(limit);
+    while (result_.taken.size() < limit &&
+           (take_of_new_region() || take_of_new_manifold() || take_farthest())) {
+    }
     return result_;
   }
 
  private:
-  static constexpr int kNoPatch = -1;
-
-  std::uint32_t kind(std::size_t i) const { return candidates_[i].side_kind & OX_HIT_KIND; }
-  float depth(std::size_t i) const { return candidates_[i].depth; }
   static Vec3f vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-  float apart2(std::size_t i, std::size_t j) const {
-    const Vec3f d = vec(candidates_[i].position) - vec(candidates_[j].position);
+
+  // From a contact that is taken, across its normal if both face one way.
+  float apart2(const Candidate& c, const Candidate& taken) {
+    const Vec3f n = vec(taken.normal);
+    Vec3f d = vec(c.position) - vec(taken.position);
+    const float cosine = dot(n, vec(c.normal));
+    decided(static_cast<double>(cosine) - 0.9);
+    if (cosine > 0.9f) d = d - dot(d, n) * n;
     return dot(d, d);
   }
-
-  // The candidate of those that `may` for which `value` is greatest, the first of equals.
-  template <class May, class Value>
-  std::size_t greatest(May may, Value value) {
-    std::size_t best = candidates_.size();
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      if (may(i) && (best == candidates_.size() || value(i) > value(best))) best = i;
-    return best;
+  float nearest2(const Candidate& c) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Candidate& t : result_.taken) nearest = std::min(nearest, apart2(c, t));
+    return nearest;
+  }
+  bool is_apart(const Candidate& c) {
+    const float nearest = nearest2(c);
+    decided((std::sqrt(static_cast<double>(nearest)) - static_cast<double>(merge_)) / size_);
+    return nearest > merge_ * merge_;
   }
   void decided(double by) { result_.margin = std::min(result_.margin, std::fabs(by)); }
-  template <class May, class Value>
-  void note_runner_up(std::size_t best, May may, Value value) {
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-      if (i != best && may(i)) decided((value(best) - value(i)) / size_);
-  }
 
   void take(std::size_t i) {
-    taken_[i] = true;
-    result_.taken.push_back(i);
-    for (std::size_t k = 0; k < candidates_.size(); ++k)
-      if (patch_[k] == patch_[i]) nearest2_[k] = std::min(nearest2_[k], apart2(k, i));
+    regions_.insert(left_[i].region);
+    manifolds_.insert(left_[i].manifold);
+    result_.taken.push_back(left_[i]);
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 
-  void deepest_of_each_patch(std::uint32_t best_kind, std::size_t limit) {
-    const auto may = [&](std::size_t i) { return patch_[i] == kNoPatch && kind(i) == best_kind; };
-    const auto value = [&](std::size_t i) { return static_cast<double>(depth(i)); };
-    while (result_.taken.size() < limit) {
-      const std::size_t best = greatest(may, value);
-      if (best == candidates_.size()) return;
-      note_runner_up(best, may, value);
-      const Vec3f normal = vec(candidates_[best].normal);
-      const int patch = static_cast<int>(result_.taken.size());
-      for (std::size_t i = 0; i < candidates_.size(); ++i) {
-        if (patch_[i] != kNoPatch || i == best) continue;
-        const float cosine = dot(vec(candidates_[i].normal), normal);
-        decided(static_cast<double>(cosine) - 0.9);
-        if (cosine > 0.9f) patch_[i] = patch;
+  // The first of those that `may`.
+  template <class May>
+  bool take_first(May may) {
+    const auto first = std::find_if(left_.begin(), left_.end(), may);
+    if (first == left_.end()) return false;
+    const auto second = std::find_if(first + 1, left_.end(), may);
+    if (second != left_.end()) decided(static_cast<double>(first->depth - second->depth) / size_);
+    take(static_cast<std::size_t>(first - left_.begin()));
+    return true;
+  }
+  bool take_of_new_region() {
+    return take_first([&](const Candidate& c) { return !regions_.contains(c.region); });
+  }
+  bool take_of_new_manifold() {
+    return take_first(
+        [&](const Candidate& c) { return !manifolds_.contains(c.manifold) && is_apart(c); });
+  }
+  bool take_farthest() {
+    std::size_t best = left_.size();
+    float farthest = 0, next = 0;
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (!is_apart(left_[i])) continue;
+      const float nearest = nearest2(left_[i]);
+      if (nearest > farthest) {
+        next = farthest;
+        farthest = nearest;
+        best = i;
+      } else {
+        next = std::max(next, nearest);
       }
-      patch_[best] = patch;
-      take(best);
     }
+    if (best == left_.size()) return false;
+    decided((std::sqrt(static_cast<double>(farthest)) - std::sqrt(static_cast<double>(next))) /
+            size_);
+    take(best);
+    return true;
   }
 
-  void farthest_apart(std::uint32_t best_kind, std::size_t limit) {
-    const auto may = [&](std::size_t i) { return !taken_[i] && kind(i) == best_kind; };
-    while (result_.taken.size() < limit) {
-      // Of the farthest the deepest, of these the first.
-      const std::size_t farthest = greatest(may, [&](std::size_t i) { return nearest2_[i]; });
-      if (farthest == candidates_.size()) return;
-      const std::size_t best =
-          greatest([&](std::size_t i) { return may(i) && nearest2_[i] == nearest2_[farthest]; },
-                   [&](std::size_t i) { return depth(i); });
-      const auto distance = [&](std::size_t i) {
-        return std::sqrt(static_cast<double>(nearest2_[i]));
-      };
-      if (std::isfinite(distance(best))) {  // else in no patch, with all patches full
-        note_runner_up(best, may, distance);
-        decided((distance(best) - std::sqrt(static_cast<double>(merge2_))) / size_);
-      }
-      if (nearest2_[best] <= merge2_) return;
-      take(best);
-    }
-  }
-
-  void deep_ones_on_their_own(std::size_t limit) {
-    const auto may = [&](std::size_t i) {
-      if (taken_[i] || kind(i) != OX_HIT_FALLBACK) return false;
-      const float t = candidates_[i].t;
-      const float reach2 = std::max(merge2_, t * t);
-      return std::all_of(result_.taken.begin(), result_.taken.end(), [&](std::size_t other) {
-        decided((std::sqrt(static_cast<double>(apart2(i, other))) -
-                 std::sqrt(static_cast<double>(reach2))) /
-                size_);
-        return apart2(i, other) > reach2;
-      });
-    };
-    const auto value = [&](std::size_t i) { return static_cast<double>(depth(i)); };
-    while (result_.taken.size() < limit) {
-      const std::size_t best = greatest(may, value);
-      if (best == candidates_.size()) return;
-      note_runner_up(best, may, value);
-      taken_[best] = true;  // in its patch it stands for nobody else
-      result_.taken.push_back(best);
-    }
-  }
-
-  const std::vector<ox_candidate>& candidates_;
-  float merge2_;
+  std::vector<Candidate> left_;
+  std::set<ox_u32> regions_, manifolds_;
+  float merge_;
   double size_;
-  std::vector<int> patch_;
-  std::vector<bool> taken_;
-  std::vector<float> nearest2_;
   Reduction result_;
 };
 

@@ -10,6 +10,7 @@
 #include "paper/kernels.h"
 #include "paper/temporal_cache.h"
 #include "paper/types.h"
+#include "pipeline/field_records.h"
 #include "pipeline/options.h"
 #include "pipeline/step_data.h"
 #include "pipeline/steps.h"
@@ -24,16 +25,37 @@ struct StepRecords {
   std::vector<ox_ray> rays;          // of all lists
   std::vector<ox_hit> hits;
   std::vector<ox_found> found;  // per pair
-  std::vector<ox_candidate> candidates;
+  // Crossings in the order of theirs, then hits in that of theirs.
+  std::vector<ox_feature> features;
+  std::vector<ox_region> regions;
+  std::vector<ox_u32> member_words, candidate_words;  // field by field
   std::vector<ox_range> ranges;
   std::vector<ox_contact> contacts;
-  // With edges. Of gathered crossings and their candidates those of a pair follow one another.
+  // With edges.
   std::vector<ox_edge> edges;        // of all meshes
   std::vector<ox_meshlet> meshlets;  // likewise
   std::vector<ox_meshlet_task> meshlet_tasks;
   std::vector<ox_meshlet_pair> meshlet_pairs;
   std::vector<ox_edge_crossing> crossings;
-  std::vector<ox_pair_crossing> gathered_crossings;
+
+  // What may become contacts of a pair, in any order.
+  std::vector<Candidate> candidates_of(std::size_t pair) const {
+    std::vector<Candidate> candidates;
+    if (found[pair].features == 0) return candidates;  // else what is found may be void
+    const Fields list{candidate_words.data() + OX_CANDIDATE_WORDS * found[pair].first,
+                      found[pair].features};
+    for (std::size_t i = 0; i < found[pair].candidates; ++i)
+      candidates.push_back(candidate_at(list, i));
+    return candidates;
+  }
+  // The features that are members of a region, in any order.
+  std::vector<ox_u32> features_of(const ox_region& region) const {
+    std::vector<ox_u32> members;
+    const Fields list{member_words.data() + OX_MEMBER_WORDS * region.first, region.count};
+    for (std::size_t i = 0; i < region.count; ++i)
+      members.push_back(list.word(OX_MEMBER_FEATURE, i));
+    return members;
+  }
 };
 
 class Rig {
@@ -50,8 +72,7 @@ class Rig {
     upload(scene, max_contacts, false);
     steps_.relate(launch, data_);
     run_vertices(launch);
-    steps_.gather(launch, launch, data_);
-    steps_.reduce(launch, data_);
+    assemble(launch);
     return read_back();
   }
 
@@ -73,25 +94,27 @@ class Rig {
       else
         run_vertices(launch);
     } while (grow_for_search());
-    steps_.gather(launch, launch, data_);
-    steps_.add_edge_contacts(launch, launch, data_);
-    steps_.reduce(launch, data_);
+    assemble(launch);
     StepRecords records = read_back();
     read_back_search(records);
     return records;
   }
 
   // The reduction alone, of the first pair, which gets these candidates.
-  StepRecords run_reduction(const Scene& scene, const std::vector<ox_candidate>& candidates) {
-    upload(scene, 16, true);
+  StepRecords run_reduction(const Scene& scene, const std::vector<Candidate>& candidates,
+                            std::uint32_t max_contacts = 16) {
+    upload(scene, max_contacts, false);
     steps_.relate({8, 64}, data_);
-    const auto count = static_cast<ox_u32>(candidates.size());
-    const ox_found found{count, 0, {OX_NONE, OX_NONE}, 0, 0, {}};
+    ox_found found{};
+    found.head[0] = found.head[1] = OX_NONE;
+    found.features = found.placed = found.candidates = static_cast<ox_u32>(candidates.size());
     data_.pairs.found.write(&found, sizeof(found));
     Buffer given(device_);
-    given.reserve(count * sizeof(ox_candidate));
-    given.write(candidates.data(), count * sizeof(ox_candidate));
-    Kernel reduce(program_, "contact_reduce");
+    std::vector<ox_u32> words = words_of(candidates);
+    words.resize(words.size() + OX_LANES);  // lanes are loaded beyond the last
+    given.reserve(words.size() * sizeof(ox_u32));
+    given.write(words.data(), words.size() * sizeof(ox_u32));
+    Kernel reduce(program_, "reduce_candidates");
     data_.launch(reduce, {8, 64}, given, data_.settings.max_contacts,
                  data_.settings.max_contacts_deformable, data_.pairs.ranges,
                  data_.lists.contacts());
@@ -122,6 +145,11 @@ class Rig {
         steps_(program_, false),
         paper_(program_),
         data_(program_) {}
+
+  void assemble(Launch launch) {
+    steps_.assemble(launch, launch, launch, data_);
+    steps_.reduce(launch, data_);
+  }
 
   void flood(Launch launch) {
     steps_.flood(launch, data_);
@@ -183,12 +211,14 @@ class Rig {
       meshlet_count_ += topology(*mesh).meshlets.meshlets.size();
     }
     std::uint64_t vertices = 1, edges = 1;
+    bool deforms = false;  // then all candidates are contacts
     for (const auto& pair : scene.pairs) {
       for (const std::uint32_t object : pair) {
         const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
         vertices += mesh.vertices.size();
+        deforms = deforms || mesh.deformable;
         if (!with_edges) continue;
-        edges += topology(mesh).edges.size();
+        edges += topology(mesh).edges.size() + topology(mesh).flat_edges.size();
       }
     }
     const std::size_t count = scene.pairs.size();
@@ -199,7 +229,7 @@ class Rig {
     // An edge may cross every triangle; that all of them do takes more memory than there is, so
     // the room for what the search finds follows what it did.
     lists.reserve({tasks, tasks, tasks, vertices, vertices, vertices, edges, edges, vertices, edges,
-                   1, std::uint64_t{count} * max_contacts + 1});
+                   1, std::uint64_t{count} * max_contacts + (deforms ? edges + vertices : 1)});
     lists.begin(lists.capacities());
     lists.tasks().reserve(tasks * sizeof(ox_chunk_task));
     temporal_.begin_without(count);
@@ -225,10 +255,11 @@ class Rig {
       read(lists.rays(), lists.first(list), records.rays, counter(static_cast<std::size_t>(list)));
     read(lists.hits(), 0, records.hits, counter(OX_LIST_HITS));
     read(pairs.found, 0, records.found, pairs.count);
-    // With edges there is room between the candidates of one pair and the next.
-    const bool edges = (settings.modes & OX_MODE_EDGES) != 0;
-    read(lists.candidates(), 0, records.candidates,
-         counter(edges ? OX_COUNTER_SEGMENTS : OX_LIST_HITS));
+    const std::uint64_t features = counter(OX_COUNTER_FEATURES);  // none in a run cut short
+    read(lists.features(), 0, records.features, features);
+    read(lists.regions(), 0, records.regions, counter(OX_COUNTER_REGIONS));
+    read(lists.members(), 0, records.member_words, OX_MEMBER_WORDS * features);
+    read(lists.candidates(), 0, records.candidate_words, OX_CANDIDATE_WORDS * features);
     read(pairs.ranges, 0, records.ranges, pairs.count);
     read(lists.contacts(), 0, records.contacts, counter(OX_LIST_CONTACTS));
     return records;
@@ -243,7 +274,6 @@ class Rig {
     read(lists.meshlets(), 0, records.meshlet_tasks, counter(OX_LIST_MESHLETS));
     read(lists.meshlet_pairs(), 0, records.meshlet_pairs, counter(OX_LIST_MESHLET_PAIRS));
     read(lists.crossings(), 0, records.crossings, counter(OX_LIST_CROSSINGS));
-    read(lists.gathered_crossings(), 0, records.gathered_crossings, counter(OX_LIST_CROSSINGS));
   }
 
   // Appends `count` records of the buffer from `first` on.

@@ -202,48 +202,11 @@ TEST_P(SearchInLanes, FindsTheSameBytesWhateverTheWidthOfVectors) {
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
   options.vector_width = GetParam();
-  options.few_pairs = 0;
+  options.whole_steps = false;
   EXPECT_EQ(contacts(options), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Widths, SearchInLanes, testing::Values(1u, 4u, 8u, 16u));
-
-// Each crossing is among those of its pair, once, with all that its ray found.
-TEST(Search, GathersCrossingsByPair) {
-  const TestScene scene = random_scene(200, 79);
-  for (const Organisation organisation : kBoth) {
-    const StepRecords records = Rig::shared().run_with_edges(scene.scene, organisation);
-    using Bits = std::tuple<ox_u32, ox_u32, ox_u32, ox_f32, bool>;
-    std::multiset<Bits> found, gathered;
-    for (const ox_edge_crossing& c : records.crossings)
-      found.insert({c.pair_side, c.edge, c.triangle, c.t, c.leaves != 0});
-    std::set<std::size_t> places;
-    for (ox_u32 i = 0; i < scene.pairs.size(); ++i) {
-      const TestPose &pa = scene.pose_of(i, 0), &pb = scene.pose_of(i, 1);
-      for (ox_u32 k = 0; k < records.found[i].crossings; ++k) {
-        const std::size_t place = records.found[i].first_crossing + k;
-        EXPECT_TRUE(places.insert(place).second);
-        const ox_pair_crossing& c = records.gathered_crossings.at(place);
-        const ox_u32 side = c.flags & OX_CROSSING_SIDE;
-        gathered.insert(
-            {i << 1 | side, c.edge, c.triangle, c.t, (c.flags & OX_CROSSING_LEAVES) != 0});
-        // Its place is on the edge, in the frame of B.
-        const std::uint32_t mesh = scene.objects[scene.pairs[i][side]].mesh;
-        Point ends[2];
-        for (std::size_t e = 0; e < 2; ++e) {
-          const ox_u32 vertex = records.edges.at(c.edge).vertex[e];
-          ends[e] = point_of(
-              scene.scene.meshes[mesh]->vertices.at(Rig::shared().local_vertex(mesh, vertex)));
-          if (side == 0) ends[e] = rotate_back(pb, rotate(pa, ends[e]) + pa.position - pb.position);
-        }
-        const Point expected = ends[0] + static_cast<double>(c.t) * unit(ends[1] - ends[0]);
-        EXPECT_LT(distance(point_of(c.position), expected), 1e-5);
-      }
-    }
-    EXPECT_EQ(gathered, found);
-    EXPECT_GT(found.size(), 1000u);
-  }
-}
 
 }  // namespace
 }  // namespace ode_ext::test

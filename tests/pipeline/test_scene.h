@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -116,6 +117,23 @@ inline TestScene random_scene(int count, std::uint64_t seed, int kinds = kSmallM
   }
   return scene;
 }
+
+// [m] what the pair step takes for what is not known of a coordinate (kernels/pair_step.cl).
+inline double pair_epsilon(const TestScene& scene, std::size_t pair) {
+  const TestPose &pa = scene.pose_of(pair, 0), &pb = scene.pose_of(pair, 1);
+  double largest = 0;
+  for (const double x : rotate_back(pb, pa.position - pb.position)) largest += std::fabs(x);
+  for (const std::size_t side : {0u, 1u})
+    largest += length(Vec3d(farthest_corner(scene.built_mesh_of(pair, side).box)));
+  return 0x1p-20 * largest;
+}
+
+// OX_INFLATION of kernels/shared/general_position.h: how far A is taken out along its vertices'
+// normals [epsilons of the pair]. Which side of the surface a vertex is on that is nearer to it
+// than kDoubt epsilons is not known: the growth of the surface and of the body that the vertex is
+// of, and what rounds.
+inline constexpr double kInflation = 2;
+inline constexpr double kDoubt = 10;
 
 // A contact's bits: position, normal, depth, triangles.
 using ContactBits = std::array<std::uint64_t, 9>;

@@ -129,7 +129,7 @@ TEST(VertexStep, CastsARayAtAnOpenMeshWhereItMeetsItAndNoneThatDoesNotReachTheBo
   const auto rays = rays_of(scene, records);
   int near = 0, far = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const double epsilon = static_cast<double>(records.pairs[i].epsilon);
+    const double margin = static_cast<double>(records.pairs[i].margin);
     const Mesh& source = scene.built_mesh_of(i, 0);
     const Mesh& target = scene.built_mesh_of(i, 1);
     ASSERT_FALSE(target.closed);
@@ -144,7 +144,7 @@ TEST(VertexStep, CastsARayAtAnOpenMeshWhereItMeetsItAndNoneThatDoesNotReachTheBo
         if (!meets(target, p, d, exit)) continue;
         ++near;
         EXPECT_TRUE(has_ray);
-      } else if (apart > 3 * epsilon) {  // epsilon on every axis, and beyond the end
+      } else if (apart > 3 * margin) {  // on every axis, and beyond the end
         ++far;
         EXPECT_FALSE(has_ray) << apart;
       }

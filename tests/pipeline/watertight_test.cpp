@@ -15,7 +15,7 @@ std::size_t escaped(const TestScene& scene) {
   const StepRecords records = Rig::shared().run(scene.scene);
   std::set<ox_u32> hit;
   for (const ox_hit& h : records.hits)
-    if ((h.pair_side & 1) == 0 && h.kind != OX_HIT_TOUCHING) hit.insert(h.vertex);
+    if ((h.pair_side & 1) == 0) hit.insert(h.vertex);
   return scene.built_mesh_of(0, 0).vertices.size() - hit.size();
 }
 

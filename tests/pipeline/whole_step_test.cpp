@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On a processor few pairs are collided by one launch; what that gives is what the steps launched
-// one by one give.
+// On a processor each pair is taken through all steps by one work-item; what that gives is what the
+// steps launched one by one give.
 #include <gtest/gtest.h>
 
 #include "pipeline/collider.h"
@@ -11,7 +11,7 @@ namespace {
 
 ColliderOptions step_by_step() {
   ColliderOptions options;
-  options.few_pairs = 0;
+  options.whole_steps = false;
   return options;
 }
 
@@ -84,12 +84,39 @@ TEST_F(WholeStep, RunsAgainWhereAListWasTooShort) {
   EXPECT_GT(collider.report().redone, 0);
 }
 
-TEST_F(WholeStep, IsNotForManyPairsNorForLargeMeshes) {
-  whole_.collide(random_scene(5, 14).scene, nullptr);
-  EXPECT_EQ(milliseconds(whole_, Stage::kWholeStep), 0);
-  const TestMesh large = make_icosphere(1, 5);  // 20,480 triangles
-  whole_.collide(one_pair(large, at(0, 0, 0), large, at(1.9, 0, 0)).scene, nullptr);
-  EXPECT_EQ(milliseconds(whole_, Stage::kWholeStep), 0);
+TEST_F(WholeStep, GivesTheBytesOfItsStepsForManyPairs) {
+  EXPECT_GT(compare(random_scene(600, 14).scene, 200), 1000u);
+}
+
+// Two fine balls deep in one another, with more crossings than a share has room for.
+TestScene scene_with_a_pair_that_does_not_fit() {
+  TestScene scene = random_scene(20, 15);
+  const std::uint32_t large = scene.add_mesh(make_icosphere(1, 6));
+  scene.add_pair(large, at(0, 0, 0), large, turned({1, 2, 3}, 0.3, {0.5, 0.2, 0.1}));
+  return scene;
+}
+
+TEST_F(WholeStep, LeavesAPairThatDoesNotFitToTheSteps) {
+  if ((whole_.device_info().type & CL_DEVICE_TYPE_CPU) == 0) GTEST_SKIP() << "for processors";
+  const TestScene scene = scene_with_a_pair_that_does_not_fit();
+  const auto expected = bits_of(stepwise_.collide(scene.scene, nullptr));
+  EXPECT_EQ(bits_of(whole_.collide(scene.scene, nullptr)), expected);
+  EXPECT_EQ(whole_.report().left, 1u);
+  EXPECT_GT(whole_.report().appended[OX_LIST_CROSSINGS], 1024u);
+  EXPECT_LT(whole_.report().appended[OX_LIST_CROSSINGS], whole_.report().actual[OX_LIST_CROSSINGS]);
+  EXPECT_EQ(whole_.report().actual, stepwise_.report().actual);
+  EXPECT_EQ(whole_.report().pairs_bounded, stepwise_.report().pairs_bounded);
+}
+
+TEST_F(WholeStep, WaitsOnceWhereItKnowsThatAPairDoesNotFit) {
+  if ((whole_.device_info().type & CL_DEVICE_TYPE_CPU) == 0) GTEST_SKIP() << "for processors";
+  const TestScene scene = scene_with_a_pair_that_does_not_fit();
+  PassMemory memory;
+  const auto expected = bits_of(whole_.collide(scene.scene, &memory));
+  EXPECT_GT(whole_.report().synchronizations, 1);
+  EXPECT_EQ(bits_of(whole_.collide(scene.scene, &memory)), expected);
+  EXPECT_EQ(whole_.report().synchronizations, 1);
+  EXPECT_EQ(whole_.report().redone, 0);
 }
 
 }  // namespace

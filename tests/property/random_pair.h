@@ -5,7 +5,6 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <tuple>
 #include <vector>
 
 #include "pipeline/collider.h"
@@ -31,37 +30,20 @@ inline TestScene random_pair(Random& random) {
   return one_pair(a, pa, b, random.pose(0.35));
 }
 
-inline Collider& shared_collider(bool edges) {
-  const auto make = [](bool with_edges) {
-    ColliderOptions options;
-    options.edges = with_edges;
-    return new Collider(options);
-  };
-  static Collider* const colliders[] = {make(false), make(true)};  // as Rig::shared()
-  return *colliders[edges];
-}
-
 inline std::vector<Contact> collide(const TestScene& scene) {
-  return shared_collider(true).collide(scene.scene, nullptr).contacts;
+  static Collider* const collider = new Collider({});  // never destroyed, as Rig::shared()
+  return collider->collide(scene.scene, nullptr).contacts;
 }
 
-// As the paper does: contacts of vertices alone.
-inline std::vector<Contact> collide_vertices(const TestScene& scene) {
-  return shared_collider(false).collide(scene.scene, nullptr).contacts;
-}
-
-// The candidates of the only pair, sorted.
-inline std::vector<ox_candidate> candidates_of(const TestScene& scene) {
-  std::vector<ox_candidate> candidates = Rig::shared().run(scene.scene).candidates;
-  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return std::tuple(a.side_kind >> 2, a.vertex) < std::tuple(b.side_kind >> 2, b.vertex);
-  });
-  return candidates;
+// The candidates of the only pair.
+inline std::vector<Candidate> candidates_of(const TestScene& scene) {
+  return Rig::shared()
+      .run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true)
+      .candidates_of(0);
 }
 
 // By how much (in multiples of the smaller mesh's radius) the choice of contacts was clear.
-inline double reduction_margin(const TestScene& scene,
-                               const std::vector<ox_candidate>& candidates) {
+inline double reduction_margin(const TestScene& scene, const std::vector<Candidate>& candidates) {
   const float radius = std::min(scene.built_mesh_of(0, 0).radius, scene.built_mesh_of(0, 1).radius);
   ReferenceReduce reduce(candidates, 0.02f * radius, static_cast<double>(radius));
   return reduce.run(16).margin;

@@ -12,71 +12,127 @@
 namespace ode_ext::test {
 namespace {
 
-// Whether single precision may decide about a ray of this pair either way: true of one in
-// thousands.
-bool has_ambiguous_rays(const TestScene& scene) {
-  const auto rays = reference_rays(scene.mesh_of(0, 0), scene.pose_of(0, 0), scene.mesh_of(0, 1),
-                                   scene.pose_of(0, 1));
-  return std::any_of(rays.begin(), rays.end(), [](const auto& ray) { return ray.ambiguous; });
-}
-
 double tolerance_of(const TestScene& scene) {
   return comparison_tolerance(scene.mesh_of(0, 0), scene.pose_of(0, 0), scene.mesh_of(0, 1),
                               scene.pose_of(0, 1));
 }
 
+// Whether single precision may decide about a crossing of this pair either way, or how much larger
+// A is taken.
+bool is_ambiguous(const TestScene& scene) {
+  const auto crossings = reference_crossings(
+      ReferenceSurface(scene.mesh_of(0, 0)), scene.pose_of(0, 0),
+      ReferenceSurface(scene.mesh_of(0, 1)), scene.pose_of(0, 1), 2 * tolerance_of(scene));
+  return std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.ambiguous; });
+}
+
+// What of the only pair may become a contact, before it is reduced. In the world; the normal points
+// into the first body.
+struct Said {
+  Point position, normal;
+  double depth;
+  ox_u32 side_kind;
+};
+
+std::vector<Said> all_said(const TestScene& scene, const std::vector<Candidate>& candidates) {
+  const TestPose& frame = scene.pose_of(0, 1);
+  std::vector<Said> said;
+  for (const Candidate& c : candidates)
+    said.push_back({to_world(frame, point_of(c.position)), rotate(frame, point_of(c.normal)),
+                    static_cast<double>(c.depth), c.side_kind});
+  return said;
+}
+
+std::vector<Said> all_said(const TestScene& scene) { return all_said(scene, candidates_of(scene)); }
+
+// An edge of a pair of edges may cross the other, or the face it goes through, at as little as
+// 0.01 radians, so that where they meet is known 100 times as badly as their ends.
+bool are_alike(const Said& a, const Said& b, double tolerance) {
+  return a.side_kind == b.side_kind && distance(a.position, b.position) < 128 * tolerance &&
+         distance(a.normal, b.normal) < 128 * 0x1p-20 &&
+         std::fabs(a.depth - b.depth) < 32 * tolerance;
+}
+
+void log(const char* which, const Said& said) {
+  RC_LOG() << which << " kind " << said.side_kind << " depth " << said.depth << " at";
+  for (const double x : said.position) RC_LOG() << ' ' << x;
+  RC_LOG() << " normal";
+  for (const double x : said.normal) RC_LOG() << ' ' << x;
+  RC_LOG() << '\n';
+}
+
+bool are_alike(const std::vector<Said>& all, std::vector<Said> others, double tolerance) {
+  bool alike = true;
+  for (const Said& one : all) {
+    const auto found = std::find_if(others.begin(), others.end(), [&](const Said& other) {
+      return are_alike(one, other, tolerance);
+    });
+    if (found != others.end()) {
+      others.erase(found);
+      continue;
+    }
+    alike = false;
+    log("only the one:", one);
+  }
+  for (const Said& other : others) log("only the other:", other);
+  return alike && others.empty();
+}
+
+bool has_points(const std::vector<Said>& said) {
+  return std::any_of(said.begin(), said.end(),
+                     [](const Said& s) { return (s.side_kind & OX_HIT_POINT) != 0; });
+}
+
 RC_GTEST_PROP(ContactProperty, MovesWithThePair, ()) {
   Random random = random_numbers();
   const TestScene scene = random_pair(random);
-  if (has_ambiguous_rays(scene)) return;
-  const TestPose motion = random.pose(10);
+  if (is_ambiguous(scene)) return;
+  const TestPose motion = random.pose(2);
   const TestScene moved = one_pair(scene.mesh_of(0, 0), composed(motion, scene.pose_of(0, 0)),
                                    scene.mesh_of(0, 1), composed(motion, scene.pose_of(0, 1)));
-  const double tolerance = 2 * tolerance_of(scene);  // the two scenes round differently
   const auto candidates = candidates_of(scene);
-  const auto moved_candidates = candidates_of(moved);
-  RC_CLASSIFY(!candidates.empty(), "in contact");
-  RC_ASSERT(moved_candidates.size() == candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    RC_ASSERT(moved_candidates[i].side_kind == candidates[i].side_kind);
-    RC_ASSERT(moved_candidates[i].vertex == candidates[i].vertex);
+  std::vector<Said> expected = all_said(scene, candidates);
+  for (Said& said : expected) {
+    said.position = to_world(motion, said.position);
+    said.normal = rotate(motion, said.normal);
   }
+  RC_CLASSIFY(!candidates.empty(), "in contact");
+  RC_CLASSIFY(has_points(expected), "contacts of edges");
+  const double tolerance = 2 * tolerance_of(scene);  // the two scenes round differently
+  RC_ASSERT(are_alike(expected, all_said(moved), tolerance));
   // Distances and depths are off by the tolerance each, cosines by as many roundings of 1.
   const bool near_tie = reduction_margin(scene, candidates) < 4 * std::max(tolerance, 1e-6);
   RC_CLASSIFY(near_tie, "near tie");
   if (near_tie) return;
-  const auto contacts = collide_vertices(scene), moved_contacts = collide_vertices(moved);
+  const auto contacts = collide(scene), moved_contacts = collide(moved);
   RC_ASSERT(moved_contacts.size() == contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact &a = contacts[i], &b = moved_contacts[i];
     RC_ASSERT(a.triangles == b.triangles);
-    RC_ASSERT(distance(to_world(motion, point_of(a.position)), point_of(b.position)) < 1e-9);
-    RC_ASSERT(distance(rotate(motion, point_of(a.normal)), point_of(b.normal)) < 1e-9);
-    RC_ASSERT(std::fabs(a.depth - b.depth) < 16 * tolerance);  // 16: of slivers, see ray_step_test
+    RC_ASSERT(distance(to_world(motion, point_of(a.position)), point_of(b.position)) <
+              128 * tolerance);
+    RC_ASSERT(distance(rotate(motion, point_of(a.normal)), point_of(b.normal)) < 128 * 0x1p-20);
+    RC_ASSERT(std::fabs(a.depth - b.depth) < 32 * tolerance);
   }
 }
 
-RC_GTEST_PROP(ContactProperty, IsTurnedRoundWhenThePairIs, ()) {
+// Not to the last bit: it is the first mesh that is taken larger, and of units as deep as one
+// another its own are cleared first. What a program asks is put in one order before.
+RC_GTEST_PROP(ContactProperty, IsAsDeepWhenThePairIsTurnedRound, ()) {
   Random random = random_numbers();
   const TestScene scene = random_pair(random);
-  if (has_ambiguous_rays(scene)) return;
+  if (is_ambiguous(scene)) return;
   const TestScene swapped =
       one_pair(scene.mesh_of(0, 1), scene.pose_of(0, 1), scene.mesh_of(0, 0), scene.pose_of(0, 0));
-  const auto candidates = candidates_of(scene);
-  RC_CLASSIFY(!candidates.empty(), "in contact");
-  const bool near_tie = reduction_margin(scene, candidates) < 1e-5;
-  RC_CLASSIFY(near_tie, "near tie");
-  if (near_tie) return;
-  const auto contacts = collide_vertices(scene), turned_round = collide_vertices(swapped);
-  RC_ASSERT(turned_round.size() == contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact &a = contacts[i], &b = turned_round[i];
-    RC_ASSERT(a.position == b.position);
-    RC_ASSERT(a.normal == -b.normal);
-    RC_ASSERT(a.depth == b.depth);
-    RC_ASSERT(a.triangles[0] == b.triangles[1]);
-    RC_ASSERT(a.triangles[1] == b.triangles[0]);
-  }
+  const auto deepest = [](const TestScene& of) {
+    double depth = 0;
+    for (const Said& said : all_said(of)) depth = std::max(depth, said.depth);
+    return depth;
+  };
+  const double depth = deepest(scene);
+  RC_CLASSIFY(depth > 0, "in contact");
+  RC_LOG() << depth << " and " << deepest(swapped) << "\n";
+  RC_ASSERT(std::fabs(depth - deepest(swapped)) < 32 * tolerance_of(scene));
 }
 
 // The triangles in another order; triangle i of the result is triangle order[i] of the mesh.
@@ -127,91 +183,6 @@ RC_GTEST_PROP(ContactProperty, DoesNotDependOnTheOrderOfTriangles, ()) {
       RC_ASSERT(orders[side][b.triangles[side]] == a.triangles[side] ||
                 has_corner(permuted, side, b.triangles[side], b.position));
   }
-}
-
-// What vertices and edges say of the only pair, before it is reduced to contacts. In the world; the
-// normal points into the first body.
-struct Said {
-  Point position, normal;
-  double depth;
-  ox_u32 side_kind;
-};
-
-std::vector<Said> all_said(const TestScene& scene) {
-  const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
-  const TestPose& frame = scene.pose_of(0, 1);
-  std::vector<Said> said;
-  for (ox_u32 i = 0; i < records.found[0].hits; ++i) {
-    const ox_candidate& c = records.candidates.at(records.found[0].first_candidate + i);
-    if ((c.side_kind & OX_HIT_KIND) == OX_HIT_NONE) continue;
-    // Of a point on both surfaces rounding decides whether it is said.
-    if ((c.side_kind & OX_HIT_POINT) != 0 && static_cast<double>(c.depth) < 4 * tolerance_of(scene))
-      continue;
-    said.push_back({to_world(frame, point_of(c.position)), rotate(frame, point_of(c.normal)),
-                    static_cast<double>(c.depth), c.side_kind});
-  }
-  return said;
-}
-
-// An edge must cross an edge at more than 3 degrees, so that their common normal and with it where
-// they pass is known 20 times as badly as their ends; depths of vertices as in ray_step_test.
-bool are_alike(const Said& a, const Said& b, double tolerance) {
-  return a.side_kind == b.side_kind && distance(a.position, b.position) < 32 * tolerance &&
-         distance(a.normal, b.normal) < 32 * 0x1p-20 &&
-         std::fabs(a.depth - b.depth) < 32 * tolerance;
-}
-
-void log(const char* which, const Said& said) {
-  RC_LOG() << which << " kind " << said.side_kind << " depth " << said.depth << " at";
-  for (const double x : said.position) RC_LOG() << ' ' << x;
-  RC_LOG() << " normal";
-  for (const double x : said.normal) RC_LOG() << ' ' << x;
-  RC_LOG() << '\n';
-}
-
-bool are_alike(const std::vector<Said>& all, std::vector<Said> others, double tolerance) {
-  bool alike = true;
-  for (const Said& one : all) {
-    const auto found = std::find_if(others.begin(), others.end(), [&](const Said& other) {
-      return are_alike(one, other, tolerance);
-    });
-    if (found != others.end()) {
-      others.erase(found);
-      continue;
-    }
-    alike = false;
-    log("only the one:", one);
-  }
-  for (const Said& other : others) log("only the other:", other);
-  return alike && others.empty();
-}
-
-bool is_ambiguous(const TestScene& scene) {
-  const auto crossings = reference_crossings(scene.mesh_of(0, 0), scene.pose_of(0, 0),
-                                             scene.mesh_of(0, 1), scene.pose_of(0, 1));
-  return has_ambiguous_rays(scene) ||
-         std::any_of(crossings.begin(), crossings.end(), [](const auto& c) { return c.ambiguous; });
-}
-
-bool has_points(const std::vector<Said>& said) {
-  return std::any_of(said.begin(), said.end(),
-                     [](const Said& s) { return (s.side_kind & OX_HIT_POINT) != 0; });
-}
-
-RC_GTEST_PROP(EdgeProperty, MovesWithThePair, ()) {
-  Random random = random_numbers();
-  const TestScene scene = random_pair(random);
-  if (is_ambiguous(scene)) return;
-  const TestPose motion = random.pose(2);
-  const TestScene moved = one_pair(scene.mesh_of(0, 0), composed(motion, scene.pose_of(0, 0)),
-                                   scene.mesh_of(0, 1), composed(motion, scene.pose_of(0, 1)));
-  std::vector<Said> expected = all_said(scene);
-  for (Said& said : expected) {
-    said.position = to_world(motion, said.position);
-    said.normal = rotate(motion, said.normal);
-  }
-  RC_CLASSIFY(has_points(expected), "contacts of edges");
-  RC_ASSERT(are_alike(expected, all_said(moved), 2 * tolerance_of(scene)));
 }
 
 // As a program asks: of the meshes the same one is always the first.

@@ -32,22 +32,27 @@ struct Segment {
   double length;
 };
 
+struct Target {
+  const ReferenceMesh& mesh;
+  std::vector<Point> vertices;  // where they are taken to be
+};
+
 // `epsilon` [m]: what rounding can do to a coordinate; a point within it of a plane may be on
 // either side.
-void cross_triangle(const Segment& segment, const ReferenceMesh& target, std::size_t triangle,
+void cross_triangle(const Segment& segment, const Target& target, std::size_t triangle,
                     double epsilon, const ReferenceCrossing& edge,
                     std::vector<ReferenceCrossing>& found) {
-  const Point& normal = target.face_normals[triangle];
-  if (length(normal) == 0) return;
+  if (length(target.mesh.face_normals[triangle]) == 0) return;
   std::array<Point, 3> corners;
   for (std::size_t k = 0; k < 3; ++k)
-    corners[k] = target.vertices[target.triangles[triangle][k]] - segment.from;
-  // Positions, and with them edges, are cast this much beyond their ends.
-  const double beyond = 16 * epsilon;
+    corners[k] = target.vertices[target.mesh.triangles[triangle][k]] - segment.from;
+  const Point normal = unit(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  // An end of the edge and a side of the triangle may each be off, in any direction.
+  const double beyond = 4 * epsilon;
   const double facing = dot(segment.direction, normal);
   const double height = dot(normal, corners[0]);
   ReferenceCrossing crossing = edge;
-  crossing.triangle = target.source_triangle[triangle];
+  crossing.triangle = target.mesh.source_triangle[triangle];
   crossing.leaves = facing > 0;
 
   // The longest side over the height: by so much more a thin triangle's plane is known less well.
@@ -109,13 +114,21 @@ struct Bounds {
   }
 };
 
+std::vector<Point> grown(const ReferenceMesh& mesh, double growth) {
+  std::vector<Point> vertices = mesh.vertices;
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+    vertices[v] = vertices[v] + growth * mesh.normals[v];
+  return vertices;
+}
+
 void cross_side(int side, const ReferenceSurface& source, const TestPose& ps,
-                const ReferenceSurface& target, const TestPose& pt, double epsilon,
+                const ReferenceSurface& target, const TestPose& pt, double epsilon, double growth,
                 std::vector<ReferenceCrossing>& found) {
+  const Target taken{target.mesh, grown(target.mesh, side == 0 ? 0 : growth)};
   const double margin = 0.01 * (source.size + target.size) + 64 * epsilon;
   Bounds all;
   std::vector<Point> there;  // the source's vertices in the target's frame
-  for (const Point& vertex : source.mesh.vertices) {
+  for (const Point& vertex : grown(source.mesh, side == 0 ? growth : 0)) {
     there.push_back(between(ps, pt, vertex));
     all.add(there.back());
   }
@@ -140,7 +153,7 @@ void cross_side(int side, const ReferenceSurface& source, const TestPose& ps,
     bounds.add(from + along);
     for (const auto& [triangle, its_bounds] : near)
       if (its_bounds.is_within(bounds, margin))
-        cross_triangle(segment, target.mesh, triangle, epsilon, crossing, found);
+        cross_triangle(segment, taken, triangle, epsilon, crossing, found);
   }
 }
 
@@ -177,10 +190,10 @@ ReferenceSurface::ReferenceSurface(const TestMesh& test_mesh)
 
 std::vector<ReferenceCrossing> reference_crossings(const ReferenceSurface& a, const TestPose& pa,
                                                    const ReferenceSurface& b, const TestPose& pb,
-                                                   double epsilon) {
+                                                   double epsilon, double growth) {
   std::vector<ReferenceCrossing> found;
-  cross_side(0, a, pa, b, pb, epsilon, found);
-  cross_side(1, b, pb, a, pa, epsilon, found);
+  cross_side(0, a, pa, b, pb, epsilon, growth, found);
+  cross_side(1, b, pb, a, pa, epsilon, growth, found);
   return found;
 }
 

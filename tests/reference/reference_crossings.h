@@ -36,12 +36,13 @@ struct ReferenceSurface {
   double size;  // [m] the largest side of its box
 };
 
-// Of all edges worth casting with all triangles of the other mesh, each a little beyond its ends.
-// `epsilon` [m]: comparison_tolerance (reference_hits.h) of the pair. What is farther apart than a
-// hundredth of both meshes' sizes is passed over.
+// Of all edges worth casting with all triangles of the other mesh. `epsilon` [m]: by how much
+// single precision may move a coordinate. `growth` [m]: how far the vertices of `a` are taken out
+// along their normals. What is farther apart than a hundredth of both meshes' sizes is passed over.
 std::vector<ReferenceCrossing> reference_crossings(const ReferenceSurface& a, const TestPose& pa,
                                                    const ReferenceSurface& b, const TestPose& pb,
-                                                   double epsilon);
+                                                   double epsilon, double growth = 0);
+// With the comparison_tolerance (reference_hits.h) of the pair.
 std::vector<ReferenceCrossing> reference_crossings(const TestMesh& a, const TestPose& pa,
                                                    const TestMesh& b, const TestPose& pb);
 

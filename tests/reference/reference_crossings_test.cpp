@@ -87,5 +87,22 @@ TEST(ReferenceCrossings, TurnRoundWithThePair) {
       EXPECT_EQ(count_of(one, side, leaves), count_of(other, 1 - side, leaves));
 }
 
+// By as much as its faces are farther out: the growth of a vertex along its normal, times the
+// cosine between them.
+TEST(ReferenceCrossings, MoveWithTheFirstMeshWhereItIsTakenToBeLarger) {
+  const TestMesh cube = make_cube(1), rod = make_rod(2, 0.2);
+  const ReferenceSurface a(cube), b(rod);
+  const TestPose up = turned({0, 1, 0}, std::acos(-1.0) / 2, {0.13, 0.26, 0.9});
+  const auto found = reference_crossings(a, {}, b, up, 1e-7);
+  const auto moved = reference_crossings(a, {}, b, up, 1e-7, 0.01);
+  ASSERT_EQ(found.size(), moved.size());
+  ASSERT_EQ(count_of(found, 1, false), 4u);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i].side == 0) continue;
+    const double slant = distance(found[i].from, found[i].to) / 2;
+    EXPECT_NEAR(std::fabs(moved[i].t - found[i].t), slant * 0.01 / std::sqrt(3.0), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -103,7 +103,6 @@ class Audit {
   void look_inside(const StepRecords& records) {
     std::set<std::pair<ox_u32, std::uint32_t>> hit;  // pair and side, vertex
     for (const ox_hit& h : records.hits) {
-      if ((h.kind & OX_HIT_KIND) == OX_HIT_TOUCHING) continue;
       const std::uint32_t mesh = mesh_of(h.pair_side >> 1, h.pair_side & 1);
       hit.emplace(h.pair_side, Rig::shared().local_vertex(mesh, h.vertex));
     }
@@ -116,9 +115,9 @@ class Audit {
                    const std::set<std::pair<ox_u32, std::uint32_t>>& hit) {
     const oracle::Mesh& target = *solids_[mesh_of(pair, 1 - side)];
     const TestPose &ps = scene_.pose_of(pair, side), &pt = scene_.pose_of(pair, 1 - side);
-    // What is nearer to the surface lies on it for the collider.
-    const double epsilon = rounding(*solids_[mesh_of(pair, 0)], scene_.pose_of(pair, 0),
-                                    *solids_[mesh_of(pair, 1)], scene_.pose_of(pair, 1));
+    // What is nearer to the surface than A is taken larger, and what rounds, may be on either side.
+    const double epsilon = 10 * rounding(*solids_[mesh_of(pair, 0)], scene_.pose_of(pair, 0),
+                                         *solids_[mesh_of(pair, 1)], scene_.pose_of(pair, 1));
     const auto& vertices = scene_.built_mesh_of(pair, side).vertices;
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
       const Point p =
