@@ -15,7 +15,8 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                shared/ray_meshlet shared/meshlet_tree shared/nearest shared/closest shared/full_ray
                shared/vertex_ray paper/types paper/iterative_ray paper/choose paper/cast
                paper/note_work shared/meshlet shared/exact_sign shared/intersect contacts/types
-               contacts/fields contacts/candidate_list contacts/cross contacts/feature
+               contacts/fields contacts/candidate_list contacts/border contacts/cross
+               contacts/feature
                contacts/feature_table contacts/mate contacts/face_table contacts/plane
                contacts/region_fields contacts/region contacts/ways contacts/whole_region
                contacts/units contacts/candidates shared/deform shared/moves)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target?
 //
-// in    rays, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
+// in    rays, crossings, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
 // out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
+#include "contacts/border.h"
 #include "shared/closest.h"
 #include "shared/vertex_ray.h"
 
@@ -13,13 +14,14 @@ static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float m
 }
 
 static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
-                         __global ox_hit* hits) {
+                         __global const ox_edge_crossing* crossings, __global ox_hit* hits) {
   const uint first = scene->lists[OX_LIST_RAYS].first;
   const uint count = ox_length(scene, OX_LIST_RAYS);
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_ray ray = rays[first + i];
     const uint side = ray.pair_side & 1u;
     __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
+    __global const ox_mesh* source = scene->meshes + pair->mesh[side];
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);
     vertex_ray.known = ray.memory != OX_RAY_ASKING;
@@ -39,11 +41,18 @@ static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
         outcome.kind = OX_HIT_INSIDE;
       }
     }
+    const bool may_be_behind = (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
+                               (source->flags & OX_MESH_CLOSED) != 0u;
+    if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit &&
+        !ox_goes_on(scene, ray.pair_side, crossings,
+                    vertex_ray.origin + outcome.t * vertex_ray.direction, outcome.t))
+      continue;
     ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, &outcome, hits);
   }
 }
 
-__kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays, __global ox_hit* hits) {
+__kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays,
+                       __global const ox_edge_crossing* crossings, __global ox_hit* hits) {
   const ox_scene scene = OX_SCENE;
-  ox_cast_rays(&scene, rays, hits);
+  ox_cast_rays(&scene, rays, crossings, hits);
 }

@@ -73,7 +73,7 @@ static bool ox_find_features(const ox_scene* scene, const ox_share* share) {
   if (!ox_fits(scene, OX_LIST_FLOOD_WORDS) || !ox_fits(scene, OX_LIST_CHUNKS) ||
       !ox_fits(scene, OX_LIST_RAYS))
     return false;
-  ox_cast_rays(scene, share->rays, share->hits);
+  ox_cast_rays(scene, share->rays, share->crossings, share->hits);
   return ox_fits(scene, OX_LIST_HITS);
 }
 
@@ -81,7 +81,7 @@ static void ox_assemble_features(const ox_scene* scene, const ox_share* share) {
   ox_gather_features(scene, share->crossings, share->hits, share->features, share->parents,
                      share->slots, share->faces);
   ox_place_features(scene);
-  ox_link_features(scene, share->features, share->parents, share->slots);
+  ox_link_features(scene, share->features, share->slots);
   ox_join_features(scene, share->crossings, share->features, share->parents, share->slots);
   ox_begin_regions(scene, share->features, share->parents, share->regions);
   ox_count_members(scene, share->features, share->parents, share->regions);

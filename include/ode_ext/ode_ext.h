@@ -344,7 +344,9 @@ typedef struct dBatchColliderStats {
   long long pairs_bounded;   /**< of those computed, whose bounding volumes overlap */
   long long predicted[dBatchBufferCount]; /**< entries expected */
   long long actual[dBatchBufferCount];    /**< entries produced */
-  long long capacity[dBatchBufferCount];  /**< entries there was room for */
+  long long capacity[dBatchBufferCount];  /**< entries there was room for at a time: on a processor
+                                               pairs follow one another in the same room, so of
+                                               all but contacts there may be more */
   double ms[dBatchStageCount];            /**< [ms] */
   long long passes;                       /**< passes since creation */
   long long pairs_alone; /**< since creation: pairs asked for that no pass had computed */

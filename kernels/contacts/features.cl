@@ -57,8 +57,10 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       f.triangle = hit->triangle;
       f.t = 0.0f;
       f.next = hit->from;
-      // Of what changes its shape every vertex may need a contact.
-      if ((scene->meshes[scene->pairs[f.pair].mesh[side]].flags & OX_MESH_DEFORMABLE) != 0u)
+      // Where one changes its shape every vertex may need a contact.
+      __global const uint* of_pair = scene->pairs[f.pair].mesh;
+      if (((scene->meshes[of_pair[0]].flags | scene->meshes[of_pair[1]].flags) &
+           OX_MESH_DEFORMABLE) != 0u)
         f.flags &= ~OX_FEATURE_FLAT;
       for (uint k = scene->ring_starts[hit->vertex]; k < scene->ring_starts[hit->vertex + 1u];
            ++k) {
@@ -124,9 +126,9 @@ static void ox_unite(__global volatile uint* parents, uint a, uint b) {
   }
 }
 
-// out: slots; chains of the crossings of each edge; neighbours along the curve are united.
+// out: slots; chains of the crossings of each edge, and of each pair of facets.
 static void ox_link_features(const ox_scene* scene, __global ox_feature* features,
-                             __global uint* parents, __global uint* slots) {
+                             __global uint* slots) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = features + i;
@@ -141,15 +143,14 @@ static void ox_link_features(const ox_scene* scene, __global ox_feature* feature
       const uint other = ox_add_feature(scene, features, slots, i << 2 | k);
       if (other == OX_NONE) continue;
       f->mate[k] = atomic_xchg(&features[other >> 2].mate[other & 3u], i << 1 | k);
-      ox_unite(parents, i, other >> 2);
     }
   }
 }
 
 __kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
-                           __global uint* parents, __global uint* slots) {
+                           __global uint* slots) {
   const ox_scene scene = OX_SCENE;
-  ox_link_features(&scene, features, parents, slots);
+  ox_link_features(&scene, features, slots);
 }
 
 // The feature at the other end of the stretch of the edge inside: the next crossing if one follows
@@ -198,8 +199,21 @@ static void ox_join_neighbours(const ox_scene* scene, __global const ox_feature*
   }
 }
 
-// out: partners; what follows one another along an edge is united. Edges within facets need not be
-// followed: what hangs together by them alone is within one facet.
+// A crossing is united with the other end of each stretch of the curve that it ends. Where that is
+// not known it is united with any that has the pair of facets in common.
+static void ox_join_stretches(const ox_scene* scene, __global const ox_feature* features,
+                              __global uint* parents, uint i) {
+  for (uint k = 0u; k < 2u; ++k) {
+    const uint entry = i << 1 | k;
+    const uint mate = features[i].mate[k];
+    if (mate == OX_NONE || mate == entry) continue;
+    const uint end = ox_find_other_end(scene, features, entry);
+    ox_unite(parents, i, (end == OX_NONE ? mate : end) >> 1);
+  }
+}
+
+// out: partners; what follows one another along the curve or along an edge is united. Edges within
+// facets need not be followed: what hangs together by them alone is within one facet.
 static void ox_join_features(const ox_scene* scene, __global const ox_edge_crossing* crossings,
                              __global ox_feature* features, __global uint* parents,
                              __global const uint* slots) {
@@ -208,6 +222,7 @@ static void ox_join_features(const ox_scene* scene, __global const ox_edge_cross
     __global ox_feature* f = features + i;
     if (!ox_is_vertex(f->flags)) {
       if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
+      ox_join_stretches(scene, features, parents, i);
       f->partner = ox_find_partner(scene, features, slots, crossings, i);
       if (f->partner != OX_NONE) ox_unite(parents, i, f->partner);
     } else if (f->next == OX_NONE) {

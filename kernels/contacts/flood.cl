@@ -206,14 +206,15 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->scene.vertices + index;
   float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
-  // As in general position: where surfaces coincide, A is outside of B, and B inside of A. Rays of
-  // vertices start as far out of their own mesh.
-  const bool inwards = side != 0u && !ox_is_open(s);
-  const float out = (inwards ? -OX_INFLATION : OX_INFLATION) * s->pair->epsilon;
-  p -= out * ox_turn(s->pair, side, vload3(0, vertex->direction));
+  // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
+  // larger by so much. Rays of vertices start as far out of their own mesh.
+  const float out = OX_INFLATION * s->pair->epsilon;
+  const bool in_larger = side != 0u && !ox_is_open(s);
+  if (!in_larger) p -= out * ox_turn(s->pair, side, vload3(0, vertex->direction));
   if (!ox_is_open(s))
     return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
-           ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces);
+           (ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
+            (in_larger && ox_closest_triangle(&s->scene.surfaces, s->target, p, out) != OX_NONE));
   if (!ox_casts_ray(vertex)) return false;
   const float3 direction = vload3(0, vertex->direction);
   ox_query query = ox_asking_query(0u, p, s->pair->epsilon);

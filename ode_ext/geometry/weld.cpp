@@ -75,6 +75,11 @@ Triangle rotated(const Triangle& t) {
   return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
 }
 
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
 }  // namespace
 
 WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
@@ -103,15 +108,17 @@ WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
 
 void order_by_vertices(WeldedMesh& mesh) {
   struct Listed {
+    Triangle corners;  // in ascending order: a mesh and the same inside out are numbered alike
     Triangle key, triangle;
     std::uint32_t source;
   };
   std::vector<Listed> listed;
   listed.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    listed.push_back({rotated(mesh.triangles[i]), mesh.triangles[i], mesh.source_triangle[i]});
+    listed.push_back({sorted(mesh.triangles[i]), rotated(mesh.triangles[i]), mesh.triangles[i],
+                      mesh.source_triangle[i]});
   std::sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) {
-    return std::tie(a.key, a.source) < std::tie(b.key, b.source);
+    return std::tie(a.corners, a.key, a.source) < std::tie(b.corners, b.key, b.source);
   });
   for (std::size_t i = 0; i < listed.size(); ++i) {
     mesh.triangles[i] = listed[i].triangle;

@@ -22,7 +22,7 @@ void PlaneAssembly::assemble(Launch per_pair, Launch per_feature, Launch per_reg
   data.launch(gather_, per_feature, lists.crossings(), lists.hits(), lists.features(),
               lists.feature_parents(), lists.feature_slots(), lists.faces());
   data.launch(place_, per_pair);
-  data.launch(link_, per_feature, lists.features(), lists.feature_parents(), lists.feature_slots());
+  data.launch(link_, per_feature, lists.features(), lists.feature_slots());
   data.launch(join_, per_feature, lists.crossings(), lists.features(), lists.feature_parents(),
               lists.feature_slots());
   data.launch(begin_, per_feature, lists.features(), lists.feature_parents(), lists.regions());

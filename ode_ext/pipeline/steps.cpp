@@ -42,7 +42,7 @@ void Steps::choose_vertices(Launch per_vertex, const StepData& data) {
 }
 
 void Steps::cast(Launch per_ray, const StepData& data) {
-  data.launch(ray_step_, per_ray, data.lists.rays(), data.lists.hits());
+  data.launch(ray_step_, per_ray, data.lists.rays(), data.lists.crossings(), data.lists.hits());
 }
 
 void Steps::run_whole(Launch shares, const StepData& data) {

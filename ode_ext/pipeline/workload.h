@@ -49,7 +49,7 @@ class Workload {
   Launch launch_queue(std::uint64_t items) const;
   // Of one that takes a list.
   Launch launch(Arrow list) const;
-  // Whether each pair is taken through all steps at once, as far as it fits (kernels/whole_step.cl).
+  // Whether each pair is taken through all steps at once, if it fits (kernels/whole_step.cl).
   bool is_whole_step() const { return lists_.shares() != 0; }
   // Of that: a work-item for each share of the lists.
   Launch launch_shares() const;

@@ -363,6 +363,7 @@ ColliderOptions tight_options(Misprediction misprediction) {
   options.prediction = PredictionRule::kPlain;
   options.confidence = 1.0;
   options.initial_capacity = 1;
+  options.whole_steps = false;
   return options;
 }
 
