@@ -121,7 +121,7 @@ enum {
 /** Whether edges are cast besides vertices. */
 enum {
   dBatchEdgesOn = 0, /**< yes (default): every region in which two surfaces overlap gets a contact,
-                          edges that meet edges one along their common normal */
+                          and may be parted along the common normal of two edges */
   dBatchEdgesOff = 1 /**< as the paper: what only edges know of goes unnoticed: of coarse meshes
                           in random poses one colliding pair in ten, of fine ones in a settled pile
                           one in a hundred */
@@ -276,7 +276,7 @@ enum {
                                      the capacity are crossed at once */
   /* ray step, cross -> contact step */
   dBatchBufferHits = 8,      /**< of vertex rays */
-  dBatchBufferCrossings = 9, /**< of edges with triangles; vertices that may touch one */
+  dBatchBufferCrossings = 9, /**< of edges with triangles */
   /* in flood */
   dBatchBufferFloodWords = 10, /**< 32-bit words of room for finding the vertices inside */
   dBatchBufferContacts = 11,   /**< contact step -> host */
@@ -294,17 +294,18 @@ enum {
   dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
   dBatchStageBvhRays = 6,
   dBatchStageBasicRays = 7,
-  dBatchStageMonolithic = 8, /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
-  dBatchStageCull = 9,       /**< crossings of edges: which meshlets can meet the other mesh, */
-  dBatchStageMatch = 10,     /**< which of those can meet one another, */
-  dBatchStageCross = 11,     /**< where edges cross triangles */
-  dBatchStageFlood = 12,     /**< which vertices are inside, by where edges cross */
-  dBatchStageAssembly = 13,  /**< of crossings and vertices inside: regions, planes, candidates */
-  dBatchStageContactStep = 14,
-  dBatchStageWholeStep = 15, /**< all of the above from the pair step on in one launch: few pairs */
-  dBatchStageDevice = 16,    /**< first upload to last read-back, host clock */
-  dBatchStageExport = 17,    /**< storing the answers, host */
-  dBatchStagePass = 18,      /**< the whole batch, without ODE's own pass and the callbacks */
+  dBatchStageMonolithic = 8,   /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
+  dBatchStageCull = 9,         /**< crossings of edges: which meshlets can meet the other mesh, */
+  dBatchStageMatch = 10,       /**< which of those can meet one another, */
+  dBatchStageCross = 11,       /**< where edges cross triangles */
+  dBatchStageFlood = 12,       /**< which vertices are inside, by where edges cross */
+  dBatchStageAssembly = 13,    /**< of crossings and vertices inside: regions, planes, candidates */
+  dBatchStageContactStep = 14, /**< of the candidates the few that are contacts */
+  dBatchStageWholeStep = 15,   /**< all of the above from the pair step on, of each pair that
+                                  fits, by one work-item: on a processor */
+  dBatchStageDevice = 16,      /**< first upload to last read-back, host clock */
+  dBatchStageExport = 17,      /**< storing the answers, host */
+  dBatchStagePass = 18,        /**< the whole batch, without ODE's own pass and the callbacks */
   dBatchStageCount = 19
 };
 

@@ -62,22 +62,22 @@ static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_c
                      ox_side_of(f->flags) == side ? f->at[0] : f->triangle, target);
 }
 
-// The stretch of an edge that is in the region, in parts of it; false: none is.
-static inline bool ox_find_stretch(const ox_region_view* r, uint side, uint code,
-                                   const ox_ridge* ridge, float* first, float* last) {
+// The stretch of the line of an edge that is in the region, in lengths of the edge; false: none is.
+// A straight edge may have been cut into many, which are as good as one another: on which of them
+// two pass is not for their numbers to say.
+static inline bool ox_find_stretch(const ox_region_view* r, uint side, const ox_ridge* ridge,
+                                   float* first, float* last) {
   const float3 d = ridge->to - ridge->from;
-  *first = 1.0f;
-  *last = 0.0f;
+  const float near = OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  *first = INFINITY;
+  *last = -INFINITY;
   for (uint k = 0u; k < r->count; ++k) {
     __global const ox_feature* f = ox_feature_of(r, k);
     if (ox_side_of(f->flags) != side) continue;
     const float3 position = vload3(0, f->position);
-    const bool there = ox_is_vertex(f->flags)
-                           ? ox_is_at(position, ridge->from) || ox_is_at(position, ridge->to)
-                           : (f->at[0] == ridge->face[0] || f->at[1] == ridge->face[0]) &&
-                                 ox_code_of_edge(r->scene, r->pair, side, f->source) == code;
-    if (!there) continue;
-    const float part = clamp(ox_dot(position - ridge->from, d) / ox_dot(d, d), 0.0f, 1.0f);
+    const float part = ox_dot(position - ridge->from, d) / ox_dot(d, d);
+    const float3 off = position - (ridge->from + part * d);
+    if (!(ox_dot(off, off) <= near * near)) continue;
     *first = ox_min(*first, part);
     *last = ox_max(*last, part);
   }
@@ -101,11 +101,11 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   float3 on_b = (float3)(0.0f);
   bool any_a = true;
   bool any_b = true;
-  if (ox_find_stretch(r, 0u, choice->plane.id[0], &ridge_a, &first, &last))
+  if (ox_find_stretch(r, 0u, &ridge_a, &first, &last))
     on_a = a + clamp(ox_dot(ox_plain_cross(d, v), n) / area, first, last) * u;
   else
     any_a = ox_find_farthest(r, 0u, n, &on_a);
-  if (ox_find_stretch(r, 1u, choice->plane.id[1], &ridge_b, &first, &last))
+  if (ox_find_stretch(r, 1u, &ridge_b, &first, &last))
     on_b = b + clamp(ox_dot(ox_plain_cross(d, u), n) / area, first, last) * v;
   else
     any_b = ox_find_farthest(r, 1u, n, &on_b);

@@ -13,7 +13,7 @@ static inline float ox_unit_depth(const ox_region_view* r, uint k, const ox_plan
   const float one = ox_plane_depth(plane, side, ox_position_of(r, k));
   const float other = ox_plane_depth(plane, side, ox_vector_of(&r->members, OX_MEMBER_END, k));
   // A crossing lies on its face to within what A was made larger by, and what is not known.
-  const float above = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  const float above = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   if (ox_min(one, other) < above) return INFINITY;
   return ox_max(ox_max(one, other), 0.0f);
 }
@@ -158,7 +158,7 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
 // A bit for each plane of a block that clears a unit by a move of `limit` at most.
 static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint unit, float limit) {
   const uint side = ox_side_of(ox_flags_of(r, unit));
-  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   ox_floats one, other;
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_position_of(r, unit), &one);
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_vector_of(&r->members, OX_MEMBER_END, unit),
@@ -245,7 +245,7 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
 // A bit for each unit of a block that a plane clears by a move so far along it.
 static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_plane* plane,
                                  float along) {
-  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   const ox_ints is_b =
       (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
   const uint of_b = ox_mask_of(&is_b);

@@ -24,7 +24,7 @@ static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plan
     return ox_max(top - bottom, 0.0f);
   }
   const uint side = ox_clears_side(plane, 0u) ? 0u : 1u;
-  const float past = -OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   float depth = -INFINITY;  // unless there is something to be moved
   if (*deepest < r->count && ox_is_on(ox_flags_of(r, *deepest), side))
     depth = ox_plane_depth(plane, side, ox_position_of(r, *deepest));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// General position (docs/separating-planes.md): the meshes of a pair are put so that nothing of one
+// General position (docs/contacts.md): the meshes of a pair are put so that nothing of one
 // only touches the other. What touches overlaps, and what coincides crosses. Device only.
 //
 // Everything is in the frame of B. Mesh A is taken a little larger, and all coordinates are rounded
@@ -17,6 +17,9 @@
 #define OX_INFLATION 2.0f  // epsilons
 // What is farther apart than this does not meet: A's growth, and what is not known.
 #define OX_MARGIN 4.0f  // epsilons
+// What a plane clears may be so far above it. Where two faces meet features of the one come up to the
+// margin above the other: at the margin itself rounding would choose.
+#define OX_CLEARANCE 8.0f  // epsilons
 
 // What a pair's coordinates are rounded by: x + snap - snap. With a power of two P of twice the
 // largest of them at least, snap is 1.5 P; sums with it lie between P and 2 P, where floats are

@@ -106,7 +106,7 @@ TEST_F(DemoSheets, WakeWhenWhatTheyLieOnMoves) {
   ASSERT_LT(touched, scene_.objects().size());
   const dBodyID body = scene_.objects()[touched].body;
   dBodyEnable(body);
-  dBodySetLinearVel(body, 0, 0, 2);
+  dBodySetLinearVel(body, 0, 0, 3);
   const std::vector<Vector> before = cloth().positions();
   const double body_before = dBodyGetPosition(body)[2];
   double lifted = 0;

@@ -132,7 +132,7 @@ TEST(Topology, CountsSliversAsNeighbours) {
   const Mesh mesh = built(soup);
   EXPECT_EQ(mesh.triangles.size(), 6u);
   EXPECT_TRUE(mesh.closed);
-  EXPECT_EQ(mesh.face_normals[2], (Vec3f{}));
+  EXPECT_EQ(std::count(mesh.face_normals.begin(), mesh.face_normals.end(), Vec3f{}), 1);
 }
 
 TEST(Topology, LeavesASurfaceWithoutSidesAlone) {
