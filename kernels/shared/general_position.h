@@ -17,8 +17,8 @@
 #define OX_INFLATION 2.0f  // epsilons
 // What is farther apart than this does not meet: A's growth, and what is not known.
 #define OX_MARGIN 4.0f  // epsilons
-// What a plane clears may be so far above it. Where two faces meet features of the one come up to the
-// margin above the other: at the margin itself rounding would choose.
+// What a plane clears may be so far above it. Where two faces meet features of the one come up to
+// the margin above the other: at the margin itself rounding would choose.
 #define OX_CLEARANCE 8.0f  // epsilons
 
 // What a pair's coordinates are rounded by: x + snap - snap. With a power of two P of twice the

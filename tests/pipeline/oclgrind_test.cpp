@@ -179,8 +179,8 @@ TEST(OclgrindPipeline, FindsContactsOfEdges) {
     const auto found = counts(collider, scene);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (i >= 16) continue;  // of open surfaces that do not cross neither has an inside
-      // The paper's rays of vertices know no general position: of solids in one place each vertex is
-      // on the surface of the other, and none inside (docs/contacts.md).
+      // The paper's rays of vertices know no general position: of solids in one place each vertex
+      // is on the surface of the other, and none inside (docs/contacts.md).
       if (i == coincident && organisation == Organisation::kMonolithic) continue;
       EXPECT_EQ(found[i] > 0, i != apart) << i;
     }
