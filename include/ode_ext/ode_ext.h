@@ -78,9 +78,12 @@ enum {
 
 /** Which rays are cast (GRAPP section 3). By default those of vertices inside, where crossings of
     edges tell which these are; with any other choice of rays, deformable_target, organisation,
-    misprediction (than redo), edges or count_work those of all vertices, as in the paper. Both give
-    the same bytes, but where an open mesh is in a body and meets none of its edges: there rays of
-    all vertices find some of the body behind it. */
+    misprediction (than redo), edges or count_work those of all vertices, as in the paper. Both
+    give the same contacts but in three cases: a vertex that is on the other surface to within
+    rounding may be inside by crossings and not by its ray; solids of one shape in one place have
+    contacts by crossings alone; and where an open mesh is in a body and meets none of its edges
+    rays of all vertices find some of the body behind it. All choices that cast those of all
+    vertices agree to the byte, but where said. */
 enum {
   dBatchRaysFull = 0,      /**< every ray in full (default) */
   dBatchRaysIterative = 1, /**< where a pair moved little, from the triangle met in the last pass;
@@ -90,15 +93,15 @@ enum {
                                   Misses contacts */
 };
 
-/** How rays at a deformable mesh are cast. Both give the same bytes, unless rays are the paper's or
-    mispredictions are ignored, and but for what is said above of rays of all vertices. */
+/** How rays at a deformable mesh are cast. Both give the same bytes among rays of all vertices,
+    unless rays are the paper's or mispredictions are ignored. */
 enum {
   dBatchDeformableRefit = 0, /**< through a BVH refitted on the device in every pass (default) */
   dBatchDeformableBasic = 1  /**< against every triangle, as the paper */
 };
 
-/** How the work is cut into kernels. Both give the same bytes, unless mispredictions are
-    ignored. */
+/** How the work is cut into kernels. Both give the same bytes among rays of all vertices,
+    unless mispredictions are ignored. */
 enum {
   dBatchOrganisationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
                                       between (default) */

@@ -182,13 +182,13 @@ bool SoakThread::mark_deformables(dBatchColliderID collider) const {
   return collider != nullptr;
 }
 
-// All of these give the same bytes. None where another thread makes the device fail just now.
+// All of these give the same bytes. Null where another thread makes the device fail just now.
 void SoakThread::replace_collider() {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
-  if (once_in(3)) params.rays = dBatchRaysIterative;
+  if (once_in(3)) params.workload = dBatchWorkloadExact;
   if (once_in(3)) params.initial_capacity = 64;
-  if (once_in(3)) params.organisation = dBatchOrganisationMonolithic;
+  if (once_in(3)) params.prediction = dBatchPredictionPlain;
   dBatchColliderDestroy(collider_);
   collider_ = dBatchColliderCreate(&params);
   if (mark_deformables(collider_)) ++progress_.colliders;
