@@ -17,7 +17,7 @@ foreach(header shared/types shared/scene shared/transform shared/append shared/f
                paper/note_work shared/meshlet shared/exact_sign shared/intersect contacts/types
                contacts/fields contacts/candidate_list contacts/border contacts/cross
                contacts/feature
-               contacts/feature_table contacts/mate contacts/face_table contacts/plane
+               contacts/feature_table contacts/chord contacts/mate contacts/face_table contacts/plane
                contacts/region_fields contacts/region contacts/ways contacts/whole_region
                contacts/units contacts/candidates shared/deform shared/moves)
   set(header ${header}.h)

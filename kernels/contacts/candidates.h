@@ -72,9 +72,8 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, const ox_
   *first = INFINITY;
   *last = -INFINITY;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    if (ox_side_of(f->flags) != side) continue;
-    const float3 position = vload3(0, f->position);
+    if (ox_side_of(ox_flags_of(r, k)) != side) continue;
+    const float3 position = ox_position_of(r, k);
     const float part = ox_dot(position - ridge->from, d) / ox_dot(d, d);
     const float3 off = position - (ridge->from + part * d);
     if (!(ox_dot(off, off) <= near * near)) continue;

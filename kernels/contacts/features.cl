@@ -8,6 +8,7 @@
 // room  parents; slots, faces: tables (contacts/feature_table.h, contacts/face_table.h)
 // item  1 feature (grid-stride); of feature_place 1 pair
 // may overflow: none; all go by the number of crossings and hits
+#include "contacts/chord.h"
 #include "contacts/face_table.h"
 #include "contacts/feature_table.h"
 #include "contacts/mate.h"
@@ -153,34 +154,6 @@ __kernel void feature_link(OX_SCENE_PARAMETERS, __global ox_feature* features,
   ox_link_features(&scene, features, slots);
 }
 
-// The feature at the other end of the stretch of the edge inside: the next crossing if one follows
-// on that side, to within what rounding may have moved them, else the vertex.
-static uint ox_find_partner(const ox_scene* scene, __global const ox_feature* features,
-                            __global const uint* slots, __global const ox_edge_crossing* crossings,
-                            uint i) {
-  __global const ox_feature* f = features + i;
-  const uint side = ox_side_of(f->flags);
-  const bool leaves = (f->flags & OX_FEATURE_LEAVES) != 0u;
-  uint best = OX_NONE;
-  float nearest = INFINITY;
-  uint n = ox_find_feature(scene, features, slots, ox_edge_key(f->pair, side, f->source)) >> 2;
-  for (; n != OX_NONE; n = features[n].next) {
-    __global const ox_feature* other = features + n;
-    if (((other->flags & OX_FEATURE_LEAVES) != 0u) == leaves) continue;
-    // It leaves after it entered; of those at one place the lowest triangle.
-    const float after = leaves ? f->t - other->t : other->t - f->t;
-    if (after < -(crossings[i].blur + crossings[n].blur)) continue;
-    if (after > nearest || (after == nearest && other->triangle > features[best].triangle))
-      continue;
-    nearest = after;
-    best = n;
-  }
-  if (best != OX_NONE) return best;
-  const uint vertex = scene->edges[f->source].vertex[leaves ? 0u : 1u];
-  const uint entry = ox_find_feature(scene, features, slots, ox_inside_key(f->pair, side, vertex));
-  return entry == OX_NONE ? OX_NONE : entry >> 2;
-}
-
 // Where no flood told it: a vertex is united with those inside to which edges lead that do not
 // cross.
 static void ox_join_neighbours(const ox_scene* scene, __global const ox_feature* features,
@@ -212,6 +185,15 @@ static void ox_join_stretches(const ox_scene* scene, __global const ox_feature* 
   }
 }
 
+// The crossings of an edge, from the head of their chain on, with the other ends of their chords.
+static void ox_join_chords(const ox_scene* scene, __global const ox_edge_crossing* crossings,
+                           __global ox_feature* features, __global uint* parents,
+                           __global const uint* slots, uint head) {
+  uint n = ox_find_partners(scene, features, slots, crossings, head);
+  for (; n != OX_NONE; n = features[n].next)
+    if (features[n].partner != OX_NONE) ox_unite(parents, n, features[n].partner);
+}
+
 // out: partners; what follows one another along the curve or along an edge is united. Edges within
 // facets need not be followed: what hangs together by them alone is within one facet.
 static void ox_join_features(const ox_scene* scene, __global const ox_edge_crossing* crossings,
@@ -223,8 +205,10 @@ static void ox_join_features(const ox_scene* scene, __global const ox_edge_cross
     if (!ox_is_vertex(f->flags)) {
       if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
       ox_join_stretches(scene, features, parents, i);
-      f->partner = ox_find_partner(scene, features, slots, crossings, i);
-      if (f->partner != OX_NONE) ox_unite(parents, i, f->partner);
+      const uint head = ox_find_feature(scene, features, slots,
+                                        ox_edge_key(f->pair, ox_side_of(f->flags), f->source)) >>
+                        2;
+      if (head == i) ox_join_chords(scene, crossings, features, parents, slots, i);
     } else if (f->next == OX_NONE) {
       ox_join_neighbours(scene, features, parents, slots, i);
     } else if (f->next != f->source) {

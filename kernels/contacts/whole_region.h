@@ -6,45 +6,74 @@
 
 #include "contacts/ways.h"
 
-// How deep the deepest of a whole region is below a plane; or a depth beyond `limit`; infinite
-// where part of it is past the plane. `deepest`: the member for which that was so of another
-// plane, and so may be of this one.
-static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
-                                   uint* deepest) {
-  if (plane->kind == OX_PLANE_EDGES) {
-    float top = plane->top;
-    float bottom = plane->bottom;
-    for (uint k = 0u; k < r->count; ++k) {
-      const uint flags = ox_flags_of(r, k);
-      const float height = ox_dot(plane->normal, ox_position_of(r, k));
-      if (ox_is_on(flags, 1u)) top = ox_max(top, height);
-      if (ox_is_on(flags, 0u)) bottom = ox_min(bottom, height);
-      if (top - bottom > limit) break;
-    }
-    return ox_max(top - bottom, 0.0f);
-  }
-  const uint side = ox_clears_side(plane, 0u) ? 0u : 1u;
-  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  float depth = -INFINITY;  // unless there is something to be moved
-  if (*deepest < r->count && ox_is_on(ox_flags_of(r, *deepest), side))
-    depth = ox_plane_depth(plane, side, ox_position_of(r, *deepest));
-  for (uint k = 0u; k < r->count && depth <= limit; ++k) {
-    const float here = ox_plane_depth(plane, side, ox_position_of(r, k));
-    if ((here <= depth && here >= past) || !ox_is_on(ox_flags_of(r, k), side)) continue;
-    if (here < past) return INFINITY;
-    depth = here;
-    *deepest = k;
-  }
-  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);
+// Of the members of a block that are points of mesh `side` how far the last and the first are along
+// a direction; infinitely far back and on where none is.
+static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint side,
+                                      float3 direction, float* least, float* most) {
+  const int others = (int)(OX_FEATURE_VERTEX | (side == 0u ? OX_FEATURE_SIDE : 0u));
+  const int mask = (int)(OX_FEATURE_VERTEX | OX_FEATURE_SIDE);
+  const ox_ints left = (int)(r->count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
+  const ox_ints is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
+  ox_floats along;
+  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, direction, &along);
+  ox_floats low = left > 0 ? along : (ox_floats)(INFINITY);
+  ox_floats high = left > 0 ? along : (ox_floats)(-INFINITY);
+  low = is_other ? (ox_floats)(INFINITY) : low;
+  high = is_other ? (ox_floats)(-INFINITY) : high;
+  *least = ox_least_of(&low);
+  *most = ox_greatest_of(&high);
 }
 
 static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
   return plane->kind == OX_PLANE_EDGES ? OX_EDGE_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
 }
 
+// How deep the deepest of a whole region is below a plane; infinite where part of it is past the
+// plane, or that and what its kind adds exceed `limit`. `farthest`: for each mesh the block of
+// members which was farthest for another plane, and so may be for this one; without `all` it is
+// looked at alone.
+static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
+                                   uint* farthest, bool all) {
+  const bool is_face = plane->kind != OX_PLANE_EDGES;
+  const float tie = ox_edge_tie(r, plane);
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  // How far A reaches down, and B up.
+  float reach[2] = {-plane->bottom, plane->top};
+  if (is_face) reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
+  const float level = is_face ? plane->top : 0.0f;
+  const uint blocks = all ? (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH : 0u;
+  for (uint i = 0u; i <= blocks; ++i) {
+    for (uint side = 0u; side < 2u; ++side) {
+      if (!ox_clears_side(plane, side)) continue;
+      const uint block = i == 0u ? farthest[side] : i - 1u;
+      float least, most;
+      ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least,
+                         &most);
+      if (is_face && least + (side == 0u ? level : -level) < past) return INFINITY;
+      if (most <= reach[side]) continue;
+      reach[side] = most;
+      farthest[side] = block;
+    }
+    if (reach[0] + reach[1] + tie > limit) return INFINITY;
+  }
+  const float depth = reach[0] + reach[1];
+  return all && depth == -INFINITY ? INFINITY
+                                   : ox_max(depth, 0.0f);  // nothing there is to be moved
+}
+
+// Directions are told apart by which of their coordinates are beyond a third, either way.
+#define OX_DIRECTIONS 27u
+static inline uint ox_direction_of(float3 n) {
+  const float third = 1.0f / 3.0f;
+  const uint x = n.x > third ? 2u : n.x < -third ? 0u : 1u;
+  const uint y = n.y > third ? 2u : n.y < -third ? 0u : 1u;
+  const uint z = n.z > third ? 2u : n.z < -third ? 0u : 1u;
+  return 9u * x + 3u * y + z;
+}
+
 // The search for the plane of a whole region.
 typedef struct {
-  uint deepest;  // as in ox_whole_depth
+  uint farthest[OX_DIRECTIONS][2];  // as in ox_whole_depth, for planes that face one way
   // Normals of planes that do not separate: what faces their way, within acos 0.9 = 26 degrees,
   // does not either.
   float3 refused[OX_MOST_TRIES];
@@ -61,16 +90,18 @@ static inline bool ox_is_refused(const ox_search* search, const ox_plane* plane)
 static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, ox_search* search,
                                 ox_plane_choice* best) {
   if (plane->kind == OX_PLANE_NONE || ox_is_refused(search, plane)) return;
+  uint* farthest = search->farthest[ox_direction_of(plane->normal)];
+  if (ox_whole_depth(r, plane, best->judged, farthest, false) == INFINITY) return;
   const float tie = ox_edge_tie(r, plane);
+  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
+  if (beyond + tie > best->judged) return;
   ox_plane_choice choice;
   choice.plane = *plane;
-  choice.depth = ox_whole_depth(r, plane, best->judged - tie, &search->deepest);
-  choice.judged = choice.depth + tie;
-  if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
-  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
+  choice.depth = ox_whole_depth(r, plane, best->judged, farthest, true);
+  if (choice.depth == INFINITY) return;
+  choice.judged = ox_max(choice.depth, beyond) + tie;
   // A pair of edges holds where it is; its contact says how far all of the body has to go.
   if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond);
-  choice.judged = ox_max(choice.depth, beyond) + tie;
   if (ox_is_better_choice(&choice, best)) *best = choice;
 }
 
@@ -125,9 +156,8 @@ static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 no
       farthest = ox_max(farthest, ox_dot(past, ox_position_of(r, k)));
   farthest -= OX_INFLATION * r->scene->pairs[r->pair].epsilon;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    if (ox_is_on(f->flags, side) && ox_dot(past, ox_position_of(r, k)) >= farthest)
-      ox_add_edges_at(r, side, f, set);
+    if (ox_is_on(ox_flags_of(r, k), side) && ox_dot(past, ox_position_of(r, k)) >= farthest)
+      ox_add_edges_at(r, side, ox_feature_of(r, k), set);
   }
 }
 
@@ -141,8 +171,8 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
   const uint facet = scene->facets[triangle];
   ox_add_sides(r, side, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
+    if (ox_side_of(ox_flags_of(r, k)) != side) continue;
     __global const ox_feature* f = ox_feature_of(r, k);
-    if (ox_side_of(f->flags) != side) continue;
     if (!ox_is_vertex(f->flags)) {
       if (ox_are_at_facet(scene, f->at[0], f->at[1], facet))
         ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
@@ -190,16 +220,6 @@ static inline bool ox_step_on(const ox_region_view* r, ox_search* search, ox_pla
          best->plane.id[1] != from.id[1];
 }
 
-// Directions are told apart by which of their coordinates are beyond a third, either way.
-#define OX_DIRECTIONS 27u
-static inline uint ox_direction_of(float3 n) {
-  const float third = 1.0f / 3.0f;
-  const uint x = n.x > third ? 2u : n.x < -third ? 0u : 1u;
-  const uint y = n.y > third ? 2u : n.y < -third ? 0u : 1u;
-  const uint z = n.z > third ? 2u : n.z < -third ? 0u : 1u;
-  return 9u * x + 3u * y + z;
-}
-
 // What a plane costs is least in several directions at once, as a box is thin in three: from the
 // best in each the best next to it is looked for.
 static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search* search) {
@@ -230,10 +250,9 @@ static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 n
   uint best = OX_NONE;
   float farthest = -INFINITY;
   for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    const float here = ox_dot(past, vload3(0, f->position));
-    if (!ox_is_on(f->flags, side) || here < farthest ||
-        (here == farthest && !ox_is_before(f, ox_feature_of(r, best))))
+    const float here = ox_dot(past, ox_position_of(r, k));
+    if (!ox_is_on(ox_flags_of(r, k), side) || here < farthest ||
+        (here == farthest && !ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))))
       continue;
     farthest = here;
     best = k;
@@ -274,7 +293,7 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
 // The least plane. Where one does not separate them, all of the body has to pass it.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
-  search.deepest = 0u;
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.farthest[i][0] = search.farthest[i][1] = 0u;
   ox_plane_choice of_body = ox_no_choice();
   for (search.refused_count = 0u; search.refused_count < OX_MOST_TRIES; ++search.refused_count) {
     ox_plane_choice best = ox_search_whole(r, &search);
