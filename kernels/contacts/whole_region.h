@@ -28,37 +28,77 @@ static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) 
   return plane->kind == OX_PLANE_EDGES ? OX_EDGE_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
 }
 
-// How deep the deepest of a whole region is below a plane; infinite where part of it is past the
-// plane, or that and what its kind adds exceed `limit`. `farthest`: for each mesh the block of
-// members which was farthest for another plane, and so may be for this one; without `all` it is
-// looked at alone.
-static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
-                                   uint* farthest, bool all) {
-  const bool is_face = plane->kind != OX_PLANE_EDGES;
-  const float tie = ox_edge_tie(r, plane);
+// Blocks of members which were farthest for planes that face one way, those of A and of B, and so
+// may be for others that do; the last to be found replaces the first. Of a region of few blocks
+// none are kept.
+#define OX_KEPT_BLOCKS 8u
+typedef struct {
+  uint block[2][OX_KEPT_BLOCKS];
+  uint found[2];
+} ox_kept_blocks;
+
+// How far the members of a whole region reach past a plane: A down, and B up.
+typedef struct {
+  const ox_plane* plane;
+  float reach[2];
+  bool is_past;  // part of it is on the other side of the plane of a face
+} ox_extent;
+
+static inline ox_extent ox_begin_extent(const ox_plane* plane) {
+  ox_extent extent = {plane, {-plane->bottom, plane->top}, false};
+  if (plane->kind != OX_PLANE_EDGES) extent.reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
+  return extent;
+}
+
+// Returns whether a block reaches farther.
+static inline bool ox_extend(const ox_region_view* r, uint side, uint block, ox_extent* extent) {
+  const ox_plane* plane = extent->plane;
+  float least, most;
+  ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least, &most);
   const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  // How far A reaches down, and B up.
-  float reach[2] = {-plane->bottom, plane->top};
-  if (is_face) reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
-  const float level = is_face ? plane->top : 0.0f;
-  const uint blocks = all ? (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH : 0u;
-  for (uint i = 0u; i <= blocks; ++i) {
-    for (uint side = 0u; side < 2u; ++side) {
-      if (!ox_clears_side(plane, side)) continue;
-      const uint block = i == 0u ? farthest[side] : i - 1u;
-      float least, most;
-      ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least,
-                         &most);
-      if (is_face && least + (side == 0u ? level : -level) < past) return INFINITY;
-      if (most <= reach[side]) continue;
-      reach[side] = most;
-      farthest[side] = block;
-    }
-    if (reach[0] + reach[1] + tie > limit) return INFINITY;
+  if (plane->kind != OX_PLANE_EDGES && least + (side == 0u ? plane->top : -plane->bottom) < past)
+    extent->is_past = true;
+  const bool is_farther = most > extent->reach[side];
+  if (is_farther) extent->reach[side] = most;
+  return is_farther;
+}
+
+// The depth so far; infinite where that and what the kind of plane adds exceed a limit.
+static inline float ox_depth_so_far(const ox_extent* extent, float tie, float limit) {
+  const float depth = extent->reach[0] + extent->reach[1];
+  return extent->is_past || depth + tie > limit ? INFINITY : depth;
+}
+
+// At least so deep is the deepest of a whole region below a plane, by the blocks that are kept.
+static inline float ox_least_depth(const ox_region_view* r, const ox_plane* plane, float limit,
+                                   const ox_kept_blocks* kept) {
+  ox_extent extent = ox_begin_extent(plane);
+  for (uint side = 0u; side < 2u; ++side) {
+    if (!ox_clears_side(plane, side)) continue;
+    const uint count = min(kept->found[side], OX_KEPT_BLOCKS);
+    for (uint i = 0u; i < count; ++i) ox_extend(r, side, kept->block[side][i], &extent);
   }
-  const float depth = reach[0] + reach[1];
-  return all && depth == -INFINITY ? INFINITY
-                                   : ox_max(depth, 0.0f);  // nothing there is to be moved
+  return ox_depth_so_far(&extent, ox_edge_tie(r, plane), limit);
+}
+
+// How deep the deepest of a whole region is below a plane; infinite where part of it is past the
+// plane, or that and what its kind adds exceed `limit`.
+static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
+                                   ox_kept_blocks* kept) {
+  const uint blocks = (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  const float tie = ox_edge_tie(r, plane);
+  ox_extent extent = ox_begin_extent(plane);
+  uint farthest[2] = {OX_NONE, OX_NONE};
+  float depth = -INFINITY;
+  for (uint block = 0u; block < blocks && depth != INFINITY; ++block) {
+    for (uint side = 0u; side < 2u; ++side)
+      if (ox_clears_side(plane, side) && ox_extend(r, side, block, &extent)) farthest[side] = block;
+    depth = ox_depth_so_far(&extent, tie, limit);
+  }
+  for (uint side = 0u; side < 2u && blocks > OX_KEPT_BLOCKS; ++side)
+    if (farthest[side] != OX_NONE)
+      kept->block[side][kept->found[side]++ % OX_KEPT_BLOCKS] = farthest[side];
+  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);  // nothing there is to be moved
 }
 
 // Directions are told apart by which of their coordinates are beyond a third, either way.
@@ -73,7 +113,7 @@ static inline uint ox_direction_of(float3 n) {
 
 // The search for the plane of a whole region.
 typedef struct {
-  uint farthest[OX_DIRECTIONS][2];  // as in ox_whole_depth, for planes that face one way
+  ox_kept_blocks kept[OX_DIRECTIONS];
   // Normals of planes that do not separate: what faces their way, within acos 0.9 = 26 degrees,
   // does not either.
   float3 refused[OX_MOST_TRIES];
@@ -90,14 +130,14 @@ static inline bool ox_is_refused(const ox_search* search, const ox_plane* plane)
 static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, ox_search* search,
                                 ox_plane_choice* best) {
   if (plane->kind == OX_PLANE_NONE || ox_is_refused(search, plane)) return;
-  uint* farthest = search->farthest[ox_direction_of(plane->normal)];
-  if (ox_whole_depth(r, plane, best->judged, farthest, false) == INFINITY) return;
+  ox_kept_blocks* kept = search->kept + ox_direction_of(plane->normal);
+  if (ox_least_depth(r, plane, best->judged, kept) == INFINITY) return;
   const float tie = ox_edge_tie(r, plane);
   const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
   if (beyond + tie > best->judged) return;
   ox_plane_choice choice;
   choice.plane = *plane;
-  choice.depth = ox_whole_depth(r, plane, best->judged, farthest, true);
+  choice.depth = ox_whole_depth(r, plane, best->judged, kept);
   if (choice.depth == INFINITY) return;
   choice.judged = ox_max(choice.depth, beyond) + tie;
   // A pair of edges holds where it is; its contact says how far all of the body has to go.
@@ -293,7 +333,7 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
 // The least plane. Where one does not separate them, all of the body has to pass it.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
-  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.farthest[i][0] = search.farthest[i][1] = 0u;
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
   ox_plane_choice of_body = ox_no_choice();
   for (search.refused_count = 0u; search.refused_count < OX_MOST_TRIES; ++search.refused_count) {
     ox_plane_choice best = ox_search_whole(r, &search);
