@@ -110,6 +110,59 @@ TEST(Features, ArePartnersOfOneAnother) {
   EXPECT_GT(chords, 100u);
 }
 
+// By looking at all crossings of the edge: the nearest the other way on the inner side.
+ox_u32 partner_among_all(const StepRecords& records, const std::vector<ox_u32>& of_edge, ox_u32 i) {
+  const ox_feature& f = records.features[i];
+  const bool leaves = (f.flags & OX_FEATURE_LEAVES) != 0;
+  ox_u32 best = OX_NONE;
+  std::pair<ox_f32, ox_u32> least{INFINITY, 0};
+  for (const ox_u32 n : of_edge) {
+    const ox_feature& other = records.features[n];
+    if (((other.flags & OX_FEATURE_LEAVES) != 0) == leaves) continue;
+    const ox_f32 after = leaves ? f.t - other.t : other.t - f.t;
+    if (after < -(records.crossings[i].blur + records.crossings[n].blur)) continue;
+    const std::pair<ox_f32, ox_u32> rank{after, other.triangle};
+    if (rank >= least) continue;
+    least = rank;
+    best = n;
+  }
+  return best;
+}
+
+TEST(Features, ArePartnersOfTheNearestHoweverOftenAnEdgeCrosses) {
+  TestScene scene;
+  scene.add_pair(scene.add_mesh(make_soup(150, 21)), {}, scene.add_mesh(make_soup(150, 22)), {});
+  const StepRecords records = searched(scene);
+  std::map<std::pair<ox_u32, ox_u32>, std::vector<ox_u32>> of_edges;
+  std::map<std::pair<ox_u32, ox_u32>, ox_u32> inside;
+  for (ox_u32 i = 0; i < records.features.size(); ++i) {
+    const ox_feature& f = records.features[i];
+    if ((f.flags & OX_FEATURE_VERTEX) != 0)
+      inside[{f.flags & OX_FEATURE_SIDE, f.source}] = i;
+    else
+      of_edges[{f.flags & OX_FEATURE_SIDE, f.source}].push_back(i);
+  }
+  std::size_t most = 0;
+  std::size_t chords = 0;
+  for (const auto& [edge, all] : of_edges) {
+    most = std::max(most, all.size());
+    for (const ox_u32 i : all) {
+      const ox_feature& f = records.features[i];
+      ox_u32 expected = partner_among_all(records, all, i);
+      if (expected == OX_NONE) {
+        const ox_u32 end = (f.flags & OX_FEATURE_LEAVES) != 0 ? 0 : 1;
+        const auto found = inside.find({edge.first, records.edges.at(f.source).vertex[end]});
+        if (found != inside.end()) expected = found->second;
+      } else {
+        ++chords;
+      }
+      EXPECT_EQ(f.partner, expected) << "feature " << i;
+    }
+  }
+  EXPECT_GT(most, 10u);
+  EXPECT_GT(chords, 500u);
+}
+
 // Posts upright in one face.
 TEST(Regions, AreAsManyAsPostsInAFaceHoweverManyTheyAre) {
   for (const int count : {2, 16, 17, 60}) {

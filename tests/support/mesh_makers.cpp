@@ -273,6 +273,20 @@ TestMesh make_triangle(double size) {
   return mesh;
 }
 
+TestMesh make_soup(int triangles, std::uint64_t seed) {
+  TestMesh mesh;
+  Random random(seed);
+  for (int i = 0; i < triangles; ++i) {
+    const TestPose pose = random.pose(0.5);
+    for (int k = 0; k < 3; ++k) {
+      for (const double at : pose.position)
+        mesh.vertices.push_back(static_cast<float>(at + random.uniform(-0.5, 0.5)));
+      mesh.indices.push_back(static_cast<unsigned>(3 * i + k));
+    }
+  }
+  return mesh;
+}
+
 TestMesh inverted(TestMesh mesh) {
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);

@@ -55,6 +55,8 @@ TestMesh make_l(double size);  // a concave prism: a 2 x 2 square less one quart
 TestMesh make_comb(int teeth, double width, double height, double depth);
 TestMesh make_sheet(double size, int n);  // open, in z = 0, facing +z
 TestMesh make_triangle(double size);      // one triangle in z = 0, facing +z
+// Triangles as large as all of it, in a cube of 2 m about 0, each of corners of its own.
+TestMesh make_soup(int triangles, std::uint64_t seed);
 
 TestMesh inverted(TestMesh mesh);  // every triangle wound the other way
 TestMesh scaled(TestMesh mesh, double factor);
