@@ -56,6 +56,7 @@ Measure prepare_plate(const Options& options, test::OdeWorld& world);
 Measure prepare_separation(const Options& options, test::OdeWorld& world);
 Measure prepare_table(const Options& options, test::OdeWorld& world);
 Measure prepare_inverted(const Options& options, test::OdeWorld& world);
+Measure prepare_composite(const Options& options, test::OdeWorld& world);
 Measure prepare_coincident(const Options& options, test::OdeWorld& world);
 
 std::span<const Trial> all_trials();

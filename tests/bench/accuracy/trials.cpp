@@ -14,6 +14,8 @@ std::span<const Trial> all_trials() {
        prepare_table},
       {"inverted", "meshes wound the wrong way round, against themselves wound rightly",
        prepare_inverted},
+      {"composite", "meshes of which several parts touch: plates, a rack, a comb, an H in a frame",
+       prepare_composite},
       {"coincident", "boxes in line, copies at one place, shared walls and edges",
        prepare_coincident},
   };
