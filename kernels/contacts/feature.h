@@ -58,6 +58,18 @@ static inline bool ox_is_flat_edge(const ox_scene* scene, uint edge) {
          scene->facets[scene->edges[edge].triangle[0]] == scene->facets[second];
 }
 
+// Whether a vertex is within a facet, so that it bounds nothing. Of a mesh that changes its shape,
+// or of one beside it, every vertex may need a contact.
+static inline bool ox_is_flat_vertex(const ox_scene* scene, uint pair, uint vertex) {
+  __global const uint* of_pair = scene->pairs[pair].mesh;
+  if (((scene->meshes[of_pair[0]].flags | scene->meshes[of_pair[1]].flags) & OX_MESH_DEFORMABLE) !=
+      0u)
+    return false;
+  for (uint k = scene->ring_starts[vertex]; k < scene->ring_starts[vertex + 1u]; ++k)
+    if (!ox_is_flat_edge(scene, scene->rings[k].edge)) return false;
+  return true;
+}
+
 // Whether feature a comes before b in an order that does not depend on their numbers.
 static inline bool ox_is_before(__global const ox_feature* a, __global const ox_feature* b) {
   const uint kind_a = a->flags & (OX_FEATURE_SIDE | OX_FEATURE_VERTEX);

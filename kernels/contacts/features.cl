@@ -52,22 +52,18 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       __global const ox_hit* hit = hits + (i - crossed);
       const uint side = hit->pair_side & 1u;
       f.pair = hit->pair_side >> 1;
-      f.flags = side | OX_FEATURE_VERTEX | OX_FEATURE_FLAT |
+      const bool is_flat = ox_is_flat_vertex(scene, f.pair, hit->vertex);
+      f.flags = side | OX_FEATURE_VERTEX | (is_flat ? OX_FEATURE_FLAT : 0u) |
                 ((hit->kind & OX_HIT_REVERSED) != 0u ? OX_FEATURE_REVERSED : 0u);
       f.source = hit->vertex;
       f.triangle = hit->triangle;
       f.t = 0.0f;
       f.next = hit->from;
-      // Where one changes its shape every vertex may need a contact.
-      __global const uint* of_pair = scene->pairs[f.pair].mesh;
-      if (((scene->meshes[of_pair[0]].flags | scene->meshes[of_pair[1]].flags) &
-           OX_MESH_DEFORMABLE) != 0u)
-        f.flags &= ~OX_FEATURE_FLAT;
-      for (uint k = scene->ring_starts[hit->vertex]; k < scene->ring_starts[hit->vertex + 1u];
-           ++k) {
-        if (ox_is_flat_edge(scene, scene->rings[k].edge)) continue;
-        f.flags &= ~OX_FEATURE_FLAT;
-        if (!ox_is_valley(scene, f.pair, scene->rings[k].edge)) continue;
+      const uint end = is_flat ? 0u : scene->ring_starts[hit->vertex + 1u];
+      for (uint k = scene->ring_starts[hit->vertex]; k < end; ++k) {
+        if (ox_is_flat_edge(scene, scene->rings[k].edge) ||
+            !ox_is_valley(scene, f.pair, scene->rings[k].edge))
+          continue;
         f.flags |= OX_FEATURE_VALLEY;
         break;
       }

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,7 @@
 #include "bench/timing.h"
 #include "support/batch_collider.h"
 #include "support/ode_world.h"
+#include "support/worst_pairs.h"
 
 // ODE's own, whatever override is set; exported, but not in its headers.
 int dCollideTTL(dxGeom* a, dxGeom* b, int flags, dContactGeom* contacts, int stride);
@@ -78,8 +80,7 @@ Result measure(const bench::PairCase& pair_case, const Options& options) {
   const auto stir = [&](int repetition) {
     for (std::size_t i = 0; i < count; ++i) {
       const test::Point& at = pair_case.pairs[i].b.position;
-      const double off = 1 + 1e-7 * repetition;
-      dGeomSetPosition(geoms[2 * i + 1], off * at[0], off * at[1], off * at[2]);
+      dGeomSetPosition(geoms[2 * i + 1], at[0] + 5e-8 * repetition, at[1], at[2]);
     }
   };
   const auto each_pair = [&](auto collide) {
@@ -117,66 +118,89 @@ Result measure(const bench::PairCase& pair_case, const Options& options) {
   return result;
 }
 
-struct Shape {
-  std::string name;
-  test::TestMesh a, b;
+// A case to be made if it is asked for.
+struct Case {
+  std::string shape, depth;
+  int triangles_a, triangles_b;
+  std::function<bench::PairCase(const std::string& name, int pairs)> make;
+
+  std::string name() const {
+    return shape + ' ' + std::to_string((triangles_a + triangles_b) / 2) +
+           (depth.empty() ? "" : ", " + depth);
+  }
 };
 
-std::vector<Shape> shapes_of(const Options& options) {
-  std::vector<Shape> shapes;
-  shapes.push_back(
-      {"tori", test::make_torus(0.4, 0.15, 48, 24), test::make_torus(0.4, 0.15, 72, 24)});
+void add_shape(const std::string& shape, const test::TestMesh& a, const test::TestMesh& b,
+               std::vector<Case>& cases) {
+  const std::vector<bench::Depth> depths = {
+      {"apart", -0.02, 0}, {"near", 0, 0.002}, {"shallow", 0.01, 0}, {"deep", 0.2, 0}};
+  for (const bench::Depth& depth : depths)
+    cases.push_back({shape, depth.name, a.triangle_count(), b.triangle_count(),
+                     [=](const std::string& name, int pairs) {
+                       return bench::make_case(name, a, b, depth, pairs, 1);
+                     }});
+}
+
+std::vector<Case> cases_of(const Options& options) {
+  std::vector<Case> cases;
+  add_shape("tori", test::make_torus(0.4, 0.15, 48, 24), test::make_torus(0.4, 0.15, 72, 24),
+            cases);
   for (const int triangles : options.triangles) {
     const test::TestMesh rock = bench::make_rock(triangles);
-    shapes.push_back({"rocks", rock, rock});
-    shapes.push_back({"hills", rock, bench::make_hills(triangles)});
+    add_shape("rocks", rock, rock, cases);
+    add_shape("hills", rock, bench::make_hills(triangles), cases);
   }
-  return shapes;
+  for (const test::WorstPair& worst : test::worst_pairs())
+    cases.push_back({"worst: " + worst.name, "", worst.a.triangle_count(), worst.b.triangle_count(),
+                     [worst](const std::string& name, int) {
+                       return bench::PairCase{name, worst.a, worst.b, {{{}, worst.pose}}};
+                     }});
+  return cases;
+}
+
+std::FILE* begin_csv(const std::string& path) {
+  std::FILE* csv = std::fopen(path.c_str(), "w");
+  if (csv == nullptr) throw std::runtime_error("cannot write '" + path + "'");
+  std::fprintf(csv,
+               "shape,triangles_a,triangles_b,depth,pairs,colliding,crossings,rays,collider,ms,"
+               "ode_over_it\n");
+  return csv;
 }
 
 void run(const Options& options) {
-  const std::vector<bench::Depth> depths = {
-      {"apart", -0.02, 0}, {"near", 0, 0.002}, {"shallow", 0.01, 0}, {"deep", 0.2, 0}};
-  std::FILE* csv = nullptr;
-  if (!options.csv.empty()) {
-    csv = std::fopen(options.csv.c_str(), "w");
-    if (csv == nullptr) throw std::runtime_error("cannot write '" + options.csv + "'");
-    std::fprintf(csv,
-                 "shape,triangles_a,triangles_b,depth,pairs,colliding,crossings,rays,collider,ms,"
-                 "ode_over_it\n");
-  }
+  std::FILE* csv = options.csv.empty() ? nullptr : begin_csv(options.csv);
   std::printf("ms a pair, medians of %d; %d pairs a batch, fewer of large meshes\n\n",
               options.repetitions, options.pairs);
   bool named = false;
-  for (const Shape& shape : shapes_of(options))
-    for (const bench::Depth& depth : depths) {
-      const int triangles = shape.a.triangle_count() + shape.b.triangle_count();
-      const std::string name = shape.name + ' ' + std::to_string(triangles / 2) + ", " + depth.name;
-      if (name.find(options.only) == std::string::npos) continue;
-      const int count = std::max(4, std::min(options.pairs, 8000000 / triangles));
-      const Result result =
-          measure(bench::make_case(name, shape.a, shape.b, depth, count, 1), options);
-      const std::vector<Contestant>& all = result.contestants;
-      if (!std::exchange(named, true)) {
-        std::printf("%-24s %9s %9s %9s", "", "colliding", "crossings", "rays");
-        for (const Contestant& one : all) std::printf(" %9s", one.name.c_str());
-        std::printf(" %10s %10s\n", "ODE/batch", "ODE/alone");
-      }
-      std::printf("%-24s %5d/%3d %9.1f %9.1f", name.c_str(), result.colliding, count,
-                  result.crossings, result.rays);
-      for (const Contestant& one : all) std::printf(" %9.4f", median(one.ms));
-      const auto ode_over = [&](const Contestant& one) {
-        return median(bench::ratios(all[kOde].ms, one.ms));
-      };
-      std::printf(" %10.2f %10.2f\n", ode_over(all[kBatch]), ode_over(all[kAlone]));
-      std::fflush(stdout);
-      if (csv == nullptr) continue;
-      for (const Contestant& one : all)
-        std::fprintf(csv, "%s,%d,%d,%s,%d,%d,%g,%g,%s,%g,%g\n", shape.name.c_str(),
-                     shape.a.triangle_count(), shape.b.triangle_count(), depth.name.c_str(), count,
-                     result.colliding, result.crossings, result.rays, one.name.c_str(),
-                     median(one.ms), ode_over(one));
+  for (const Case& one_case : cases_of(options)) {
+    const std::string name = one_case.name();
+    if (name.find(options.only) == std::string::npos) continue;
+    const int triangles = one_case.triangles_a + one_case.triangles_b;
+    const bench::PairCase pair_case =
+        one_case.make(name, std::max(4, std::min(options.pairs, 8000000 / triangles)));
+    const int count = static_cast<int>(pair_case.pairs.size());
+    const Result result = measure(pair_case, options);
+    const std::vector<Contestant>& all = result.contestants;
+    if (!std::exchange(named, true)) {
+      std::printf("%-24s %9s %9s %9s", "", "colliding", "crossings", "rays");
+      for (const Contestant& one : all) std::printf(" %9s", one.name.c_str());
+      std::printf(" %10s %10s\n", "ODE/batch", "ODE/alone");
     }
+    std::printf("%-24s %5d/%3d %9.1f %9.1f", name.c_str(), result.colliding, count,
+                result.crossings, result.rays);
+    for (const Contestant& one : all) std::printf(" %9.4f", median(one.ms));
+    const auto ode_over = [&](const Contestant& one) {
+      return median(bench::ratios(all[kOde].ms, one.ms));
+    };
+    std::printf(" %10.2f %10.2f\n", ode_over(all[kBatch]), ode_over(all[kAlone]));
+    std::fflush(stdout);
+    if (csv == nullptr) continue;
+    for (const Contestant& one : all)
+      std::fprintf(csv, "%s,%d,%d,%s,%d,%d,%g,%g,%s,%g,%g\n", one_case.shape.c_str(),
+                   one_case.triangles_a, one_case.triangles_b, one_case.depth.c_str(), count,
+                   result.colliding, result.crossings, result.rays, one.name.c_str(),
+                   median(one.ms), ode_over(one));
+  }
   if (csv != nullptr) std::fclose(csv);
 }
 
@@ -185,8 +209,8 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{
       "What a pair of meshes costs: this library in a batch and alone, ODE's own collider, FCL "
-      "(every "
-      "contact, and yes or no) and Bullet's GImpact. One thread of the device's with "
+      "(every contact, and yes or no) and Bullet's GImpact. Tori, rocks and hills at four depths; "
+      "pairs that are hard on a collider ('worst'). One thread of the device's with "
       "POCL_MAX_PTHREAD_COUNT=1.",
       "pair_times"};
   Options options;
