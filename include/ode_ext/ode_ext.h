@@ -216,6 +216,47 @@ ODE_EXT_API int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeo
                                            int pair_count, int flags, dContactGeom *contacts,
                                            int skip, int *contact_counts);
 
+/** What a contact is of in a mesh: the two highest bits of a feature of its id. */
+enum {
+  dBatchFeatureNone = 0,   /**< not known; then all of the feature is 0 */
+  dBatchFeatureVertex = 1, /**< a vertex */
+  dBatchFeatureEdge = 2,   /**< an edge at which the surface bends, or ends */
+  dBatchFeatureFacet = 3,  /**< a flat piece of surface, however many triangles it is cut into; of
+                                a deformable mesh a triangle */
+  dBatchFeatureShift = 30 /**< kind == feature >> dBatchFeatureShift; the bits below are a number */
+};
+
+/**
+ * Of which feature of each mesh a contact is. A contact at a vertex is of the vertex and a facet,
+ * one where an edge crosses a facet of the edge and the facet, one between two edges of both edges.
+ * While the same features touch it has the same id, wherever the geoms go; no two contacts of a
+ * pair have one id. Numbers are given within each mesh when the collider first meets it, and stay
+ * until the mesh changes (a deformable mesh: until its triangles do). They depend on that mesh
+ * alone: not on other meshes, on threads, or on the process.
+ */
+typedef struct dBatchContactId {
+  unsigned feature1, feature2; /**< of the meshes of g1 and g2: exchanged arguments exchange them */
+} dBatchContactId;
+
+/**
+ * Writes the ids of contacts that dCollide or dBatchColliderCollidePairs returned, to warm-start a
+ * solver or to tell new contacts from old. The contacts may be of several pairs, in any order, and
+ * others may be missing; those of a pair together and in the order in which they came are the
+ * fastest. They are known by g1, g2, pos, normal and depth (those in one place by side1 and side2
+ * too) as long as the collider knows the pair's answer: until the pair is collided anew or eight
+ * passes have not met it, and where no passes are made at least until the next question. No
+ * callback is made, and geoms may be gone. The id is none, both features dBatchFeatureNone, where a
+ * contact was changed, came from ODE's own collider, is not of two meshes, or names a
+ * dGeomTransform. A collider of 0 knows none.
+ * @param contacts  `count` contacts
+ * @param skip      byte stride of `contacts`, >= sizeof(dContactGeom); of dContact its size, with
+ *                  contacts = &first->geom
+ * @param ids       count ids, written
+ * @return how many are known, or -1
+ */
+ODE_EXT_API int dBatchColliderGetContactIds(dBatchColliderID collider, const dContactGeom *contacts,
+                                            int count, int skip, dBatchContactId *ids);
+
 /**
  * Announces that the vertices of a mesh moved or that it was rebuilt (after the change, and after
  * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, unless

@@ -23,6 +23,8 @@ static inline void ox_store_contact(const ox_fields* list, uint i, __global ox_c
   contact->depth = ox_floats_of(list, OX_CANDIDATE_DEPTH)[i];
   vstore3(ox_vector_of(list, OX_CANDIDATE_POSITION, i), 0, contact->position);
   vstore3(ox_vector_of(list, OX_CANDIDATE_NORMAL, i), 0, contact->normal);
+  for (uint k = 0u; k < 2u; ++k)
+    contact->feature[k] = ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i];
 }
 
 // Room for `count` contacts of a pair; less where the list is full.

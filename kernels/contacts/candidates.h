@@ -14,9 +14,23 @@ typedef struct {
   uint manifold;
 } ox_manifold;
 
+// What a candidate is of, in A and in B: OX_OF.
+typedef struct {
+  uint feature[2];
+} ox_touch;
+
+// A vertex, or an edge, at a triangle of the other mesh.
+static inline ox_touch ox_touch_of(__global const ox_feature* f, uint triangle) {
+  const uint side = ox_side_of(f->flags);
+  ox_touch touch;
+  touch.feature[side] = OX_OF(ox_is_vertex(f->flags) ? OX_OF_VERTEX : OX_OF_EDGE, f->source);
+  touch.feature[1u - side] = OX_OF(OX_OF_FACET, triangle);
+  return touch;
+}
+
 static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice* choice, uint side,
                                     float3 position, float depth, uint kind, uint source,
-                                    uint target) {
+                                    uint target, ox_touch touch) {
   const uint i = atomic_inc(m->count);
   const ox_fields* list = &m->candidates;
   ox_set_vector(list, OX_CANDIDATE_POSITION, i, position);
@@ -29,6 +43,7 @@ static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice*
   ox_words_of(list, OX_CANDIDATE_REGION)[i] = m->region->index;
   ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[i] = INFINITY;
   ox_words_of(list, OX_CANDIDATE_TAKEN)[i] = 0u;
+  for (uint k = 0u; k < 2u; ++k) ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i] = touch.feature[k];
 }
 
 // Whether a crossing lies on the facet of the plane: on the rim, where the body comes out.
@@ -56,10 +71,12 @@ static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_c
                    facets[f->triangle] == facets[choice->plane.id[0]];
   const uint target = met ? f->triangle : choice->plane.id[0];
   if (ox_is_vertex(f->flags))
-    ox_add_candidate(m, choice, side, position, ox_max(depth, 0.0f), 0u, f->source, target);
-  else
+    ox_add_candidate(m, choice, side, position, ox_max(depth, 0.0f), 0u, f->source, target,
+                     ox_touch_of(f, target));
+  else  // of the face that it crosses, which no other crossing of the edge does
     ox_add_candidate(m, choice, side, position, ox_max(depth - grown, 0.0f), OX_HIT_POINT,
-                     ox_side_of(f->flags) == side ? f->at[0] : f->triangle, target);
+                     ox_side_of(f->flags) == side ? f->at[0] : f->triangle, target,
+                     ox_touch_of(f, f->triangle));
 }
 
 // The stretch of the line of an edge that is in the region, in lengths of the edge; false: none is.
@@ -110,8 +127,11 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
     any_b = ox_find_farthest(r, 1u, n, &on_b);
   if (!any_a) on_a = on_b;
   if (!any_b) on_b = on_a;
+  ox_touch touch;
+  for (uint side = 0u; side < 2u; ++side)
+    touch.feature[side] = OX_OF(OX_OF_SIDE, choice->plane.id[side]);
   ox_add_candidate(m, choice, 0u, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT,
-                   ridge_a.face[0], ridge_b.face[0]);
+                   ridge_a.face[0], ridge_b.face[0], touch);
 }
 
 // Contacts of all of a whole region.

@@ -70,7 +70,8 @@ static void ox_choose_sheet(ox_manifold* m) {
         choice.plane.normal = -choice.plane.normal;
       }
       ox_add_candidate(m, &choice, side, position, ox_max(depth, 0.0f),
-                       reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle);
+                       reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle,
+                       ox_touch_of(f, f->triangle));
       ++m->manifold;
       any = true;
       continue;
@@ -96,7 +97,7 @@ static void ox_choose_sheet(ox_manifold* m) {
   if (any || best == OX_NONE) return;
   __global const ox_feature* f = ox_feature_of(r, best);
   ox_add_candidate(m, &least, ox_side_of(f->flags), vload3(0, f->position), least.depth,
-                   OX_HIT_POINT, f->at[0], f->triangle);
+                   OX_HIT_POINT, f->at[0], f->triangle, ox_touch_of(f, f->triangle));
 }
 
 static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* features,

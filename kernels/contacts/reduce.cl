@@ -32,6 +32,11 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
     __global const float* values = ox_floats_of(list, field);
     if (values[a] != values[b]) return values[a] < values[b];
   }
+  // Where edges meet on a face several cross it in one place, and all else of them is equal.
+  for (uint field = OX_CANDIDATE_FEATURE; field < OX_CANDIDATE_FEATURE + 2u; ++field) {
+    __global const uint* values = ox_words_of(list, field);
+    if (values[a] != values[b]) return values[a] < values[b];
+  }
   return false;
 }
 

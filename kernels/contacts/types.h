@@ -93,8 +93,9 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 #define OX_CANDIDATE_TRIANGLE 10u
 #define OX_CANDIDATE_MANIFOLD 11u  // the plane that it is a contact of, among all
 #define OX_CANDIDATE_REGION 12u
-#define OX_CANDIDATE_TAKEN 13u  // contacts/reduce.cl
-#define OX_CANDIDATE_WORDS 14u
+#define OX_CANDIDATE_TAKEN 13u    // contacts/reduce.cl
+#define OX_CANDIDATE_FEATURE 14u  // two, of A and B: OX_OF
+#define OX_CANDIDATE_WORDS 16u
 
 // Places in the table of features for each of them: a crossing has an edge and, with another, two
 // pairs of facets. In that of faces: a crossing has three. And planes: those, and a pair of

@@ -324,6 +324,15 @@ typedef struct {
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
 
+// What a contact is of in a mesh: a kind, and which over all meshes. Indices are below 2^30: no
+// device has room for as many.
+#define OX_OF_SIDE 0u  // an edge, as a side of a triangle (ox_ridge)
+#define OX_OF_VERTEX 1u
+#define OX_OF_EDGE 2u
+#define OX_OF_FACET 3u  // as one of its triangles
+#define OX_OF_SHIFT 30u
+#define OX_OF(kind, index) ((kind) << OX_OF_SHIFT | (index))
+
 typedef struct {
   ox_u32 side_kind;  // as of a candidate (contacts/types.h), and so are the others
   ox_u32 vertex;
@@ -331,7 +340,7 @@ typedef struct {
   ox_f32 depth;
   ox_f32 position[3];
   ox_f32 normal[3];
-  ox_u32 padding[2];
+  ox_u32 feature[2];
 } ox_contact;
 OX_STATIC_ASSERT(sizeof(ox_contact) == 48, ox_contact_is_48_bytes);
 

@@ -17,6 +17,7 @@
 #include "device/device.h"
 #include "device/fork_guard.h"
 #include "ode/batch_collider.h"
+#include "ode/contact_ids.h"
 #include "ode/messages.h"
 #include "ode/override.h"
 #include "ode/pass.h"
@@ -181,6 +182,12 @@ int collide(const char* call, dBatchColliderID handle, const PassRoot& root, voi
   return pass->deliver(data, callback) ? 1 : 0;
 }
 
+void check_skip(int skip) {
+  if (skip < static_cast<int>(sizeof(dContactGeom)))
+    refuse("skip is " + std::to_string(skip) +
+           ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)));
+}
+
 // CollidePairs without a collider: what dCollide gives for each pair.
 int collide_one_by_one(const dGeomID* pairs, int pair_count, int flags, dContactGeom* contacts,
                        int skip, int* counts) {
@@ -289,9 +296,7 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
     if (pair_count > 0 && (pairs == nullptr || contacts == nullptr))
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
     if ((flags & 0xffff) == 0) refuse("the low 16 bits of flags, contacts per pair, are 0");
-    if (skip < static_cast<int>(sizeof(dContactGeom)))
-      refuse("skip is " + std::to_string(skip) +
-             ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)));
+    check_skip(skip);
     for (int i = 0; i < 2 * pair_count; ++i) {
       if (pairs[i] == nullptr) refuse("geom " + std::to_string(i) + " of pairs is NULL");
       if (dGeomGetClass(pairs[i]) != dTriMeshClass)
@@ -302,6 +307,20 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
       return collide_one_by_one(pairs, pair_count, flags, contacts, skip, contact_counts);
     return found->collide_pairs({pairs, 2 * static_cast<std::size_t>(pair_count)}, flags, contacts,
                                 skip, contact_counts);
+  });
+}
+
+int dBatchColliderGetContactIds(dBatchColliderID collider, const dContactGeom* contacts, int count,
+                                int skip, dBatchContactId* ids) {
+  return guarded("dBatchColliderGetContactIds", -1, [&] {
+    const auto found = collider == nullptr || is_dead(collider) ? nullptr : live(collider);
+    if (count < 0) refuse("count is " + std::to_string(count));
+    if (count > 0 && (contacts == nullptr || ids == nullptr))
+      refuse(contacts == nullptr ? "contacts is NULL" : "ids is NULL");
+    check_skip(skip);
+    if (found != nullptr) return found->contact_ids(contacts, count, skip, ids);
+    std::fill_n(ids, count, ode_ext::kNoContactId);
+    return 0;
   });
 }
 

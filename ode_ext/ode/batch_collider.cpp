@@ -8,6 +8,7 @@
 
 #include "device/error.h"
 #include "ode/contact_export.h"
+#include "ode/contact_ids.h"
 #include "ode/messages.h"
 #include "ode/pass_stats.h"
 #include "ode/pose_of.h"
@@ -332,6 +333,28 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const std::lock_guard lock(mutex_);
   const Answer* known = answers_.find(g1, g2);
   return known != nullptr && holds(*known, g1, g2);
+}
+
+int BatchCollider::contact_ids(const dContactGeom* contacts, int count, int skip,
+                               dBatchContactId* ids) {
+  const std::lock_guard lock(mutex_);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(contacts);
+  const dContactGeom* before = nullptr;
+  ContactIds of_pair({}, nullptr);
+  int found = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto& contact =
+        *reinterpret_cast<const dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * skip);
+    if (before == nullptr || before->g1 != contact.g1 || before->g2 != contact.g2) {
+      const Answer* known = answers_.find(contact.g1, contact.g2);
+      of_pair =
+          known == nullptr ? ContactIds({}, nullptr) : ContactIds(known->contacts, known->geoms[0]);
+    }
+    before = &contact;
+    ids[i] = of_pair.id_of(contact);
+    found += ids[i].feature1 != dBatchFeatureNone ? 1 : 0;
+  }
+  return found;
 }
 
 int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,

@@ -50,6 +50,10 @@ class BatchCollider {
   int answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
   bool holds(dGeomID g1, dGeomID g2);
 
+  // The ids of contacts of any pairs; returns how many are known. Nothing is computed, and no geom
+  // dereferenced.
+  int contact_ids(const dContactGeom* contacts, int count, int skip, dBatchContactId* ids);
+
   bool is_passing() const { return depth_ != 0; }
 
   void announce_change(dTriMeshDataID data);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "pipeline/contact_features.h"
+
 namespace ode_ext {
 namespace {
 
@@ -74,6 +76,14 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   return result;
 }
 
+Contact to_named_contact(const Scene& scene, const DeviceMeshes& meshes,
+                         const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
+  Contact result = to_contact(scene, meshes, pair, contact);
+  for (std::size_t k = 0; k < 2; ++k)
+    result.features[k] = feature_of(meshes, scene.objects[pair[k]].mesh, contact.feature[k]);
+  return result;
+}
+
 bool is_deformable(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
   return scene.meshes[scene.objects[pair[0]].mesh]->deformable ||
          scene.meshes[scene.objects[pair[1]].mesh]->deformable;
@@ -82,7 +92,7 @@ bool is_deformable(const Scene& scene, const std::array<std::uint32_t, 2>& pair)
 bool comes_first(const Contact& a, const Contact& b) {
   const auto rank = [](const Contact& c) {
     return std::tie(c.position.x, c.position.y, c.position.z, c.triangles, c.normal.x, c.normal.y,
-                    c.normal.z);
+                    c.normal.z, c.features);
   };
   return a.depth != b.depth ? a.depth > b.depth : rank(a) < rank(b);
 }
@@ -102,15 +112,18 @@ void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t
                      bool sort, PairContacts& result) {
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto& pair = scene.pairs[first_pair + i];
-    const auto first = static_cast<std::ptrdiff_t>(result.contacts.size());
-    result.ranges.push_back({result.contacts.size(), ranges[i].count});
+    const std::size_t first = result.contacts.size();
+    result.ranges.push_back({first, ranges[i].count});
     if (ranges[i].count == 0) continue;
     for (const ox_contact& contact : contacts.subspan(ranges[i].first, ranges[i].count))
-      result.contacts.push_back(to_contact(scene, meshes, pair, contact));
+      result.contacts.push_back(to_named_contact(scene, meshes, pair, contact));
+    const std::span found = std::span(result.contacts).subspan(first);
     if (sort && is_deformable(scene, pair))
-      std::sort(result.contacts.begin() + first, result.contacts.end(), comes_first);
+      std::sort(found.begin(), found.end(), comes_first);
     else
-      put_deepest_first(std::span(result.contacts).subspan(static_cast<std::size_t>(first)));
+      put_deepest_first(found);
+    number_repeats(found, meshes.mesh(scene.objects[pair[0]].mesh),
+                   meshes.mesh(scene.objects[pair[1]].mesh));
   }
 }
 

@@ -267,7 +267,8 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   measure(mesh, record);
 
   const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
-  places_.push_back({vertex_first, record.triangle_first});
+  const auto edge_first = static_cast<std::uint32_t>(host_edges_.size());
+  places_.push_back({vertex_first, record.triangle_first, edge_first});
   if (mesh.deformable) {
     Deformable& deformable = deformables_[static_cast<std::uint32_t>(host_records_.size())];
     deformable.topology = append_topology(built, host_topologies_);
@@ -276,8 +277,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(built, chunk, vertex_first));
-  const MeshletPlaces first{vertex_first, record.triangle_first,
-                            static_cast<std::uint32_t>(host_edges_.size())};
+  const MeshletPlaces first{vertex_first, record.triangle_first, edge_first};
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));

@@ -20,6 +20,7 @@ namespace ode_ext {
 struct MeshPlace {
   std::uint32_t vertex_first = 0;
   std::uint32_t triangle_first = 0;
+  std::uint32_t edge_first = 0;
 };
 
 class DeviceMeshes {

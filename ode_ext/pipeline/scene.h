@@ -44,6 +44,7 @@ struct Contact {
   Vec3d normal;
   double depth;
   std::array<std::uint32_t, 2> triangles;
+  std::array<std::uint32_t, 2> features;  // what it is of in each mesh (contact_features.h)
 };
 
 struct PairContacts {

@@ -213,7 +213,8 @@ void Program::stats() {
 void Program::bad_call() {
   const auto wrong =
       reinterpret_cast<dBatchColliderID>(static_cast<std::uintptr_t>(16 + bytes_.byte()));
-  dContactGeom contact;
+  dContactGeom contact{};
+  dBatchContactId contact_id;
   int count = 0;
   Callback callback{this, Near::Nothing, 1, nullptr, false};
   const dSpaceID space = world_.choose_space(bytes_)->id;
@@ -227,6 +228,8 @@ void Program::bad_call() {
       break;
     case 1:
       result = dBatchColliderSpaceCollide(wrong, space, &callback, &near);
+      if (result == -1)
+        result = dBatchColliderGetContactIds(wrong, &contact, 1, sizeof contact, &contact_id);
       break;
     case 2:
       result = dBatchColliderSpaceCollide(collider, nullptr, &callback, &near);
@@ -239,9 +242,15 @@ void Program::bad_call() {
       break;
     case 5:
       result = dBatchColliderCollidePairs(collider, pair, -1, 1, &contact, sizeof contact, &count);
+      // Of a contact that nobody gave none is known.
+      contact.g1 = pair[0];
+      if (result == -1)
+        result =
+            dBatchColliderGetContactIds(collider, &contact, 1, sizeof contact, &contact_id) - 1;
       break;
     case 6:
       result = dBatchColliderCollidePairs(collider, pair, 1, 0x10000, &contact, 1, &count);
+      if (result == -1) result = dBatchColliderGetContactIds(collider, &contact, 1, 1, &contact_id);
       break;
     case 7:
       dBatchColliderTriMeshDataUpdate(wrong, nullptr);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <numbers>
 #include <vector>
@@ -15,7 +14,7 @@
 namespace ode_ext::test {
 namespace {
 
-using Words = std::array<ox_u32, offsetof(ox_contact, padding) / sizeof(ox_u32)>;
+using Words = std::array<ox_u32, sizeof(ox_contact) / sizeof(ox_u32)>;
 
 std::vector<std::vector<Words>> contacts_of(const StepRecords& records) {
   std::vector<std::vector<Words>> contacts;

@@ -205,6 +205,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_contact, depth),
     OFFSET_OF(ox_contact, position),
     OFFSET_OF(ox_contact, normal),
+    OFFSET_OF(ox_contact, feature),
     SIZE_OF(ox_move),
     OFFSET_OF(ox_move, shape),
     OFFSET_OF(ox_move, mesh),

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -16,7 +15,7 @@
 namespace ode_ext::test {
 namespace {
 
-using Words = std::array<ox_u32, offsetof(ox_contact, padding) / sizeof(ox_u32)>;
+using Words = std::array<ox_u32, sizeof(ox_contact) / sizeof(ox_u32)>;
 
 Words words_of(const ox_contact& contact) {
   Words words;
@@ -32,6 +31,7 @@ Words words_of(const Candidate& c) {
   contact.depth = c.depth;
   std::copy_n(c.position, 3, contact.position);
   std::copy_n(c.normal, 3, contact.normal);
+  std::copy_n(c.feature, 2, contact.feature);
   return words_of(contact);
 }
 
@@ -158,6 +158,16 @@ TEST(Reduction, DoesNotDependOnTheOrderOfCandidates) {
       EXPECT_EQ(reduced(candidates), expected);
     }
   }
+}
+
+// Edges that meet on a face cross it in one place: whose contact it is does not hang on which came
+// first.
+TEST(Reduction, TakesOfEqualCandidatesThatOfTheLesserFeature) {
+  Candidate lesser = candidate({0, 0, 0}, 0.1f), greater = lesser;
+  lesser.feature[1] = OX_OF(OX_OF_EDGE, 7u);
+  greater.feature[1] = OX_OF(OX_OF_EDGE, 8u);
+  EXPECT_EQ(reduced({lesser, greater}), std::vector{words_of(lesser)});
+  EXPECT_EQ(reduced({greater, lesser}), std::vector{words_of(lesser)});
 }
 
 std::vector<Words> words_of_all(const std::vector<Candidate>& candidates) {

@@ -19,7 +19,7 @@ namespace ode_ext::test {
 // Deeper first; of equally deep ones by where they are and what they are of.
 inline auto reduction_key(const Candidate& c) {
   return std::tuple(-c.depth, c.position[0], c.position[1], c.position[2], c.side_kind, c.vertex,
-                    c.triangle, c.normal[0], c.normal[1], c.normal[2]);
+                    c.triangle, c.normal[0], c.normal[1], c.normal[2], c.feature[0], c.feature[1]);
 }
 
 struct Reduction {
