@@ -19,19 +19,22 @@ constexpr std::size_t kCounterBytes = OX_COUNTER_WORDS * sizeof(ox_u32);
 // That are read: those of the lists, and those of all shares together.
 constexpr std::size_t kReadBytes = OX_COUNTERS_SHARES * kCounterBytes;
 
-// Records of each list that a share has room for. A thousand features and what becomes of them are
-// about what the cache of a core holds; a pair with more is work for many.
-constexpr ArrowCounts kShare = [] {
+// Records of each list that one of so many shares has room for. What is of no use costs no memory
+// but addresses, mostly; a pair with more is begun again, kernel by kernel, which costs twice as
+// much. All shares together have room for 2^17 crossings and as many hits: 160 MB.
+ArrowCounts room_of_a_share(std::size_t shares) {
+  const std::size_t features =
+      std::clamp<std::size_t>(131072 / std::max<std::size_t>(shares, 1), 1024, 32768);
   ArrowCounts counts{};
-  counts[OX_LIST_CHUNKS] = 256;
-  counts[OX_LIST_RAYS] = 1024;
-  counts[OX_LIST_MESHLETS] = 1024;
-  counts[OX_LIST_MESHLET_PAIRS] = 4096;
-  counts[OX_LIST_HITS] = 1024;
-  counts[OX_LIST_CROSSINGS] = 1024;
-  counts[OX_LIST_FLOOD_WORDS] = 32768;
+  counts[OX_LIST_CHUNKS] = features / 4;
+  counts[OX_LIST_RAYS] = features;
+  counts[OX_LIST_MESHLETS] = features;
+  counts[OX_LIST_MESHLET_PAIRS] = 4 * features;
+  counts[OX_LIST_HITS] = features;
+  counts[OX_LIST_CROSSINGS] = features;
+  counts[OX_LIST_FLOOD_WORDS] = 32 * features;
   return counts;
-}();
+}
 
 // Counters and indices have 32 bits. Tiles are cut so that vertices need no more; what else there
 // is too much of is seen, since counters stop at 2^31 (shared/append.h), and does not fit the
@@ -101,6 +104,7 @@ AppendLists::AppendLists(Device& device)
 
 void AppendLists::keep_shares(std::size_t count) {
   shares_ = count;
+  share_ = room_of_a_share(count);
   counters_.reserve((OX_COUNTERS_SHARES + count) * kCounterBytes);
 }
 
@@ -161,7 +165,7 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
 void AppendLists::resize(const ArrowCounts& capacities) {
   Ends ends = lay_out(capacities);
   const auto at_least = [&](std::uint64_t& end, std::size_t list) {
-    end = std::max(end, shares_ * kShare[list]);
+    end = std::max(end, shares_ * share_[list]);
   };
   at_least(ends.tasks, OX_LIST_CHUNKS);
   at_least(ends.rays, OX_LIST_RAYS);
@@ -219,7 +223,7 @@ void AppendLists::begin(const ArrowCounts& most) {
   for (std::size_t i = 0; i < kArrowCount; ++i) room[i] = std::min(capacities_[i], most[i]);
   lay_out(room);
   for (std::size_t i = 0; i < kArrowCount; ++i)
-    host_lists_[kArrowCount + i] = {0, static_cast<ox_u32>(kShare[i])};
+    host_lists_[kArrowCount + i] = {0, static_cast<ox_u32>(share_[i])};
   host_lists_[kArrowCount + OX_LIST_CONTACTS] = host_lists_[OX_LIST_CONTACTS];  // of all in common
   counters_.fill_zero(kReadBytes);
   if (written_lists_ && std::memcmp(&*written_lists_, &host_lists_, sizeof(Layout)) == 0) return;

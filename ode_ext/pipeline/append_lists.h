@@ -107,6 +107,7 @@ class AppendLists {
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
   std::size_t shares_ = 0;
+  ArrowCounts share_{};  // room of one of them
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, flood_words_, contacts_, features_, feature_parents_, feature_slots_, regions_,
       members_, faces_, planes_, edge_planes_;
