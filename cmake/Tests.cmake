@@ -28,7 +28,7 @@ target_link_libraries(ode_ext_cgal_oracle PRIVATE CGAL::CGAL)
 include(Fuzz)
 
 file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test.cpp
-     tests/support/fcl_*.cpp tests/support/ccd_*.cpp
+     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/leak_check.cpp
      tests/bench/audit/scene_audit.cpp tests/bench/audit/kind*.cpp tests/bench/audit/pair_*.cpp
      tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
      tests/bench/stability/report.cpp tests/bench/stability/shape.cpp

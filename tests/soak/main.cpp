@@ -61,30 +61,23 @@ class Table {
   std::vector<double> in_use_;
 };
 
-// Prints a row whenever another share of the passes is done; ends the process if none comes any
+// Returns when `target` passes are done, or the run has failed. Ends the process if none comes any
 // more.
-void watch(const Options& options, Progress& progress, Table& table) {
+void watch(long long target, const Progress& progress) {
   constexpr double kHang = 300;  // [s] for one pass; usual is a hundredth of a second
-  long long last = 0;
+  long long last = -1;
   auto moved = Clock::now();
-  for (int row = 1; row <= options.rows;) {
-    const long long passes = progress.passes;
-    if (passes != last) {
-      last = passes;
+  while (progress.passes < target && !progress.stop) {
+    if (last != progress.passes) {
+      last = progress.passes;
       moved = Clock::now();
-    }
-    if (progress.stop) return;
-    if (passes >= options.passes * row / options.rows) {
-      table.row();
-      ++row;
-      continue;
     }
     if (seconds_since(moved) > kHang) {
       std::printf("soak: no pass has ended for %g s\n", kHang);
       std::fflush(stdout);
       std::_Exit(1);  // threads that hang cannot be joined
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 
@@ -101,14 +94,23 @@ int run(const Options& options) {
           static_cast<std::size_t>(options.bodies)));
     }
     Table table(options, progress);
-    std::vector<std::thread> threads;
-    for (int i = 0; i < options.threads; ++i) {
-      const long long share =
-          options.passes / options.threads + (i < options.passes % options.threads ? 1 : 0);
-      threads.emplace_back([&, i, share] { soaks[static_cast<std::size_t>(i)]->run(share); });
+    // Between rows no thread runs and every collider has its lists: those of one that is made anew,
+    // or whose device failed, are tens of MiB that come and go.
+    for (long long row = 1; row <= options.rows && !progress.stop; ++row) {
+      const long long begin = options.passes * (row - 1) / options.rows;
+      const long long end = options.passes * row / options.rows;
+      std::vector<std::thread> threads;
+      for (int i = 0; i < options.threads; ++i) {
+        const long long from = begin + (end - begin) * i / options.threads;
+        const long long to = begin + (end - begin) * (i + 1) / options.threads;
+        threads.emplace_back(
+            [&, i, share = to - from] { soaks[static_cast<std::size_t>(i)]->run(share); });
+      }
+      watch(end, progress);
+      for (std::thread& thread : threads) thread.join();
+      for (const auto& soak : soaks) soak->settle();
+      table.row();
     }
-    watch(options, progress, table);
-    for (std::thread& thread : threads) thread.join();
     in_use = table.in_use();
   }
   dCloseODE();

@@ -182,6 +182,13 @@ bool SoakThread::mark_deformables(dBatchColliderID collider) const {
   return collider != nullptr;
 }
 
+void SoakThread::settle() {
+  if (collider_ == nullptr) replace_collider();
+  Heard heard{this, -1};
+  dBatchColliderSpaceCollide(collider_, space_, &heard, &near);
+  dJointGroupEmpty(joints_);
+}
+
 // All of these give the same bytes. Null where another thread makes the device fail just now.
 void SoakThread::replace_collider() {
   dBatchColliderParams params;
@@ -238,10 +245,7 @@ void SoakThread::pass() {
   if (result != 1)
     progress_.report(std::string("a pass was not delivered: ") +
                      dBatchColliderGetLastErrorMessage());
-  dBatchColliderStats stats;
-  stats.struct_size = sizeof stats;
-  dBatchColliderGetStats(collider_, &stats);
-  const bool failed = (stats.status & dBatchStatusDeviceFailed) != 0;
+  const bool failed = (dBatchColliderGetStatus(collider_) & dBatchStatusDeviceFailed) != 0;
   if (failed) ++progress_.failures;
   if (heard.a != nullptr && !failed) check(heard);
   dWorldQuickStep(world_, 1.0 / 60);
@@ -260,11 +264,9 @@ void SoakThread::check(const Heard& heard) {
   int count = 0;
   const int total =
       dBatchColliderCollidePairs(fresh, pair, 1, 64, contacts.data(), sizeof(dContactGeom), &count);
-  dBatchColliderStats stats;
-  stats.struct_size = sizeof stats;
-  dBatchColliderGetStats(fresh, &stats);
+  const int status = dBatchColliderGetStatus(fresh);
   dBatchColliderDestroy(fresh);
-  if (total < 0 || (stats.status & dBatchStatusDeviceFailed) != 0) return;
+  if (total < 0 || (status & dBatchStatusDeviceFailed) != 0) return;
   contacts.resize(static_cast<std::size_t>(count));
   ++progress_.checked;
   if (const auto difference = test::difference(heard.contacts, contacts); !difference.empty())

@@ -39,6 +39,8 @@ class SoakThread {
   SoakThread& operator=(const SoakThread&) = delete;
 
   void run(long long passes);
+  // A pass without change, check or failure, of a collider that lives: then memory can be compared.
+  void settle();
 
  private:
   struct Body {
