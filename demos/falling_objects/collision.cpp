@@ -45,7 +45,7 @@ Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   params.workload = options.workload;
   params.prediction = options.prediction;
   params.rays = options.rays;
-  params.organisation = options.organisation;
+  params.organization = options.organization;
   params.edges = options.edges;
   params.deformable_target = options.deformable_target;
   params.misprediction = options.misprediction;
@@ -77,11 +77,20 @@ double Collision::collide(Collider collider, ContactList& contacts) {
   return took.count();
 }
 
-dBatchColliderStats Collision::stats() const {
-  dBatchColliderStats stats{};
-  stats.struct_size = sizeof(stats);
-  if (batch_ != nullptr) dBatchColliderGetStats(batch_, &stats);
-  return stats;
+std::string Collision::device() const {
+  return batch_ == nullptr ? "" : dBatchColliderGetDeviceName(batch_);
+}
+
+void Collision::note(StepRecord& record) const {
+  record.stage_ms.assign(stages().size(), 0);
+  if (batch_ == nullptr) return;
+  record.rays = dBatchColliderGetCount(batch_, dBatchBufferRaysIterative) +
+                dBatchColliderGetCount(batch_, dBatchBufferRaysBvh) +
+                dBatchColliderGetCount(batch_, dBatchBufferRaysBasic) -
+                dBatchColliderGetCount(batch_, dBatchCounterIterativeUnproven);
+  for (std::size_t i = 0; i < stages().size(); ++i)
+    record.stage_ms[i] = dBatchColliderGetTime(batch_, stages()[i]);
+  record.status = static_cast<unsigned>(dBatchColliderGetStatus(batch_));
 }
 
 }  // namespace falling_objects

@@ -5,8 +5,11 @@
 #include <ode/ode.h>
 #include <ode_ext/ode_ext.h>
 
+#include <string>
+
 #include "falling_objects/contact_list.h"
 #include "falling_objects/options.h"
+#include "falling_objects/step_record.h"
 
 namespace falling_objects {
 
@@ -22,8 +25,9 @@ class Collision {
   // Fills `contacts` and returns the wall time [ms]. Throws std::runtime_error on an error.
   double collide(Collider collider, ContactList& contacts);
 
-  // Of the last batched pass; zeroes without a batch collider.
-  dBatchColliderStats stats() const;
+  // What the last batched pass did; zeroes without a batch collider.
+  void note(StepRecord& record) const;
+  std::string device() const;  // empty without a batch collider
   bool has_batch() const { return batch_ != nullptr; }
   dBatchColliderID batch() const { return batch_; }
 

@@ -59,9 +59,9 @@ void add_modes(CLI::App& app, Options& o) {
            "How rays find the triangles of sheets (default: refit)", "refit|basic",
            {{"refit", dBatchDeformableRefit}, {"basic", dBatchDeformableBasic}});
   add_mode(
-      app, "--organisation", o.organisation,
+      app, "--organization", o.organization,
       "How the work is cut into kernels (default: pipelined)", "pipelined|monolithic",
-      {{"pipelined", dBatchOrganisationPipelined}, {"monolithic", dBatchOrganisationMonolithic}});
+      {{"pipelined", dBatchOrganizationPipelined}, {"monolithic", dBatchOrganizationMonolithic}});
   add_mode(app, "--edges", o.edges, "Whether edges are cast besides vertices (default: on)",
            "on|off", {{"on", dBatchEdgesOn}, {"off", dBatchEdgesOff}});
   add_mode(app, "--workload", o.workload, "How kernels are launched (default: predicted)",

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <iomanip>
@@ -14,12 +13,6 @@
 
 namespace falling_objects {
 namespace {
-
-constexpr std::array<const char*, dBatchStageCount> kStageNames{
-    "gather",         "meshes",   "deform_step", "pair_step",  "vertex_step",
-    "iterative_rays", "bvh_rays", "basic_rays",  "monolithic", "cull",
-    "match",          "cross",    "flood",       "assembly",   "contact_step",
-    "whole_step",     "device",   "export",      "pass"};
 
 // `value` of those steps for which it is not negative.
 template <class Value>
@@ -127,9 +120,8 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
 
   out << "\n  ms                        median      95 %\n";
   if (batch) {
-    for (std::size_t stage = 0; stage < kStageNames.size(); ++stage) {
-      print_time(out, kStageNames[stage],
-                 column(steps, [&](auto& s) { return s.stage_ms[stage]; }));
+    for (std::size_t stage = 0; stage < stages().size(); ++stage) {
+      print_time(out, stage_name(stage), column(steps, [&](auto& s) { return s.stage_ms[stage]; }));
     }
   }
   print_time(out, "collide, all", column(steps, [](auto& s) { return s.collide_ms; }));
@@ -155,11 +147,11 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
       << summary.hash << std::dec << std::setfill(' ') << '\n';
 }
 
-const char* stage_name(std::size_t stage) { return kStageNames.at(stage); }
+const char* stage_name(std::size_t stage) { return dBatchStageName(stages().at(stage)); }
 
 void write_csv(std::ostream& out, const std::vector<StepRecord>& steps) {
   out << "step,pairs,colliding_pairs,contacts,rays,status";
-  for (const char* name : kStageNames) out << ',' << name << "_ms";
+  for (const int stage : stages()) out << ',' << dBatchStageName(stage) << "_ms";
   out << ",collide_ms,world_ms,batch_ms,ode_ms,batch_contacts,ode_contacts,mean_speed,"
          "deepest_contact,deepest_penetration,sheet_contacts,cloth_ms,fastest_vertex,deepest_"
          "vertex,"

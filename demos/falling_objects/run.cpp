@@ -109,7 +109,7 @@ int run_scene(const Options& options) {
 
   summary.lost_objects = checks.lost_objects();
   summary.hash = simulation.hash();
-  if (collision.has_batch()) summary.device = collision.stats().device;
+  if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);
   if (csv.is_open()) {
     write_csv(csv, records);

@@ -72,11 +72,7 @@ void Simulation::collide(StepRecord& record) {
     record.deepest_contact = std::max(record.deepest_contact, static_cast<double>(contact.depth));
   }
   hash_ = hash_contacts(contacts_.contacts(), hash_);
-  const dBatchColliderStats stats = collision_.stats();
-  record.rays = stats.actual[dBatchBufferRaysIterative] + stats.actual[dBatchBufferRaysBvh] +
-                stats.actual[dBatchBufferRaysBasic] - stats.iterative_unproven;
-  std::copy(std::begin(stats.ms), std::end(stats.ms), record.stage_ms.begin());
-  record.status = stats.status;
+  collision_.note(record);
 }
 
 void Simulation::show_sheets(StepRecord& record) {

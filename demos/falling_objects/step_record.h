@@ -4,9 +4,19 @@
 
 #include <ode_ext/ode_ext.h>
 
-#include <array>
+#include <vector>
 
 namespace falling_objects {
+
+// The timed stages of the library (dBatchStage...), in their order.
+inline const std::vector<int>& stages() {
+  static const std::vector<int> all = [] {
+    std::vector<int> found;
+    for (int s = dBatchStageNext(-1); s >= 0; s = dBatchStageNext(s)) found.push_back(s);
+    return found;
+  }();
+  return all;
+}
 
 struct StepRecord {
   int step = 0;
@@ -14,11 +24,11 @@ struct StepRecord {
   long long colliding_pairs = 0;
   long long contacts = 0;
   long long rays = 0;
-  unsigned status = 0;    // dBatchStatus... bits
-  double collide_ms = 0;  // the driving collider, callbacks included
-  double world_ms = 0;    // contact joints and solver
-  double solver_ms = 0;   // dWorldQuickStep alone
-  std::array<double, dBatchStageCount> stage_ms{};
+  unsigned status = 0;           // dBatchStatus... bits
+  double collide_ms = 0;         // the driving collider, callbacks included
+  double world_ms = 0;           // contact joints and solver
+  double solver_ms = 0;          // dWorldQuickStep alone
+  std::vector<double> stage_ms;  // of stages()
   // Only with --compare: both colliders at the same poses.
   double batch_ms = 0, ode_ms = 0;
   long long batch_contacts = 0, ode_contacts = 0;

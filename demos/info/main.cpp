@@ -32,10 +32,7 @@ int try_to_create(const char* selection) {
     std::cout << "no collider: " << dBatchColliderGetLastErrorMessage() << '\n';
     return kExitNoDevice;
   }
-  dBatchColliderStats stats{};
-  stats.struct_size = sizeof(stats);
-  dBatchColliderGetStats(collider, &stats);
-  std::cout << "a collider works on " << stats.device << '\n';
+  std::cout << "a collider works on " << dBatchColliderGetDeviceName(collider) << '\n';
   dBatchColliderDestroy(collider);
   return kExitOk;
 }

@@ -56,8 +56,8 @@ dBatchColliderParams Configuration::params(const std::string& device) const {
                 : has(kChecked)     ? dBatchRaysIterative
                                     : dBatchRaysIterativePaper;
   params.deformable_target = has(kBasic) ? dBatchDeformableBasic : dBatchDeformableRefit;
-  params.organisation =
-      has(kMonolithic) ? dBatchOrganisationMonolithic : dBatchOrganisationPipelined;
+  params.organization =
+      has(kMonolithic) ? dBatchOrganizationMonolithic : dBatchOrganizationPipelined;
   params.workload = has(kExact) ? dBatchWorkloadExact : dBatchWorkloadPredicted;
   params.prediction = has(kPlain) ? dBatchPredictionPlain : dBatchPredictionPairScaled;
   if (has(kIgnore)) {

@@ -19,7 +19,7 @@ enum class Rays { kFull, kIterative };
 enum Word : unsigned {
   kChecked = 1 << 0,     // dBatchRaysIterative, else dBatchRaysIterativePaper
   kBasic = 1 << 1,       // dBatchDeformableBasic
-  kMonolithic = 1 << 2,  // dBatchOrganisationMonolithic
+  kMonolithic = 1 << 2,  // dBatchOrganizationMonolithic
   kExact = 1 << 3,       // dBatchWorkloadExact
   kPlain = 1 << 4,       // dBatchPredictionPlain: Eq. 2
   kIgnore = 1 << 5,      // dBatchMispredictionIgnore, with the paper's confidence

@@ -27,10 +27,7 @@ Contestant::Contestant(const Configuration& configuration, const std::string& de
                        int max_contacts)
     : configuration_(configuration),
       collider_(create(configuration, device)),
-      contacts_(max_contacts) {
-  stats_.struct_size = sizeof(stats_);
-  dBatchColliderGetStats(collider_, &stats_);
-}
+      contacts_(max_contacts) {}
 
 Contestant::~Contestant() { dBatchColliderDestroy(collider_); }
 
@@ -38,8 +35,7 @@ void Contestant::collide(dSpaceID space) {
   contacts_.clear();
   if (dBatchColliderSpaceCollide(collider_, space, &contacts_, &near) < 0)
     throw std::runtime_error(configuration_.name() + ": " + dBatchColliderGetLastErrorMessage());
-  dBatchColliderGetStats(collider_, &stats_);
-  if ((stats_.status & dBatchStatusDeviceFailed) != 0)
+  if ((dBatchColliderGetStatus(collider_) & dBatchStatusDeviceFailed) != 0)
     throw std::runtime_error(configuration_.name() + ": the device failed");
   hash_ = falling_objects::hash_contacts(contacts(), falling_objects::kHashStart);
   running_hash_ = falling_objects::hash_contacts(contacts(), running_hash_);

@@ -30,7 +30,6 @@ class Contestant {
   dBatchColliderID collider() const { return collider_; }
   std::span<const dContactGeom> contacts() const { return contacts_.contacts(); }
   long long colliding_pairs() const { return contacts_.colliding_pairs(); }
-  const dBatchColliderStats& stats() const { return stats_; }
   std::uint64_t hash() const { return hash_; }                  // of the last step's contacts
   std::uint64_t running_hash() const { return running_hash_; }  // of all contacts so far
 
@@ -38,7 +37,6 @@ class Contestant {
   Configuration configuration_;
   dBatchColliderID collider_;
   falling_objects::ContactList contacts_;
-  dBatchColliderStats stats_{};
   std::uint64_t hash_ = falling_objects::kHashStart;
   std::uint64_t running_hash_ = falling_objects::kHashStart;
 };

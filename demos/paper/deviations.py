@@ -23,7 +23,7 @@ TEXT = (
     "**The baseline.** 'Without the pipeline' is one kernel per pair that marks its chunks in a dense "
     "list, then one with a work-item per vertex of every pair and a switch between the algorithms. "
     "It shares culls, data and the contact step with the pipeline. The paper says no more of its "
-    "baseline than that it does not have the reorganisation. The list is dense, and therefore most "
+    "baseline than that it does not have the reorganization. The list is dense, and therefore most "
     "work-items leave at once; they are counted.",
     "**Iterative rays** follow the paper's rule: vertices without temporal data are dropped, and the "
     "triangle met by walking is taken for the first one. What that misses is counted. Checked by the "

@@ -125,7 +125,7 @@ void Run::record(int step, const std::vector<std::size_t>& order) {
     hashes[order[place]] = contestant.hash();
     if (configuration.is_sampled() && !is_measured(step, options_.every)) continue;
     Totals& totals = totals_[order[place]];
-    totals.add(contestant.stats(), settled);
+    totals.add(contestant.collider(), settled);
     std::optional<Missed> missed;
     if (!configuration.is_lossless()) {
       missed = compare_contacts(contestants_[reference_]->contacts(), contestant.contacts());
@@ -144,16 +144,16 @@ void Run::show_progress(int step) const {
   const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start_;
   const double left = so_far.count() / (step + 1) * (options_.scene.steps - step - 1);
   const Contestant& driver = *contestants_[driver_];
-  std::fprintf(stderr, "%sstep %4d/%d  %6lld pairs  %6zu contacts  %5.0f s left%s",
-               terminal ? "\r" : "", step + 1, options_.scene.steps, driver.stats().pairs,
-               driver.contacts().size(), left,
-               !terminal || step + 1 == options_.scene.steps ? "\n" : "  ");
+  std::fprintf(
+      stderr, "%sstep %4d/%d  %6lld pairs  %6zu contacts  %5.0f s left%s", terminal ? "\r" : "",
+      step + 1, options_.scene.steps, dBatchColliderGetCount(driver.collider(), dBatchCounterPairs),
+      driver.contacts().size(), left, !terminal || step + 1 == options_.scene.steps ? "\n" : "  ");
 }
 
 int Run::run() {
   write_json(options_.out, "machine.json",
-             describe_machine(contestants_[driver_]->stats().device, options_.scene.device,
-                              options_.command));
+             describe_machine(dBatchColliderGetDeviceName(contestants_[driver_]->collider()),
+                              options_.scene.device, options_.command));
   for (int step = 0; step < options_.scene.steps; ++step) {
     world_.prepare();
     record(step, collide(step));

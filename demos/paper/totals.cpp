@@ -3,15 +3,16 @@
 
 namespace paper {
 
-void Totals::add(const dBatchColliderStats& stats, bool settled) {
+void Totals::add(dBatchColliderID collider, bool settled) {
+  const auto count = [&](int counter) { return dBatchColliderGetCount(collider, counter); };
   ++steps;
-  redone += stats.redone > 0;
+  redone += count(dBatchCounterRedone) > 0;
   if (!settled) return;
-  iterative_rays += stats.actual[dBatchBufferRaysIterative];
-  unproven += stats.iterative_unproven;
-  bvh_rays += stats.actual[dBatchBufferRaysBvh];
-  iterative_ms += stats.ms[dBatchStageIterativeRays];
-  bvh_ms += stats.ms[dBatchStageBvhRays];
+  iterative_rays += count(dBatchBufferRaysIterative);
+  unproven += count(dBatchCounterIterativeUnproven);
+  bvh_rays += count(dBatchBufferRaysBvh);
+  iterative_ms += dBatchColliderGetTime(collider, dBatchStageIterativeRays);
+  bvh_ms += dBatchColliderGetTime(collider, dBatchStageBvhRays);
 }
 
 }  // namespace paper

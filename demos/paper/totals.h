@@ -23,7 +23,7 @@ struct Totals {
   // Of the whole run, where something may be missed.
   Missed missed;
 
-  void add(const dBatchColliderStats& stats, bool settled);
+  void add(dBatchColliderID collider, bool settled);  // its last pass
 };
 
 }  // namespace paper

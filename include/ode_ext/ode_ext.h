@@ -77,7 +77,7 @@ enum {
 };
 
 /** Which rays are cast (GRAPP section 3). By default those of vertices inside, where crossings of
-    edges tell which these are; with any other choice of rays, deformable_target, organisation,
+    edges tell which these are; with any other choice of rays, deformable_target, organization,
     misprediction (than redo), edges or count_work those of all vertices, as in the paper. Both
     give the same contacts but in three cases: a vertex that is on the other surface to within
     rounding may be inside by crossings and not by its ray; solids of one shape in one place have
@@ -103,9 +103,9 @@ enum {
 /** How the work is cut into kernels. Both give the same bytes among rays of all vertices,
     unless mispredictions are ignored. */
 enum {
-  dBatchOrganisationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
+  dBatchOrganizationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
                                       between (default) */
-  dBatchOrganisationMonolithic = 1 /**< one kernel with a switch for vertices and their rays, a
+  dBatchOrganizationMonolithic = 1 /**< one kernel with a switch for vertices and their rays, a
                                       work-item per vertex of every pair: what the paper compares
                                       itself with. Crossings of edges are searched as ever */
 };
@@ -115,7 +115,7 @@ enum {
   dBatchMispredictionRedo = 0,     /**< it grows and the pass is computed again; nothing is lost
                                       (default) */
   dBatchMispredictionIgnore = 1,   /**< as the paper: what exceeds the prediction is lost, and
-                                      counted in dBatchColliderStats.missed */
+                                      counted as dBatchCounterMissed */
   dBatchMispredictionBacktrack = 2 /**< the pass delivers nothing, returns 0 and makes no callback;
                                       the statistics say what was short, and the next pass of that
                                       space has room for it */
@@ -150,7 +150,7 @@ typedef struct dBatchColliderParams {
                                 Buffers grow by themselves */
   int rays;              /**< dBatchRays... */
   int deformable_target; /**< dBatchDeformable... */
-  int organisation;      /**< dBatchOrganisation... */
+  int organization;      /**< dBatchOrganization... */
   int misprediction;     /**< dBatchMisprediction... */
   int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh; 0 (default):
                                 all of them */
@@ -159,7 +159,7 @@ typedef struct dBatchColliderParams {
                                 for iterative rays, in mean edge lengths of the target; 0 (default):
                                 1 */
   int count_work;         /**< nonzero: count the work of every work-item of vertices and their rays
-                             (see dBatchWork), of all vertices (see dBatchRays...); slow */
+                             (see dBatchWork...), of all vertices (see dBatchRays...); slow */
   int edges;              /**< dBatchEdges... */
   int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
                              above); 0 (default): as in ODE it is not asked */
@@ -303,113 +303,120 @@ enum {
                                            contacts */
 };
 
-/** The append buffers, in the order of the pipeline. */
+/** @return the dBatchStatus... bits of the last pass, or -1 */
+ODE_EXT_API int dBatchColliderGetStatus(dBatchColliderID collider);
+
+/** @return the name of the collider's device, valid until the collider is destroyed, or NULL */
+ODE_EXT_API const char *dBatchColliderGetDeviceName(dBatchColliderID collider);
+
+/** What is timed in a pass, in the order of the pipeline. A version may add values between these;
+    none is given another meaning. */
 enum {
-  /* pair step or flood -> vertex step: runs of up to 16 vertices; where rays are of all vertices
-     (see dBatchRays...) by the category of their pair, else all in the second */
-  dBatchBufferChunksSmall = 0,      /**< rigid, small displacement */
-  dBatchBufferChunksHigh = 1,       /**< rigid, high displacement; or all */
-  dBatchBufferChunksDeformable = 2, /**< one of the two is deformable */
+  dBatchStageGather = 10,     /**< finding the pairs (ODE's broad phase), host */
+  dBatchStageMeshes = 20,     /**< poses; comparing, and rebuilding the meshes that changed, host */
+  dBatchStageDeformStep = 30, /**< kernels that follow moved vertices, from device events, as are
+                                   the next thirteen */
+  dBatchStagePairStep = 40,
+  dBatchStageVertexStep = 50,    /**< of all categories */
+  dBatchStageIterativeRays = 60, /**< ray step, by algorithm */
+  dBatchStageBvhRays = 70,
+  dBatchStageBasicRays = 80,
+  dBatchStageMonolithic = 90, /**< vertex and ray step in one (dBatchOrganizationMonolithic) */
+  dBatchStageCull = 100,      /**< crossings of edges: which meshlets can meet the other mesh, */
+  dBatchStageMatch = 110,     /**< which of those can meet one another, */
+  dBatchStageCross = 120,     /**< where edges cross triangles */
+  dBatchStageFlood = 130,     /**< which vertices are inside, by where edges cross */
+  dBatchStageAssembly = 140,  /**< of crossings and vertices inside: regions, planes, candidates */
+  dBatchStageContactStep = 150, /**< of the candidates the few that are contacts */
+  dBatchStageWholeStep = 160,   /**< all of the above from the pair step on, of each pair that
+                                     fits, by one work-item: on a processor */
+  dBatchStageDevice = 500,      /**< first upload to last read-back, host clock */
+  dBatchStageExport = 600,      /**< storing the answers, host */
+  dBatchStagePass = 700         /**< the whole batch, without ODE's own pass and the callbacks */
+};
+
+/** What is counted. Of an append buffer the entries: add dBatchPredicted or dBatchCapacity to its
+    value for what was expected and what there was room for. A version may add values between these;
+    none is given another meaning. */
+enum {
+  /* of the last pass */
+  dBatchCounterPairs = 0,          /**< mesh pairs gathered */
+  dBatchCounterPairsComputed = 1,  /**< of those, computed now (the others had a valid answer) */
+  dBatchCounterPairsColliding = 2, /**< of those gathered, with at least one contact; of pairs that
+                                      the program does not ask for, as far as it is still known */
+  dBatchCounterPairsBounded = 3,   /**< of those computed, whose bounding volumes overlap */
+  dBatchCounterRedone = 20,        /**< how often the pass was redone for larger buffers */
+  dBatchCounterSynchronizations = 21, /**< waits for the device */
+  dBatchCounterMissed = 40, /**< dBatchMispredictionIgnore: entries that did not fit, all buffers */
+  dBatchCounterIterativeUnproven = 41, /**< iterative rays that were cast in full after all */
+  dBatchCounterDropped = 42, /**< dBatchRaysIterativePaper: vertices dropped for want of temporal
+                                   data */
+  dBatchCounterTemporalPairs = 43, /**< pairs whose temporal data is kept */
+  dBatchCounterDeformed = 44,      /**< meshes whose vertices moved since the pass before */
+  /* since creation */
+  dBatchCounterPasses = 60,     /**< passes */
+  dBatchCounterPairsAlone = 61, /**< pairs asked for that no pass had computed */
+  dBatchCounterPairsStock = 62, /**< pairs answered by ODE's own collider */
+  dBatchCounterMeshes = 63,     /**< meshes known now */
+  /* Append buffers of the last pass, in the order of the pipeline. pair step or flood -> vertex
+     step: runs of up to 16 vertices; where rays are of all vertices (see dBatchRays...) by the
+     category of their pair, else all in the second */
+  dBatchBufferChunksSmall = 1000,      /**< rigid, small displacement */
+  dBatchBufferChunksHigh = 1010,       /**< rigid, high displacement; or all */
+  dBatchBufferChunksDeformable = 1020, /**< one of the two is deformable */
   /* vertex step -> ray step, by algorithm */
-  dBatchBufferRaysIterative = 3, /**< from the triangle met last */
-  dBatchBufferRaysBvh = 4,       /**< BVH traversal; also what iterative rays hand on */
-  dBatchBufferRaysBasic = 5,     /**< every triangle */
+  dBatchBufferRaysIterative = 1030, /**< from the triangle met last */
+  dBatchBufferRaysBvh = 1040,       /**< BVH traversal; also what iterative rays hand on */
+  dBatchBufferRaysBasic = 1050,     /**< every triangle */
   /* cull -> match -> cross */
-  dBatchBufferMeshlets = 6,     /**< clusters of triangles that can meet the other mesh */
-  dBatchBufferMeshletPairs = 7, /**< that can meet one another; without loss or redoing those beyond
-                                     the capacity are crossed at once */
+  dBatchBufferMeshlets = 1060,     /**< clusters of triangles that can meet the other mesh */
+  dBatchBufferMeshletPairs = 1070, /**< that can meet one another; without loss or redoing those
+                                        beyond the capacity are crossed at once */
   /* ray step, cross -> contact step */
-  dBatchBufferHits = 8,      /**< of vertex rays */
-  dBatchBufferCrossings = 9, /**< of edges with triangles */
+  dBatchBufferHits = 1080,      /**< of vertex rays */
+  dBatchBufferCrossings = 1090, /**< of edges with triangles */
   /* in flood */
-  dBatchBufferFloodWords = 10, /**< 32-bit words of room for finding the vertices inside */
-  dBatchBufferContacts = 11,   /**< contact step -> host */
-  dBatchBufferCount = 12
+  dBatchBufferFloodWords = 1100, /**< 32-bit words of room for finding the vertices inside */
+  dBatchBufferContacts = 1110,   /**< contact step -> host */
+  /* to be added to a buffer */
+  dBatchActual = 0,    /**< entries produced */
+  dBatchPredicted = 1, /**< entries expected */
+  dBatchCapacity = 2   /**< entries there was room for at a time: on a processor pairs follow one
+                            another in the same room, so of all but contacts there may be more */
 };
 
-/** The timed stages of a pass. */
+/** The work of a kernel with params.count_work, in units of about one box test: a node visited and
+    an entry of a task 1 each, a vertex looked at and a triangle tested 2 each. In lockstep a group
+    of work-items takes as long as its longest, and one branch after the other where they take
+    different ones. */
 enum {
-  dBatchStageGather = 0,     /**< finding the pairs (ODE's broad phase), host */
-  dBatchStageMeshes = 1,     /**< poses; comparing, and rebuilding the meshes that changed, host */
-  dBatchStageDeformStep = 2, /**< kernels that follow moved vertices, from device events, as are the
-                                  next thirteen */
-  dBatchStagePairStep = 3,
-  dBatchStageVertexStep = 4,    /**< of all categories */
-  dBatchStageIterativeRays = 5, /**< ray step, by algorithm */
-  dBatchStageBvhRays = 6,
-  dBatchStageBasicRays = 7,
-  dBatchStageMonolithic = 8,   /**< vertex and ray step in one, with dBatchOrganisationMonolithic */
-  dBatchStageCull = 9,         /**< crossings of edges: which meshlets can meet the other mesh, */
-  dBatchStageMatch = 10,       /**< which of those can meet one another, */
-  dBatchStageCross = 11,       /**< where edges cross triangles */
-  dBatchStageFlood = 12,       /**< which vertices are inside, by where edges cross */
-  dBatchStageAssembly = 13,    /**< of crossings and vertices inside: regions, planes, candidates */
-  dBatchStageContactStep = 14, /**< of the candidates the few that are contacts */
-  dBatchStageWholeStep = 15,   /**< all of the above from the pair step on, of each pair that
-                                  fits, by one work-item: on a processor */
-  dBatchStageDevice = 16,      /**< first upload to last read-back, host clock */
-  dBatchStageExport = 17,      /**< storing the answers, host */
-  dBatchStagePass = 18,        /**< the whole batch, without ODE's own pass and the callbacks */
-  dBatchStageCount = 19
+  dBatchWorkItems = 0,      /**< work-items that had input */
+  dBatchWorkUnits = 1,      /**< what they did, all together */
+  dBatchWorkLockstep32 = 2, /**< what groups of 32 in lockstep are busy for, times 32 */
+  dBatchWorkLockstep64 = 3  /**< the same for groups of 64 */
 };
 
-/** The kernels whose work is counted on demand. */
-enum {
-  dBatchKernelVertexStep = 0,
-  dBatchKernelIterativeRays = 1,
-  dBatchKernelBvhRays = 2,
-  dBatchKernelBasicRays = 3,
-  dBatchKernelMonolithic = 4,
-  dBatchKernelCount = 5
-};
+/** @return what a stage (dBatchStage...) of the last pass took [ms], or -1 */
+ODE_EXT_API double dBatchColliderGetTime(dBatchColliderID collider, int stage);
 
-/**
- * The work of a kernel with params.count_work, in units of about one box test: a node visited and a
- * place in a task 1 each, a vertex looked at and a triangle tested 2 each. In lockstep a group of
- * work-items takes as long as its longest, and one branch after the other where they take different
- * ones.
- */
-typedef struct dBatchWork {
-  long long items;      /**< work-items that had input */
-  long long units;      /**< what they did, all together */
-  long long lockstep32; /**< what groups of 32 in lockstep are busy for, times 32 */
-  long long lockstep64; /**< the same for groups of 64 */
-} dBatchWork;
+/** @param counter  a dBatchCounter..., or a dBatchBuffer... + dBatchPredicted, ...
+    @return the count, or -1 */
+ODE_EXT_API long long dBatchColliderGetCount(dBatchColliderID collider, int counter);
 
-/** What the last pass did. */
-typedef struct dBatchColliderStats {
-  size_t struct_size;        /**< set by the caller to sizeof(dBatchColliderStats) */
-  unsigned status;           /**< dBatchStatus... bits of the last pass */
-  int redone;                /**< how often the last pass was redone for larger buffers */
-  int synchronizations;      /**< waits for the device in the last pass */
-  long long pairs;           /**< mesh pairs gathered in the last pass */
-  long long pairs_computed;  /**< of those, computed now (the others had a valid answer) */
-  long long pairs_colliding; /**< of those gathered, with at least one contact; of pairs that the
-                                program does not ask for, as far as it is still known */
-  long long pairs_bounded;   /**< of those computed, whose bounding volumes overlap */
-  long long predicted[dBatchBufferCount]; /**< entries expected */
-  long long actual[dBatchBufferCount];    /**< entries produced */
-  long long capacity[dBatchBufferCount];  /**< entries there was room for at a time: on a processor
-                                               pairs follow one another in the same room, so of
-                                               all but contacts there may be more */
-  double ms[dBatchStageCount];            /**< [ms] */
-  long long passes;                       /**< passes since creation */
-  long long pairs_alone; /**< since creation: pairs asked for that no pass had computed */
-  long long pairs_stock; /**< since creation: pairs answered by ODE's own collider */
-  int meshes;            /**< meshes known */
-  char device[128];      /**< device name, null-terminated */
-  long long missed;      /**< dBatchMispredictionIgnore: entries that did not fit, all buffers */
-  long long
-      iterative_unproven; /**< iterative rays of the last pass that were cast in full after all */
-  long long dropped; /**< dBatchRaysIterativePaper: vertices dropped for want of temporal data */
-  long long temporal_pairs;           /**< pairs whose temporal data is kept */
-  long long deformed;                 /**< meshes whose vertices moved since the pass before */
-  dBatchWork work[dBatchKernelCount]; /**< with params.count_work */
-} dBatchColliderStats;
+/** @param stage     the vertex step, one of the three of rays, or monolithic
+    @param quantity  dBatchWork...
+    @return of the last pass, 0 without params.count_work, or -1 */
+ODE_EXT_API long long dBatchColliderGetWork(dBatchColliderID collider, int stage, int quantity);
 
-/** Fills stats (up to stats->struct_size bytes). Refuses an unknown collider with a message and
-    zeroes. */
-ODE_EXT_API void dBatchColliderGetStats(dBatchColliderID collider, dBatchColliderStats *stats);
+/** @return the name of a stage, "gather", or of a counter, "predicted_hits"; constant; NULL where
+    there is none */
+ODE_EXT_API const char *dBatchStageName(int stage);
+ODE_EXT_API const char *dBatchCounterName(int counter);
+
+/** Walks over all that this version has: for (s = dBatchStageNext(-1); s >= 0; s =
+    dBatchStageNext(s)). @return the least value above the one given, -1 after the last */
+ODE_EXT_API int dBatchStageNext(int stage);
+ODE_EXT_API int dBatchCounterNext(int counter);
 
 /**
  * Describes every OpenCL device in words, one a line, and marks the one that `selection` (as

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ray of a vertex by one of the three algorithms, the same in both organisations. Device only.
+// A ray of a vertex by one of the three algorithms, the same in both organizations. Device only.
 #ifndef ODE_EXT_KERNELS_PAPER_CAST_H
 #define ODE_EXT_KERNELS_PAPER_CAST_H
 

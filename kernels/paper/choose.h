@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which ray algorithm a vertex gets (GRAPP section 3.2), the same in both organisations. Device
+// Which ray algorithm a vertex gets (GRAPP section 3.2), the same in both organizations. Device
 // only.
 #ifndef ODE_EXT_KERNELS_PAPER_CHOOSE_H
 #define ODE_EXT_KERNELS_PAPER_CHOOSE_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The monolithic organisation, which the pipeline is compared with (GRAPP section 3): one large
+// The monolithic organization, which the pipeline is compared with (GRAPP section 3): one large
 // kernel that culls each vertex of every pair, and casts its ray by whichever algorithm a switch
 // selects. Same tests, same culls, same data; only the input is sparse and the branches diverge.
 //

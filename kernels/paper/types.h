@@ -38,7 +38,7 @@ OX_STATIC_ASSERT(sizeof(ox_directory_entry) == 8, ox_directory_entry_is_8_bytes)
 
 // Of an ox_chunk_task. Its block of temporal data has the task's own index; `previous` is the one
 // that the chunk had in the last step, or OX_NONE. OX_NONE as chunk: nothing to do (the monolithic
-// organisation keeps a place for every chunk). `category` is one of these,
+// organization keeps a place for every chunk). `category` is one of these,
 #define OX_CATEGORY_SMALL OX_LIST_CHUNKS_SMALL
 #define OX_CATEGORY_HIGH OX_LIST_CHUNKS
 #define OX_CATEGORY_DEFORMABLE OX_LIST_CHUNKS_DEFORMABLE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What cannot collide: the tests that chunks and vertices must pass before a ray is cast, the same
-// in both organisations. Device only.
+// in both organizations. Device only.
 #ifndef ODE_EXT_KERNELS_SHARED_CULL_H
 #define ODE_EXT_KERNELS_SHARED_CULL_H
 

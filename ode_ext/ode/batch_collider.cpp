@@ -76,7 +76,7 @@ BatchCollider::BatchCollider(const ColliderOptions& options, float open_thicknes
       triangle_callbacks_(triangle_callbacks) {
   const DeviceInfo& info = collider_.device_info();
   log(LogLevel::kInfo, "the kernels are ready");
-  std::strncpy(stats_.device, info.name.c_str(), sizeof(stats_.device) - 1);
+  device_name_ = info.name;
 }
 
 bool BatchCollider::claim() {
@@ -119,7 +119,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   if (!may_hold_pair) {
     stats_.status |= dBatchStatusGatherSkipped;
   } else {
-    stats_.ms[dBatchStageGather] = ms_gather;
+    stats_.ms_gather = ms_gather;
     try {
       compute_ahead(pairs, root);
       if (stats_.pairs_computed != 0) failure_said_ = false;  // the device works
@@ -132,8 +132,8 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   members_.prune(pass_);
   meshes_.prune(pass_);
   memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
-  stats_.meshes = static_cast<int>(meshes_.size());
-  stats_.ms[dBatchStagePass] = whole.milliseconds();
+  stats_.meshes = static_cast<std::int64_t>(meshes_.size());
+  stats_.ms_pass = whole.milliseconds();
   trace_pass(whole.start(), stats_);
   return (stats_.status & dBatchStatusBacktracked) != 0;
 }
@@ -166,7 +166,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     }
   }
   stats_.pairs = static_cast<long long>(gathered);
-  stats_.ms[dBatchStageMeshes] = reading.milliseconds();
+  stats_.ms_meshes = reading.milliseconds();
   collide_scene(&memories_.of(root, pass_, familiar));
   note_report();
   stats_.pairs_colliding = scene_.colliding() + unasked_colliding;
@@ -271,7 +271,7 @@ void BatchCollider::collide_scene(PassMemory* memory) {
   }
   const Stopwatch storing;
   scene_.store(found);
-  if (memory != nullptr) stats_.ms[dBatchStageExport] = storing.milliseconds();
+  if (memory != nullptr) stats_.ms_export = storing.milliseconds();
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
@@ -420,8 +420,8 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   const std::lock_guard lock(mutex_);
   stats_.pairs_colliding = colliding;
   stats_.pairs_stock += answered_by_stock;
-  stats_.meshes = static_cast<int>(meshes_.size());
-  stats_.ms[dBatchStagePass] = whole.milliseconds();
+  stats_.meshes = static_cast<std::int64_t>(meshes_.size());
+  stats_.ms_pass = whole.milliseconds();
   return total;
 }
 
@@ -453,13 +453,12 @@ void BatchCollider::fail(const std::exception& error) {
 }
 
 void BatchCollider::begin_stats(bool within_a_pass) {
-  dBatchColliderStats fresh{};
+  PassStats fresh{};
   if (within_a_pass)
     fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;
   fresh.pairs_stock = stats_.pairs_stock;
-  std::memcpy(fresh.device, stats_.device, sizeof(fresh.device));
   stats_ = fresh;
 }
 
@@ -483,7 +482,7 @@ void BatchCollider::forget(dTriMeshDataID data) {
   meshes_.forget(data);
 }
 
-dBatchColliderStats BatchCollider::stats() {
+PassStats BatchCollider::stats() {
   const std::lock_guard lock(mutex_);
   return stats_;
 }

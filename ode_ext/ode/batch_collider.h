@@ -20,6 +20,7 @@
 #include "ode/mesh_store.h"
 #include "ode/pair_gather.h"
 #include "ode/pair_scene.h"
+#include "ode/pass_stats.h"
 #include "ode/space_memories.h"
 #include "ode_ext/ode_ext.h"
 #include "pipeline/collider.h"
@@ -59,7 +60,8 @@ class BatchCollider {
   void announce_change(dTriMeshDataID data);
   void set_deformable(dTriMeshDataID data, bool deformable);
   void forget(dTriMeshDataID data);
-  dBatchColliderStats stats();
+  PassStats stats();
+  const std::string& device_name() const { return device_name_; }
 
  private:
   // All of these under the lock.
@@ -111,7 +113,8 @@ class BatchCollider {
   bool failure_said_ = false;  // one message per run of failures
 
   PairScene scene_;  // that is being built
-  dBatchColliderStats stats_{};
+  PassStats stats_;
+  std::string device_name_;
 };
 
 }  // namespace ode_ext

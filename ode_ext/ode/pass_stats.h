@@ -1,12 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the pipeline reports of a step, as the public statistics have it.
+// What the last pass did, and the one table of what of it is public, by value and name.
 #pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "ode_ext/ode_ext.h"
 #include "pipeline/step_report.h"
 
 namespace ode_ext {
 
-void note_report(const StepReport& report, dBatchColliderStats& stats);
+struct PassStats {
+  unsigned status = 0;  // dBatchStatus... bits
+  StepReport report;    // of the last batch
+  std::int64_t pairs = 0, pairs_computed = 0, pairs_colliding = 0, deformed = 0;
+  std::int64_t passes = 0, pairs_alone = 0, pairs_stock = 0, meshes = 0;  // since creation
+  double ms_gather = 0, ms_meshes = 0, ms_device = 0, ms_export = 0, ms_pass = 0;
+};
+
+// Takes over what the pipeline reports.
+void note_report(const StepReport& report, PassStats& stats);
+
+// A timed stage. Those on the host follow one another, but for the pass, which holds them all;
+// those on the device are within dBatchStageDevice.
+struct TimedStage {
+  enum Track { kWhole, kHost, kDevice };
+  int value;
+  const char* name;
+  Track track;
+  double (*milliseconds)(const PassStats&);
+};
+std::span<const TimedStage> timed_stages();  // ascending by value
+
+struct Counter {
+  int value;
+  std::string name;
+  std::int64_t (*read)(const PassStats&, std::size_t index);
+  std::size_t index;  // of the buffer
+};
+const std::vector<Counter>& counters();  // ascending by value
+
+// The work of a stage that is counted, or null.
+const WorkCount* work_of(const PassStats& stats, int stage);
 
 }  // namespace ode_ext

@@ -24,29 +24,6 @@ std::mutex mutex;
 std::unique_ptr<std::FILE, CloseTrace> trace;
 bool is_first = true;
 
-struct Stage {
-  const char* name;
-  int index;
-};
-constexpr Stage kHostStages[] = {{"gather", dBatchStageGather},
-                                 {"meshes", dBatchStageMeshes},
-                                 {"device", dBatchStageDevice},
-                                 {"export", dBatchStageExport}};
-constexpr Stage kKernels[] = {{"deform_step", dBatchStageDeformStep},
-                              {"pair_step", dBatchStagePairStep},
-                              {"vertex_step", dBatchStageVertexStep},
-                              {"iterative_rays", dBatchStageIterativeRays},
-                              {"bvh_rays", dBatchStageBvhRays},
-                              {"basic_rays", dBatchStageBasicRays},
-                              {"monolithic", dBatchStageMonolithic},
-                              {"cull", dBatchStageCull},
-                              {"match", dBatchStageMatch},
-                              {"cross", dBatchStageCross},
-                              {"flood", dBatchStageFlood},
-                              {"assembly", dBatchStageAssembly},
-                              {"contact_step", dBatchStageContactStep},
-                              {"whole_step", dBatchStageWholeStep}};
-
 void write_event(const char* name, int track, double start_us, double duration_us,
                  const std::string& arguments) {
   std::fprintf(trace.get(),
@@ -69,28 +46,29 @@ void open_trace_of_environment() {
   std::fputs("[\n", trace.get());
 }
 
-void trace_pass(std::chrono::steady_clock::time_point start, const dBatchColliderStats& stats) {
+void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& stats) {
   const std::lock_guard lock(mutex);
   if (trace == nullptr) return;
   const double begin = std::chrono::duration<double, std::micro>(start.time_since_epoch()).count();
-  write_event("pass", 1, begin, 1e3 * stats.ms[dBatchStagePass],
-              ",\"args\":{\"pairs\":" + std::to_string(stats.pairs) +
-                  ",\"rays_iterative\":" + std::to_string(stats.actual[dBatchBufferRaysIterative]) +
-                  ",\"rays_bvh\":" + std::to_string(stats.actual[dBatchBufferRaysBvh]) +
-                  ",\"rays_basic\":" + std::to_string(stats.actual[dBatchBufferRaysBasic]) +
-                  ",\"meshlet_pairs\":" + std::to_string(stats.actual[dBatchBufferMeshletPairs]) +
-                  ",\"contacts\":" + std::to_string(stats.actual[dBatchBufferContacts]) + "}");
-  double time = begin;
-  double device_begin = begin;
-  for (const Stage& stage : kHostStages) {
-    if (stage.index == dBatchStageDevice) device_begin = time;
-    write_event(stage.name, 1, time, 1e3 * stats.ms[stage.index], "");
-    time += 1e3 * stats.ms[stage.index];
+  std::string counts;
+  for (const Counter& counter : counters()) {
+    counts += (counts.empty() ? "" : ",") + ('"' + counter.name + "\":") +
+              std::to_string(counter.read(stats, counter.index));
   }
-  time = device_begin;  // when within the device stage a kernel ran is not known, only for how long
-  for (const Stage& kernel : kKernels) {
-    write_event(kernel.name, 2, time, 1e3 * stats.ms[kernel.index], "");
-    time += 1e3 * stats.ms[kernel.index];
+  write_event("pass", 1, begin, 1e3 * stats.ms_pass, ",\"args\":{" + counts + "}");
+  double host = begin, device = begin;
+  for (const TimedStage& stage : timed_stages()) {
+    if (stage.track == TimedStage::kHost) {
+      if (stage.value == dBatchStageDevice) device = host;
+      write_event(stage.name, 1, host, 1e3 * stage.milliseconds(stats), "");
+      host += 1e3 * stage.milliseconds(stats);
+    }
+  }
+  // When within the device stage a kernel ran is not known, only for how long.
+  for (const TimedStage& stage : timed_stages()) {
+    if (stage.track != TimedStage::kDevice) continue;
+    write_event(stage.name, 2, device, 1e3 * stage.milliseconds(stats), "");
+    device += 1e3 * stage.milliseconds(stats);
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "ode_ext/ode_ext.h"
+#include "ode/pass_stats.h"
 
 namespace ode_ext {
 
@@ -14,6 +14,6 @@ void open_trace_of_environment();
 
 // Appends a pass that began at `start`: its host stages one after another on one track, the kernels
 // on another. Does nothing without a trace.
-void trace_pass(std::chrono::steady_clock::time_point start, const dBatchColliderStats& stats);
+void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& stats);
 
 }  // namespace ode_ext

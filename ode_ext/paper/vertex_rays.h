@@ -33,7 +33,7 @@ class VertexRays {
 
  private:
   // Whether each chunk has a place of its own, not in lists.
-  bool is_dense() const { return options_.organisation == Organisation::kMonolithic; }
+  bool is_dense() const { return options_.organization == Organization::kMonolithic; }
   TemporalCache& temporal(const Step& step) {
     return step.remembers() ? *step.memory->temporal : nothing_;
   }

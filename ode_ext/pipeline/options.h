@@ -11,7 +11,7 @@ namespace ode_ext {
 enum class LaunchRule { kPredicted, kExact };
 enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
-enum class Organisation { kPipelined, kMonolithic };
+enum class Organization { kPipelined, kMonolithic };
 enum class Misprediction { kRedo, kIgnore, kBacktrack };
 
 struct ColliderOptions {
@@ -20,7 +20,7 @@ struct ColliderOptions {
   std::uint32_t max_contacts_deformable = 0;  // 0: all
   Rays rays = Rays::kFull;
   DeformableTarget deformable_target = DeformableTarget::kRefit;
-  Organisation organisation = Organisation::kPipelined;
+  Organization organization = Organization::kPipelined;
   LaunchRule launches = LaunchRule::kPredicted;
   PredictionRule prediction = PredictionRule::kPairScaled;
   Misprediction misprediction = Misprediction::kRedo;
@@ -46,7 +46,7 @@ struct ColliderOptions {
 inline bool follows_paper(const ColliderOptions& options) {
   return !options.edges || options.rays != Rays::kFull ||
          options.deformable_target != DeformableTarget::kRefit ||
-         options.organisation != Organisation::kPipelined ||
+         options.organization != Organization::kPipelined ||
          options.misprediction != Misprediction::kRedo || options.count_work;
 }
 

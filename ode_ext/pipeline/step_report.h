@@ -10,7 +10,7 @@
 
 namespace ode_ext {
 
-// The kernels whose work is counted on demand. The order is public (dBatchKernel...).
+// The kernels whose work is counted on demand. In the order of work_of (ode/pass_stats).
 enum class Worker : std::size_t { kVertexStep, kIterativeRays, kBvhRays, kBasicRays, kMonolithic };
 inline constexpr std::size_t kWorkerCount = 5;
 

@@ -178,13 +178,13 @@ void Workload::settle_launches() {
   if (options_.launches == LaunchRule::kExact) lists_.count();
 }
 
-// Of what the last run counted, what was to be stored: the monolithic organisation has no lists of
+// Of what the last run counted, what was to be stored: the monolithic organization has no lists of
 // chunks and of rays, and pairs of meshlets that are not stored are crossed at once
 // (kernels/match.cl).
 ArrowCounts Workload::stored() const {
   ArrowCounts counts;
   for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = lists_.appended(i);
-  if (options_.organisation == Organisation::kMonolithic)
+  if (options_.organization == Organization::kMonolithic)
     std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kMeshlets), 0u);
   std::uint64_t& pairs = at(counts, Arrow::kMeshletPairs);
   pairs = std::min(pairs, lists_.capacity(Arrow::kMeshletPairs));

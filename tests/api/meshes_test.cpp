@@ -173,7 +173,7 @@ TEST_F(ApiMeshes, DestroyedWhileTheirAnswersAreKeptAreNotTouched) {
 TEST_F(ApiMeshes, AnnouncedAsDestroyedAreForgotten) {
   const BatchCollider collider;
   collider.pass(space);
-  const int known = collider.stats().meshes;
+  const auto known = collider.stats().meshes;
   const dTriMeshDataID handle = soft.id();
   world.destroy(g1);
   world.destroy(soft);

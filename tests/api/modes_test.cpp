@@ -14,10 +14,10 @@ struct Mode {
 
 const Mode kSameBytes[] = {
     {"FullRays", [](auto& p) { p.rays = dBatchRaysFull; }},
-    {"Monolithic", [](auto& p) { p.organisation = dBatchOrganisationMonolithic; }},
+    {"Monolithic", [](auto& p) { p.organization = dBatchOrganizationMonolithic; }},
     {"MonolithicFullRays",
      [](auto& p) {
-       p.organisation = dBatchOrganisationMonolithic;
+       p.organization = dBatchOrganizationMonolithic;
        p.rays = dBatchRaysFull;
      }},
     {"BasicDeformables", [](auto& p) { p.deformable_target = dBatchDeformableBasic; }},
@@ -103,15 +103,17 @@ TEST_F(ApiMode, CountedWorkIsReportedPerKernel) {
   const BatchCollider plain([](auto& p) { p.edges = dBatchEdgesOff; });
   counting.pass(space);
   plain.pass(space);
-  for (const int kernel : {dBatchKernelVertexStep, dBatchKernelBvhRays}) {
-    const dBatchWork work = counting.stats().work[kernel];
-    EXPECT_GT(work.items, 0);
-    EXPECT_GT(work.units, 0);
-    EXPECT_GE(work.lockstep32, work.units);
-    EXPECT_GE(work.lockstep64, work.lockstep32);
-    EXPECT_EQ(plain.stats().work[kernel].items, 0);
+  for (const int stage : {dBatchStageVertexStep, dBatchStageBvhRays}) {
+    const auto work = [&](int quantity) {
+      return dBatchColliderGetWork(counting, stage, quantity);
+    };
+    EXPECT_GT(work(dBatchWorkItems), 0);
+    EXPECT_GT(work(dBatchWorkUnits), 0);
+    EXPECT_GE(work(dBatchWorkLockstep32), work(dBatchWorkUnits));
+    EXPECT_GE(work(dBatchWorkLockstep64), work(dBatchWorkLockstep32));
+    EXPECT_EQ(dBatchColliderGetWork(plain, stage, dBatchWorkItems), 0);
   }
-  EXPECT_EQ(counting.stats().work[dBatchKernelBvhRays].items,
+  EXPECT_EQ(dBatchColliderGetWork(counting, dBatchStageBvhRays, dBatchWorkItems),
             counting.stats().actual[dBatchBufferRaysBvh]);
 }
 
@@ -136,13 +138,13 @@ TEST_F(ApiMode, BacktrackingDeliversNothingMakesNoCallbackAndReturnsZero) {
   const auto stats = collider.stats();
   EXPECT_NE(stats.status & dBatchStatusBacktracked, 0u);
   bool short_of_room = false;
-  for (int i = 0; i < dBatchBufferCount; ++i)
+  for (const int i : buffers())
     short_of_room = short_of_room || stats.actual[i] > stats.predicted[i];
   EXPECT_TRUE(short_of_room);
 
   int passes = 0;
   while (dBatchColliderSpaceCollide(collider, space, &calls, &count_calls) == 0)
-    ASSERT_LT(++passes, dBatchBufferCount);
+    ASSERT_LT(++passes, static_cast<int>(buffers().size()));
   EXPECT_GT(calls, 0);
   const BatchCollider fresh;
   EXPECT_EQ(difference(answers_of(collider.pass(space)), answers_of(fresh.pass(space))), "");

@@ -21,7 +21,7 @@ struct Context {
   Collected collected;
   bool entered = false;
   int result = 0;
-  dBatchColliderStats stats{};
+  PassStatistics stats{};
 };
 
 TEST_F(ApiNesting, APassOverAContainedSpaceRunsNoSecondBatch) {
@@ -33,8 +33,7 @@ TEST_F(ApiNesting, APassOverAContainedSpaceRunsNoSecondBatch) {
     c.entered = true;
     c.result = dBatchColliderSpaceCollide(c.collider, reinterpret_cast<dSpaceID>(space),
                                           &c.collected, &collect);
-    c.stats.struct_size = sizeof c.stats;
-    dBatchColliderGetStats(c.collider, &c.stats);
+    c.stats = pass_statistics(c.collider);
   };
   ASSERT_EQ(dBatchColliderSpaceCollide(collider, outer, &context, callback), 1) << last_error();
   ASSERT_TRUE(context.entered);
@@ -66,11 +65,8 @@ TEST_F(ApiNesting, ManyInnerPassesRunNoSecondBatch) {
     for (const dSpaceID space : c.spaces) {
       Collected collected;
       EXPECT_EQ(dBatchColliderSpaceCollide(c.collider, space, &collected, &collect), 1);
-      dBatchColliderStats stats{};
-      stats.struct_size = sizeof stats;
-      dBatchColliderGetStats(c.collider, &stats);
-      c.gathered += stats.pairs;
-      c.computed += stats.pairs_computed;
+      c.gathered += dBatchColliderGetCount(c.collider, dBatchCounterPairs);
+      c.computed += dBatchColliderGetCount(c.collider, dBatchCounterPairsComputed);
     }
   };
   ASSERT_EQ(dBatchColliderSpaceCollide(collider, outer, &context, callback), 1) << last_error();
@@ -87,8 +83,7 @@ TEST_F(ApiNesting, APassOfTwoGeomsRunsNoSecondBatch) {
     if (dGeomIsSpace(o1) || dGeomIsSpace(o2)) return;
     c.entered = true;
     c.result = dBatchColliderSpaceCollide2(c.collider, o1, o2, &c.collected, &collect);
-    c.stats.struct_size = sizeof c.stats;
-    dBatchColliderGetStats(c.collider, &c.stats);
+    c.stats = pass_statistics(c.collider);
   };
   ASSERT_EQ(dBatchColliderSpaceCollide(collider, outer, &context, callback), 1);
   ASSERT_TRUE(context.entered);

@@ -33,7 +33,7 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.initial_capacity, 0);
   EXPECT_EQ(params.rays, dBatchRaysFull);
   EXPECT_EQ(params.deformable_target, dBatchDeformableRefit);
-  EXPECT_EQ(params.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(params.organization, dBatchOrganizationPipelined);
   EXPECT_EQ(params.misprediction, dBatchMispredictionRedo);
   EXPECT_EQ(params.max_contacts_deformable, 0);
   EXPECT_EQ(params.walk_limit, 0);
@@ -90,7 +90,7 @@ const BadParameter kBadParameters[] = {
     {"rays", "Unknown", [](P& p) { p.rays = 3; }},
     {"rays", "Negative", [](P& p) { p.rays = -1; }},
     {"deformable_target", "Unknown", [](P& p) { p.deformable_target = 2; }},
-    {"organisation", "Unknown", [](P& p) { p.organisation = 2; }},
+    {"organization", "Unknown", [](P& p) { p.organization = 2; }},
     {"misprediction", "Unknown", [](P& p) { p.misprediction = 3; }},
     {"max_contacts_deformable", "Negative", [](P& p) { p.max_contacts_deformable = -1; }},
     {"max_contacts_deformable", "TooMany", [](P& p) { p.max_contacts_deformable = 65; }},
@@ -173,15 +173,15 @@ TEST_P(ApiRefusal, ByCollidePairs) {
             -1);
 }
 
-TEST_P(ApiRefusal, ByGetStatsWithZeroes) {
-  dBatchColliderStats stats;
-  std::memset(&stats, 0xAB, sizeof stats);
-  stats.struct_size = sizeof stats;
-  dBatchColliderGetStats(foreign(), &stats);
-  EXPECT_EQ(stats.passes, 0);
-  EXPECT_EQ(stats.pairs, 0);
-  EXPECT_EQ(stats.device[0], '\0');
+TEST_P(ApiRefusal, ByGetStatus) { EXPECT_EQ(dBatchColliderGetStatus(foreign()), -1); }
+
+TEST_P(ApiRefusal, ByGetCount) {
+  EXPECT_EQ(dBatchColliderGetCount(foreign(), dBatchCounterPasses), -1);
 }
+
+TEST_P(ApiRefusal, ByGetTime) { EXPECT_EQ(dBatchColliderGetTime(foreign(), dBatchStagePass), -1); }
+
+TEST_P(ApiRefusal, ByGetDeviceName) { EXPECT_EQ(dBatchColliderGetDeviceName(foreign()), nullptr); }
 
 TEST_P(ApiRefusal, ByTriMeshDataUpdate) {
   dBatchColliderTriMeshDataUpdate(foreign(), world.mesh(make_cube(1)).id());

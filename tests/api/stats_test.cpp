@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// dBatchColliderGetStats.
-#include <cstddef>
-#include <cstring>
+// What a collider says of its last pass.
+#include <set>
+#include <string>
 
 #include "device/error.h"
 #include "support/batch_collider.h"
@@ -16,34 +16,43 @@ class ApiStats : public ::testing::Test {
   Pile pile{world, space, 8, 1};
 };
 
-// A program built against an older header has a shorter struct.
-TEST_F(ApiStats, FillNoMoreThanStructSize) {
-  const BatchCollider collider;
-  collider.pass(space);
-  alignas(dBatchColliderStats) unsigned char memory[sizeof(dBatchColliderStats)];
-  std::memset(memory, 0xAB, sizeof memory);
-  constexpr std::size_t older = offsetof(dBatchColliderStats, predicted);
-  auto* stats = reinterpret_cast<dBatchColliderStats*>(memory);
-  stats->struct_size = older;
-  dBatchColliderGetStats(collider, stats);
-  EXPECT_EQ(stats->struct_size, older);
-  EXPECT_GT(stats->pairs, 0);
-  for (std::size_t i = older; i < sizeof memory; ++i) ASSERT_EQ(memory[i], 0xAB) << i;
+// What a program reads by value today is what it reads by that value from a later library.
+TEST_F(ApiStats, HaveNamesThatAreTheirsAloneAndAscendingValues) {
+  std::set<std::string> names;
+  int last = -1;
+  for (const int stage : stages()) {
+    EXPECT_GT(stage, last);
+    last = stage;
+    EXPECT_TRUE(names.insert(dBatchStageName(stage)).second) << stage;
+  }
+  EXPECT_EQ(names.size(), 19u);
+  EXPECT_EQ(stages().front(), dBatchStageGather);
+  EXPECT_EQ(stages().back(), dBatchStagePass);
+  names.clear();
+  last = -1;
+  for (int counter = dBatchCounterNext(-1); counter >= 0; counter = dBatchCounterNext(counter)) {
+    EXPECT_GT(counter, last);
+    last = counter;
+    EXPECT_TRUE(names.insert(dBatchCounterName(counter)).second) << counter;
+  }
+  EXPECT_EQ(names.size(), 15u + 3 * 12);
+  EXPECT_STREQ(dBatchStageName(dBatchStageWholeStep), "whole_step");
+  EXPECT_STREQ(dBatchCounterName(dBatchBufferHits + dBatchPredicted), "predicted_hits");
 }
 
-// One built against a newer header has a longer one; what this library does not know stays.
-TEST_F(ApiStats, FillALongerStructAsFarAsTheyGo) {
+TEST_F(ApiStats, RefuseAValueThatNamesNothing) {
   const BatchCollider collider;
-  collider.pass(space);
-  struct Newer {
-    dBatchColliderStats known;
-    long long more;
-  } newer{};
-  newer.known.struct_size = sizeof newer;
-  newer.more = 42;
-  dBatchColliderGetStats(collider, &newer.known);
-  EXPECT_GT(newer.known.pairs, 0);
-  EXPECT_EQ(newer.more, 42);
+  EXPECT_EQ(dBatchColliderGetTime(collider, 11), -1);
+  EXPECT_NE(last_error().find("no stage 11"), std::string::npos) << last_error();
+  EXPECT_EQ(dBatchColliderGetCount(collider, -1), -1);
+  EXPECT_NE(last_error().find("no counter -1"), std::string::npos) << last_error();
+  EXPECT_EQ(dBatchColliderGetWork(collider, dBatchStageCull, dBatchWorkItems), -1);
+  EXPECT_NE(last_error().find("not counted of stage 100"), std::string::npos) << last_error();
+  EXPECT_EQ(dBatchColliderGetWork(collider, dBatchStageBvhRays, 4), -1);
+  EXPECT_NE(last_error().find("quantity is 4"), std::string::npos) << last_error();
+  EXPECT_EQ(dBatchStageName(11), nullptr);
+  EXPECT_EQ(dBatchCounterName(19), nullptr);
+  EXPECT_EQ(dBatchStageNext(dBatchStagePass), -1);
 }
 
 TEST_F(ApiStats, CountPassesAndBuffers) {
@@ -57,7 +66,7 @@ TEST_F(ApiStats, CountPassesAndBuffers) {
   EXPECT_GT(stats.pairs_bounded, 0);
   EXPECT_LE(stats.pairs_bounded, stats.pairs_computed);
   EXPECT_LE(stats.pairs_colliding, stats.pairs_bounded);
-  for (int i = 0; i < dBatchBufferCount; ++i) {
+  for (const int i : buffers()) {
     EXPECT_GE(stats.capacity[i], stats.actual[i]) << i;
   }
   EXPECT_GT(stats.actual[dBatchBufferMeshlets], 0);
@@ -94,7 +103,7 @@ TEST_F(ApiStats, TimeTheStages) {
   const BatchCollider collider;
   collider.pass(space);
   const auto stats = collider.stats();
-  for (int i = 0; i < dBatchStageCount; ++i) EXPECT_GE(stats.ms[i], 0) << i;
+  for (const int i : stages()) EXPECT_GE(stats.ms[i], 0) << i;
   for (const int i : {dBatchStageDevice, dBatchStagePass}) {
     EXPECT_GT(stats.ms[i], 0) << i;
   }
@@ -135,7 +144,7 @@ TEST_F(ApiStats, PredictTheNextPassFromTheLastByEquationOne) {
   collider.pass(space);
   const auto second = collider.stats();
   ASSERT_GT(first.pairs_computed, 0);
-  for (int i = 0; i < dBatchBufferCount; ++i) {
+  for (const int i : buffers()) {
     const double expected = 1.5 * static_cast<double>(first.actual[i]) *
                             static_cast<double>(second.pairs_computed) /
                             static_cast<double>(first.pairs_computed);
@@ -153,7 +162,7 @@ TEST_F(ApiStats, PredictTheNextPassFromTheLastByEquationTwo) {
   pile.shake(2);
   collider.pass(space);
   const auto second = collider.stats();
-  for (int i = 0; i < dBatchBufferCount; ++i) {
+  for (const int i : buffers()) {
     EXPECT_NEAR(static_cast<double>(second.predicted[i]),
                 1.5 * static_cast<double>(first.actual[i]), 1.0)
         << i;
@@ -171,23 +180,18 @@ TEST_F(ApiStats, KeepTheHistoryApartFromSinglePairs) {
             0);
   pile.shake(3);
   for (const BatchCollider* each : {&collider, &undisturbed}) each->pass(space);
-  for (int i = 0; i < dBatchBufferCount; ++i) {
+  for (const int i : buffers()) {
     EXPECT_EQ(collider.stats().predicted[i], undisturbed.stats().predicted[i]) << i;
   }
 }
 
-TEST_F(ApiStats, RefuseAColliderOfZeroWithZeroes) {
-  dBatchColliderStats stats;
-  std::memset(&stats, 0xAB, sizeof stats);
-  stats.struct_size = sizeof stats;
-  dBatchColliderGetStats(nullptr, &stats);
-  EXPECT_NE(last_error(), "");
-  EXPECT_EQ(stats.passes, 0);
-}
-
-TEST_F(ApiStats, IgnoreNull) {
-  const BatchCollider collider;
-  dBatchColliderGetStats(collider, nullptr);
+TEST_F(ApiStats, RefuseAColliderOfZero) {
+  EXPECT_EQ(dBatchColliderGetStatus(nullptr), -1);
+  EXPECT_NE(last_error().find("not the handle of a live collider"), std::string::npos);
+  EXPECT_EQ(dBatchColliderGetCount(nullptr, dBatchCounterPasses), -1);
+  EXPECT_EQ(dBatchColliderGetTime(nullptr, dBatchStagePass), -1);
+  EXPECT_EQ(dBatchColliderGetWork(nullptr, dBatchStageBvhRays, dBatchWorkItems), -1);
+  EXPECT_EQ(dBatchColliderGetDeviceName(nullptr), nullptr);
 }
 
 }  // namespace

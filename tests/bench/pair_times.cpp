@@ -95,7 +95,7 @@ Result measure(const bench::PairCase& pair_case, const Options& options) {
       dBatchColliderCollidePairs(collider, geoms.data(), static_cast<int>(count), kContacts,
                                  contacts.data(), sizeof(dContactGeom), counts.data());
     }));
-    const dBatchColliderStats found = collider.stats();
+    const ode_ext::test::PassStatistics found = collider.stats();
     result.crossings =
         static_cast<double>(found.actual[dBatchBufferCrossings]) / static_cast<double>(count);
     result.rays =

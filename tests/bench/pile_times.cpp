@@ -45,7 +45,8 @@ struct Times {
   std::vector<double> batch, ode, pairs, colliding, contacts;
   std::vector<std::vector<double>> rivals;
   std::vector<std::vector<double>> found;  // colliding pairs, of each rival
-  std::array<std::vector<double>, dBatchStageCount> stages;
+  std::vector<std::vector<double>> stages =
+      std::vector<std::vector<double>>(falling_objects::stages().size());
 };
 
 falling_objects::TriangleMesh triangle_mesh(const test::TestMesh& mesh) {

@@ -39,7 +39,7 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.max_contacts, 16);
   EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
   EXPECT_EQ(o.rays, dBatchRaysFull);
-  EXPECT_EQ(o.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(o.organization, dBatchOrganizationPipelined);
   EXPECT_EQ(o.edges, dBatchEdgesOn);
   EXPECT_EQ(o.deformable_target, dBatchDeformableRefit);
   EXPECT_EQ(o.misprediction, dBatchMispredictionRedo);
@@ -72,11 +72,11 @@ TEST(Options, TakeEveryNameForItsValue) {
 }
 
 TEST(Options, NameEveryModeOfTheCollider) {
-  const Options o = parse({"--rays", "iterative-paper", "--organisation", "monolithic", "--edges",
+  const Options o = parse({"--rays", "iterative-paper", "--organization", "monolithic", "--edges",
                            "off", "--deformable-target", "basic", "--misprediction", "backtrack"})
                         .parsed.options;
   EXPECT_EQ(o.rays, dBatchRaysIterativePaper);
-  EXPECT_EQ(o.organisation, dBatchOrganisationMonolithic);
+  EXPECT_EQ(o.organization, dBatchOrganizationMonolithic);
   EXPECT_EQ(o.edges, dBatchEdgesOff);
   EXPECT_EQ(o.deformable_target, dBatchDeformableBasic);
   EXPECT_EQ(o.misprediction, dBatchMispredictionBacktrack);

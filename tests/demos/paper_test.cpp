@@ -64,7 +64,7 @@ TEST(PaperConfiguration, IsRefusedWithTheListOfWords) {
 TEST(PaperConfiguration, SetsEveryParameterItNames) {
   dBatchColliderParams p = parse_configuration("full").params("");
   EXPECT_EQ(p.rays, dBatchRaysFull);
-  EXPECT_EQ(p.organisation, dBatchOrganisationPipelined);
+  EXPECT_EQ(p.organization, dBatchOrganizationPipelined);
   EXPECT_EQ(p.workload, dBatchWorkloadPredicted);
   EXPECT_EQ(p.prediction, dBatchPredictionPairScaled);
   EXPECT_EQ(p.misprediction, dBatchMispredictionRedo);
@@ -77,7 +77,7 @@ TEST(PaperConfiguration, SetsEveryParameterItNames) {
   p = parse_configuration("iterative-checked-basic-monolithic-exact-plain-ignore-count")
           .params(device);
   EXPECT_EQ(p.rays, dBatchRaysIterative);
-  EXPECT_EQ(p.organisation, dBatchOrganisationMonolithic);
+  EXPECT_EQ(p.organization, dBatchOrganizationMonolithic);
   EXPECT_EQ(p.workload, dBatchWorkloadExact);
   EXPECT_EQ(p.prediction, dBatchPredictionPlain);
   EXPECT_EQ(p.misprediction, dBatchMispredictionIgnore);

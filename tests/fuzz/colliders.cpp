@@ -23,7 +23,7 @@ Collider make_kept(std::size_t index) {
       break;
     case 2:  // looks at every vertex, so its contacts are others
       params.rays = dBatchRaysIterative;
-      params.organisation = dBatchOrganisationMonolithic;
+      params.organization = dBatchOrganizationMonolithic;
       collider.alike = false;
       params.deformable_target = dBatchDeformableBasic;
       params.work_group_size = kGroupSizes[1];
@@ -91,7 +91,7 @@ Collider decode_collider(ByteSource& bytes) {
         params.deformable_target = bytes.below(3);
         break;
       case 10:
-        params.organisation = bytes.below(3);
+        params.organization = bytes.below(3);
         break;
       case 11:
         params.misprediction = bytes.below(4);

@@ -205,9 +205,12 @@ void Program::create_collider() {
 }
 
 void Program::stats() {
-  dBatchColliderStats stats;
-  stats.struct_size = bytes_.coin() ? sizeof stats : bytes_.byte();
-  dBatchColliderGetStats(choose_collider().id, &stats);
+  const int which = bytes_.coin() ? int{dBatchBufferHits} : int{bytes_.byte()};
+  const dBatchColliderID collider = choose_collider().id;
+  dBatchColliderGetStatus(collider);
+  dBatchColliderGetCount(collider, which);
+  dBatchColliderGetTime(collider, which);
+  dBatchColliderGetWork(collider, which, which % 5);
 }
 
 void Program::bad_call() {
@@ -256,7 +259,7 @@ void Program::bad_call() {
       dBatchColliderTriMeshDataUpdate(wrong, nullptr);
       break;
     case 8:
-      dBatchColliderGetStats(wrong, nullptr);
+      if (dBatchColliderGetDeviceName(wrong) == nullptr) result = dBatchColliderGetStatus(wrong);
       break;
     default:
       result = dBatchColliderSpaceCollide2(collider, nullptr, pair[0], &callback, &near);

@@ -34,14 +34,13 @@ int main(void) {
 
   int contacts = 0;
   const int result = dBatchColliderSpaceCollide(collider, space, &contacts, near_callback);
-  dBatchColliderStats stats = {.struct_size = sizeof(stats)};
-  dBatchColliderGetStats(collider, &stats);
-  printf("C, version %s, %s: %d contacts, %d pair in the batch\n", ODE_EXT_VERSION, stats.device,
-         contacts, (int)stats.pairs);
+  const int pairs = (int)dBatchColliderGetCount(collider, dBatchCounterPairs);
+  printf("C, version %s, %s: %d contacts, %d pair in the batch\n", ODE_EXT_VERSION,
+         dBatchColliderGetDeviceName(collider), contacts, pairs);
 
   dSpaceDestroy(space);
   dGeomTriMeshDataDestroy(box);
   dBatchColliderDestroy(collider);
   dCloseODE();
-  return result == 1 && contacts > 0 && stats.pairs == 1 ? 0 : 1;
+  return result == 1 && contacts > 0 && pairs == 1 ? 0 : 1;
 }

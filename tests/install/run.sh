@@ -53,7 +53,7 @@ if [[ ${#static[@]} -eq 0 ]]; then
   [[ -z $others ]] || fail "the library needs more than ODE and OpenCL: $others"
   exported=$(nm -D --defined-only "$library" | awk '{print $NF}')
   grep -q '^dBatchColliderCreate$' <<< "$exported" || fail "the C API is not exported"
-  others=$(grep -v '^dBatchCollider' <<< "$exported" || true)
+  others=$(grep -v '^dBatch' <<< "$exported" || true)
   [[ -z $others ]] || fail "exported but no part of the API: $others"
 fi
 echo "installed, built and run in both ways"

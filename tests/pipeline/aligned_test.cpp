@@ -53,7 +53,7 @@ TEST(Aligned, HitsFromInsideAndOnlyFromThere) {
   }
   for (const bool flooded : {false, true}) {
     const StepRecords records =
-        flooded ? Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true)
+        flooded ? Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true)
                 : Rig::shared().run(scene.scene);
     std::set<std::tuple<ox_u32, std::uint32_t>> hits;  // pair_side, vertex of its mesh
     for (const ox_hit& hit : records.hits) {
@@ -94,7 +94,7 @@ TEST(Aligned, HitsFromInsideAndOnlyFromThere) {
 
 // Of the only pair, as by default.
 StepRecords collided(const TestScene& scene) {
-  return Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true);
+  return Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
 }
 
 // How much larger A is taken, and rounding, show in depths of crossings and edges.

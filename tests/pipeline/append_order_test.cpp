@@ -51,7 +51,7 @@ TestScene aligned_scene(int pairs) {
 void expect_the_same_for_every_launch(const TestScene& scene) {
   const auto contacts = [&](Launch launch) {
     return contacts_of(
-        Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, launch, true));
+        Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, launch, true));
   };
   const auto expected = contacts({1, 64});
   std::size_t colliding = 0;

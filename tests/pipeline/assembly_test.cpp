@@ -23,7 +23,7 @@ namespace ode_ext::test {
 namespace {
 
 StepRecords assembled(const TestScene& scene) {
-  return Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true);
+  return Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
 }
 
 // Side, the ends of the edge in its own frame, and the triangle crossed; of a vertex inside itself

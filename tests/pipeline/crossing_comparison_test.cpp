@@ -20,7 +20,7 @@ struct RodThroughPlate : testing::Test {
                make_box({1, 1, 0.1}), at(0, 0, 0));
   const std::vector<ReferenceSurface> surfaces{scene.meshes.begin(), scene.meshes.end()};
   std::map<CrossingKey, FoundCrossing> found =
-      found_crossings(scene, Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined));
+      found_crossings(scene, Rig::shared().run_with_edges(scene.scene, Organization::kPipelined));
 
   std::vector<std::string> differences() const {
     return compare_crossings(scene, surfaces, found).differences;
@@ -56,7 +56,7 @@ TEST_F(RodThroughPlate, IsNotCrossedElsewhereOrTheOtherWay) {
 TEST(RigFlooded, HitsWhatRaysOfAllVerticesHit) {
   const TestScene scene = random_scene(60, 82, kSmallClosedMeshCount);
   const auto run = [&](bool flooded) {
-    return Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, flooded);
+    return Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, flooded);
   };
   std::map<std::pair<ox_u32, ox_u32>, std::pair<ox_u32, ox_f32>> by_rays;
   for (const ox_hit& h : run(false).hits) by_rays[{h.pair_side, h.vertex}] = {h.triangle, h.depth};

@@ -32,7 +32,7 @@ class Flood : public testing::Test {
   void find(const Scene& scene) {
     Rig& rig = Rig::shared();
     const StepRecords all = rig.run(scene);
-    records_ = rig.run_with_edges(scene, Organisation::kPipelined, {8, 64}, true);
+    records_ = rig.run_with_edges(scene, Organization::kPipelined, {8, 64}, true);
     for (const std::string& difference : oracles_.differences(scene, records_))
       ADD_FAILURE() << difference;
     EXPECT_EQ(behind_open(scene, records_, true), behind_open(scene, all, true));

@@ -321,7 +321,7 @@ TEST(Manifolds, AreTheSameBytesInEveryModeOfThePaper) {
   ColliderOptions in_full, iterative, monolithic, both;
   in_full.count_work = true;
   iterative.rays = both.rays = Rays::kIterative;
-  monolithic.organisation = both.organisation = Organisation::kMonolithic;
+  monolithic.organization = both.organization = Organization::kMonolithic;
   expect_same_bytes(in_full, {iterative, monolithic, both});
 }
 

@@ -172,16 +172,16 @@ TEST(OclgrindPipeline, FindsContactsOfEdges) {
   scene.add_pair(triangle, turned({1, 1, 0}, 0.9), sheet, at(0, 0, 0));
   scene.add_pair(sheet, at(0, 0, 0.01), sheet, at(0, 0, 0));  // near, but apart
   scene.add_pair(sheet, at(0.2, 0, 0), sheet, at(0, 0, 0));   // on it
-  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+  for (const Organization organization : {Organization::kPipelined, Organization::kMonolithic}) {
     ColliderOptions options = small_options();
-    options.organisation = organisation;
+    options.organization = organization;
     Collider collider(options);
     const auto found = counts(collider, scene);
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (i >= 16) continue;  // of open surfaces that do not cross neither has an inside
       // The paper's rays of vertices know no general position: of solids in one place each vertex
       // is on the surface of the other, and none inside (docs/contacts.md).
-      if (i == coincident && organisation == Organisation::kMonolithic) continue;
+      if (i == coincident && organization == Organization::kMonolithic) continue;
       EXPECT_EQ(found[i] > 0, i != apart) << i;
     }
   }
@@ -228,13 +228,13 @@ TEST(OclgrindPipeline, CountsExactlyAndInTiles) {
   EXPECT_EQ(counts(collider, scene), counts(plain, scene));
 }
 
-// Iterative rays that are believed, handed on, and that walk off a border; in both organisations.
+// Iterative rays that are believed, handed on, and that walk off a border; in both organizations.
 TEST(OclgrindPipeline, CastsIteratively) {
   const std::vector<TestMesh> meshes = {make_icosphere(0.6, 1), make_cube(1), make_sheet(1.5, 4)};
-  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+  for (const Organization organization : {Organization::kPipelined, Organization::kMonolithic}) {
     for (const Rays rays : {Rays::kIterative, Rays::kIterativePaper}) {
       ColliderOptions options = small_options();
-      options.organisation = organisation;
+      options.organization = organization;
       options.rays = rays;
       options.count_work = true;
       Collider collider(options);
@@ -254,10 +254,10 @@ TEST(OclgrindPipeline, CastsIteratively) {
 TEST(OclgrindPipeline, CollidesASheet) {
   const auto base = deformable(soup_of(make_sheet(1.5, 4)), 0.05f);
   for (const DeformableTarget target : {DeformableTarget::kRefit, DeformableTarget::kBasic}) {
-    for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+    for (const Organization organization : {Organization::kPipelined, Organization::kMonolithic}) {
       ColliderOptions options = small_options();
       options.deformable_target = target;
-      options.organisation = organisation;
+      options.organization = organization;
       Collider collider(options);
       PassMemory memory;
       Scene scene;

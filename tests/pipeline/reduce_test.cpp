@@ -118,7 +118,7 @@ TEST(Reduction, TakesWhatThePlainRuleTakesOfEveryPairOfAScene) {
   for (const int pairs : {0, 1, 63, 64, 65, 400}) {
     const TestScene scene = random_scene(pairs, 42);
     const StepRecords records =
-        Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true);
+        Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
     std::size_t contacts = 0;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const float smaller =

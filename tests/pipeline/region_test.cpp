@@ -16,7 +16,7 @@ namespace ode_ext::test {
 namespace {
 
 StepRecords searched(const TestScene& scene) {
-  return Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true);
+  return Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
 }
 
 // Flags that say what it is; pair, edge or vertex, triangle, t.

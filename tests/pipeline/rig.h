@@ -77,9 +77,9 @@ class Rig {
   }
 
   // `flooded`: rays of the vertices that crossings show to be inside alone, where they do.
-  StepRecords run_with_edges(const Scene& scene, Organisation organisation, Launch launch = {8, 64},
+  StepRecords run_with_edges(const Scene& scene, Organization organization, Launch launch = {8, 64},
                              bool flooded = false) {
-    const bool dense = organisation == Organisation::kMonolithic;
+    const bool dense = organization == Organization::kMonolithic;
     do {
       upload(scene, 16, true);
       if (flooded) data_.settings.modes |= OX_MODE_FLOOD;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search for crossings of edges against the brute-force reference, in both organisations: every
+// The search for crossings of edges against the brute-force reference, in both organizations: every
 // one is found, and only those.
 #include <gtest/gtest.h>
 
@@ -25,17 +25,17 @@ Comparison compare(const TestScene& scene, const std::map<CrossingKey, FoundCros
   return comparison;
 }
 
-Comparison compare(const TestScene& scene, Organisation organisation, Launch launch = {8, 64}) {
+Comparison compare(const TestScene& scene, Organization organization, Launch launch = {8, 64}) {
   return compare(scene, found_crossings(scene, Rig::shared().run_with_edges(scene.scene,
-                                                                            organisation, launch)));
+                                                                            organization, launch)));
 }
 
-constexpr Organisation kBoth[] = {Organisation::kPipelined, Organisation::kMonolithic};
+constexpr Organization kBoth[] = {Organization::kPipelined, Organization::kMonolithic};
 
 TEST(Search, FindsTheCrossingsOfTheReference) {
   const TestScene scene = random_scene(600, 71);
-  for (const Organisation organisation : kBoth) {
-    const Comparison comparison = compare(scene, organisation);
+  for (const Organization organization : kBoth) {
+    const Comparison comparison = compare(scene, organization);
     EXPECT_GT(comparison.certain, 5000u);
     EXPECT_LT(200 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
   }
@@ -60,18 +60,18 @@ TEST(Search, FindsTheSameWhateverTheNumberOfPairs) {
 
 TEST(Search, FindsTheSameWhateverTheLaunch) {
   const TestScene scene = random_scene(65, 73);
-  const auto keys = [&](Organisation organisation, Launch launch) {
+  const auto keys = [&](Organization organization, Launch launch) {
     std::set<CrossingKey> result;
     for (const auto& [key, crossing] :
-         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, organisation, launch)))
+         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, organization, launch)))
       result.insert(key);
     return result;
   };
   const std::set<CrossingKey> expected = keys(kBoth[0], {8, 64});
   EXPECT_GT(expected.size(), 500u);
-  for (const Organisation organisation : kBoth)
+  for (const Organization organization : kBoth)
     for (const Launch launch : {Launch{1, 1}, Launch{1, 64}, Launch{3, 32}, Launch{64, 256}})
-      EXPECT_EQ(keys(organisation, launch), expected);
+      EXPECT_EQ(keys(organization, launch), expected);
 }
 
 TEST(Search, FindsTheCrossingsOfLargerMeshes) {
@@ -84,8 +84,8 @@ TEST(Search, FindsTheCrossingsOfLargerMeshes) {
     const TestPose a = random.pose(0.3);
     scene.add_pair(i % 3, a, i / 3 % 3, random.pose(0.3));
   }
-  for (const Organisation organisation : kBoth) {
-    const Comparison comparison = compare(scene, organisation);
+  for (const Organization organization : kBoth) {
+    const Comparison comparison = compare(scene, organization);
     EXPECT_GT(comparison.certain, 500u);
     // One edge in fifty is so flat that it may as well not be cast.
     EXPECT_LT(20 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
@@ -103,7 +103,7 @@ TEST(Search, FindsTheSameFarFromTheOrigin) {
       b.position = b.position + place;
       far.add_pair(near.objects[near.pairs[i][0]].mesh, a, near.objects[near.pairs[i][1]].mesh, b);
     }
-    EXPECT_GT(compare(far, Organisation::kPipelined).certain, 500u);
+    EXPECT_GT(compare(far, Organization::kPipelined).certain, 500u);
   }
 }
 
@@ -119,7 +119,7 @@ TEST(Search, FindsTheSameAtEverySize) {
       scene.add_pair(model.objects[model.pairs[i][0]].mesh, a,
                      model.objects[model.pairs[i][1]].mesh, b);
     }
-    EXPECT_GT(compare(scene, Organisation::kPipelined).certain, 500u) << scale;
+    EXPECT_GT(compare(scene, Organization::kPipelined).certain, 500u) << scale;
   }
 }
 
@@ -130,7 +130,7 @@ TEST(Search, FindsNothingFarFromWhereAlignedBoxesTouch) {
     TestScene scene;
     const std::uint32_t cube = scene.add_mesh(make_cube(1, 2));
     scene.add_pair(cube, at(offset[0], offset[1], offset[2]), cube, at(0, 0, 0));
-    for (const Organisation organisation : kBoth) compare(scene, organisation);
+    for (const Organization organization : kBoth) compare(scene, organization);
   }
 }
 
@@ -148,15 +148,15 @@ TEST(Search, CullsNothingThatCrosses) {
     scene.add_pair(sheet, pose, rod, random.pose(0.5));
     scene.add_pair(ring, pose, ring, random.pose(0.5));
   }
-  for (const Organisation organisation : kBoth)
-    EXPECT_GT(compare(scene, organisation).certain, 300u);
+  for (const Organization organization : kBoth)
+    EXPECT_GT(compare(scene, organization).certain, 300u);
 }
 
 // The way of each crossing: the meshlet of its edge and that of its triangle were matched, once,
 // and one of them was left by the cull.
 TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   const TestScene scene = random_scene(65, 78);
-  const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organisation::kPipelined);
+  const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organization::kPipelined);
   std::set<std::pair<ox_u32, ox_u32>> tasks;
   for (const ox_meshlet_task& task : records.meshlet_tasks)
     EXPECT_TRUE(tasks.emplace(task.pair_side, task.meshlet).second);

@@ -165,29 +165,29 @@ struct NamedOptions {
   ColliderOptions options;
 };
 
-ColliderOptions options_of(Rays rays, DeformableTarget target, Organisation organisation) {
+ColliderOptions options_of(Rays rays, DeformableTarget target, Organization organization) {
   ColliderOptions options;
   options.rays = rays;
   options.deformable_target = target;
-  options.organisation = organisation;
+  options.organization = organization;
   return options;
 }
 
 TEST(Deformables, GiveTheSameBytesInEveryMode) {
   const NamedOptions modes[] = {
       {"iterative",
-       options_of(Rays::kIterative, DeformableTarget::kRefit, Organisation::kPipelined)},
-      {"basic", options_of(Rays::kFull, DeformableTarget::kBasic, Organisation::kPipelined)},
+       options_of(Rays::kIterative, DeformableTarget::kRefit, Organization::kPipelined)},
+      {"basic", options_of(Rays::kFull, DeformableTarget::kBasic, Organization::kPipelined)},
       {"iterative basic",
-       options_of(Rays::kIterative, DeformableTarget::kBasic, Organisation::kPipelined)},
+       options_of(Rays::kIterative, DeformableTarget::kBasic, Organization::kPipelined)},
       {"monolithic",
-       options_of(Rays::kIterative, DeformableTarget::kRefit, Organisation::kMonolithic)},
+       options_of(Rays::kIterative, DeformableTarget::kRefit, Organization::kMonolithic)},
       {"monolithic basic",
-       options_of(Rays::kFull, DeformableTarget::kBasic, Organisation::kMonolithic)},
+       options_of(Rays::kFull, DeformableTarget::kBasic, Organization::kMonolithic)},
   };
   // The paper's modes among themselves: their contacts are of the vertices that rays find.
   ColliderOptions in_full =
-      options_of(Rays::kFull, DeformableTarget::kRefit, Organisation::kPipelined);
+      options_of(Rays::kFull, DeformableTarget::kRefit, Organization::kPipelined);
   in_full.count_work = true;
   Collider full(in_full);
   for (const NamedOptions& mode : modes) {
@@ -208,13 +208,13 @@ TEST(Deformables, GiveTheSameBytesInEveryMode) {
     EXPECT_GT(contacts, 1000u);
     EXPECT_EQ(iterative > 100, mode.options.rays == Rays::kIterative) << mode.name;
     EXPECT_EQ(basic > 100, mode.options.deformable_target == DeformableTarget::kBasic) << mode.name;
-    EXPECT_EQ(small > 0, mode.options.organisation == Organisation::kPipelined) << mode.name;
+    EXPECT_EQ(small > 0, mode.options.organization == Organization::kPipelined) << mode.name;
   }
 }
 
 TEST(Deformables, AreDroppedWithoutTemporalDataInThePapersMode) {
   Collider paper(
-      options_of(Rays::kIterativePaper, DeformableTarget::kBasic, Organisation::kPipelined));
+      options_of(Rays::kIterativePaper, DeformableTarget::kBasic, Organization::kPipelined));
   MovingDeformables moving;
   PassMemory memory;
   std::uint64_t dropped = 0, iterative = 0, in_full = 0;

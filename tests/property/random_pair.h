@@ -38,7 +38,7 @@ inline std::vector<Contact> collide(const TestScene& scene) {
 // The candidates of the only pair.
 inline std::vector<Candidate> candidates_of(const TestScene& scene) {
   return Rig::shared()
-      .run_with_edges(scene.scene, Organisation::kPipelined, {8, 64}, true)
+      .run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true)
       .candidates_of(0);
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "support/ode_world.h"
+#include "support/pass_statistics.h"
 
 namespace ode_ext::test {
 
@@ -34,12 +35,7 @@ class BatchCollider {
   operator dBatchColliderID() const { return id_; }
   void destroy() { dBatchColliderDestroy(std::exchange(id_, nullptr)); }
 
-  dBatchColliderStats stats() const {
-    dBatchColliderStats stats{};
-    stats.struct_size = sizeof stats;
-    dBatchColliderGetStats(id_, &stats);
-    return stats;
-  }
+  PassStatistics stats() const { return pass_statistics(id_); }
   // One pass with a callback that asks for every pair; its result.
   Collected pass(dSpaceID space) const {
     Collected collected;

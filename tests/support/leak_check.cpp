@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Looks for leaks when the last test has ended, and not at exit as LeakSanitizer does by itself: at
-// exit PoCL has already destroyed the static maps that hold the passes of its kernel compiler, which
-// it never frees, so that any run that compiles a kernel would report them.
+// exit PoCL has already destroyed the static maps that hold the passes of its kernel compiler,
+// which it never frees, so that any run that compiles a kernel would report them.
 
 #include <gtest/gtest.h>
 

@@ -77,12 +77,10 @@ PairContacts ask_batch(const Geoms& geoms, const Trial& trial) {
                                  result.counts.data()) < 0) {
     throw std::runtime_error(dBatchColliderGetLastErrorMessage());
   }
-  dBatchColliderStats stats{};
-  stats.struct_size = sizeof stats;
-  dBatchColliderGetStats(collider.get(), &stats);
-  if ((stats.status & (dBatchStatusDeviceFailed | dBatchStatusMeshRefused)) != 0) {
+  const int status = dBatchColliderGetStatus(collider.get());
+  if ((status & (dBatchStatusDeviceFailed | dBatchStatusMeshRefused)) != 0) {
     throw std::runtime_error("the batch collider did not answer by itself: status " +
-                             std::to_string(stats.status));
+                             std::to_string(status));
   }
   return result;
 }

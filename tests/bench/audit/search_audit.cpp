@@ -85,7 +85,7 @@ class Audit {
   void look() {
     if (scene_.pairs.empty()) return;
     const StepRecords records =
-        Rig::shared().run_with_edges(scene_.scene, Organisation::kPipelined, {64, 64}, true);
+        Rig::shared().run_with_edges(scene_.scene, Organization::kPipelined, {64, 64}, true);
     counts_.pairs += static_cast<long long>(scene_.pairs.size());
     const Comparison crossings =
         compare_crossings(scene_, surfaces_, found_crossings(scene_, records));

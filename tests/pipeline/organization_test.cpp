@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modes of a step: the organisations and workloads give the same bytes, the paper's ways to
+// The modes of a step: the organizations and workloads give the same bytes, the paper's ways to
 // meet a wrong prediction lose what they say they lose.
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<TestMesh> all_meshes() {
   return meshes;
 }
 
-class Organisations : public testing::TestWithParam<Rays> {};
+class Organizations : public testing::TestWithParam<Rays> {};
 
 // All modes of the paper find the vertices inside so, and give the same bytes; not those of the
 // default, which finds them by crossings.
@@ -34,12 +34,12 @@ ColliderOptions by_rays_of_all_vertices() {
   return options;
 }
 
-TEST_P(Organisations, GiveTheSameBytes) {
+TEST_P(Organizations, GiveTheSameBytes) {
   ColliderOptions options;
   options.rays = GetParam();
   options.count_work = true;  // by rays of all vertices in either
   Collider pipelined(options);
-  options.organisation = Organisation::kMonolithic;
+  options.organization = Organization::kMonolithic;
   Collider monolithic(options);
   PassMemory memory, memory_of_monolithic;
   MovingScene moving(all_meshes(), 100, 0.003, 21);
@@ -56,13 +56,13 @@ TEST_P(Organisations, GiveTheSameBytes) {
   }
 }
 
-TEST_P(Organisations, DoTheSameWork) {
+TEST_P(Organizations, DoTheSameWork) {
   ColliderOptions options;
   options.rays = GetParam();
   options.count_work = true;
   options.edges = false;  // every vertex is looked at in both
   Collider pipelined(options);
-  options.organisation = Organisation::kMonolithic;
+  options.organization = Organization::kMonolithic;
   Collider monolithic(options);
   PassMemory memory, memory_of_monolithic;
   MovingScene moving(smooth_meshes(), 30, 0.003, 22);
@@ -89,11 +89,11 @@ TEST_P(Organisations, DoTheSameWork) {
   EXPECT_GT(alone.lockstep32, sum.lockstep32);
 }
 
-TEST_P(Organisations, WaitForTheDeviceOnceInAStepLikeTheLast) {
-  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+TEST_P(Organizations, WaitForTheDeviceOnceInAStepLikeTheLast) {
+  for (const Organization organization : {Organization::kPipelined, Organization::kMonolithic}) {
     ColliderOptions options;
     options.rays = GetParam();
-    options.organisation = organisation;
+    options.organization = organization;
     Collider collider(options);
     PassMemory memory;
     MovingScene moving(all_meshes(), 60, 0.001, 23);
@@ -107,7 +107,7 @@ std::string name_of(const testing::TestParamInfo<Rays>& info) {
   return info.param == Rays::kIterative ? "Iterative" : "IterativePaper";
 }
 
-INSTANTIATE_TEST_SUITE_P(Rays, Organisations,
+INSTANTIATE_TEST_SUITE_P(Rays, Organizations,
                          testing::Values(Rays::kFull, Rays::kIterative, Rays::kIterativePaper),
                          name_of);
 
@@ -115,9 +115,9 @@ TEST(Modes, MeetMeshesWithoutTriangles) {
   MovingScene moving(smooth_meshes(), 20, 0.001, 28);
   TriangleSoup broken = soup_of(make_cube(1));
   broken[0].x = NAN;
-  for (const Organisation organisation : {Organisation::kPipelined, Organisation::kMonolithic}) {
+  for (const Organization organization : {Organization::kPipelined, Organization::kMonolithic}) {
     ColliderOptions options;
-    options.organisation = organisation;
+    options.organization = organization;
     options.count_work = true;
     Collider collider(options);
     Collider whole(by_rays_of_all_vertices());
@@ -182,9 +182,9 @@ TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
   EXPECT_EQ(report.redone, 0);
 }
 
-TEST(Misprediction, IsOfNoListThatTheMonolithicOrganisationDoesNotHave) {
+TEST(Misprediction, IsOfNoListThatTheMonolithicOrganizationDoesNotHave) {
   ColliderOptions options;
-  options.organisation = Organisation::kMonolithic;
+  options.organization = Organization::kMonolithic;
   options.misprediction = Misprediction::kIgnore;
   options.rays = Rays::kFull;
   options.prediction = PredictionRule::kPlain;
