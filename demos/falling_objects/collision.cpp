@@ -42,16 +42,9 @@ Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   dBatchColliderParamsInit(&params);
   if (!options.device.empty()) params.device = options.device.c_str();
   params.max_contacts = options.max_contacts;
-  params.workload = options.workload;
-  params.prediction = options.prediction;
-  params.rays = options.rays;
-  params.organization = options.organization;
-  params.edges = options.edges;
-  params.deformable_target = options.deformable_target;
-  params.misprediction = options.misprediction;
+  params.config = options.config.c_str();
   params.trust_meshes = options.trust_meshes;
   if (options.has_sheets()) params.open_thickness = kSheetReach;
-  if (options.confidence > 0) params.confidence = static_cast<dReal>(options.confidence);
   batch_ = dBatchColliderCreate(&params);
   if (batch_ == nullptr) throw NoDevice{dBatchColliderGetLastErrorMessage()};
 }
@@ -64,7 +57,7 @@ double Collision::collide(Collider collider, ContactList& contacts) {
   dSpaceClean(space_);
   const auto start = std::chrono::steady_clock::now();
   if (collider == Collider::kBatch) {
-    // 0: nothing was delivered, and there is more room now (--misprediction backtrack).
+    // 0: nothing was delivered, and there is more room now (misprediction=backtrack).
     int result = 0;
     while (result == 0) {
       result = dBatchColliderSpaceCollide(batch_, space_, &contacts, &near_batched);

@@ -40,45 +40,6 @@ Examples:
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage or unreadable file, 3 no device.)";
 
-// The transformers turn names into values; the type names are spelled out for the help.
-void add_mode(CLI::App& app, const char* name, int& value, const char* help, const char* names,
-              const std::map<std::string, int>& values) {
-  app.add_option(name, value, help)
-      ->transform(CLI::CheckedTransformer(values))
-      ->option_text(names)
-      ->group("Modes of the batch collider");
-}
-
-void add_modes(CLI::App& app, Options& o) {
-  add_mode(app, "--rays", o.rays, "Which rays are cast (default: full)",
-           "full|iterative|iterative-paper",
-           {{"iterative", dBatchRaysIterative},
-            {"full", dBatchRaysFull},
-            {"iterative-paper", dBatchRaysIterativePaper}});
-  add_mode(app, "--deformable-target", o.deformable_target,
-           "How rays find the triangles of sheets (default: refit)", "refit|basic",
-           {{"refit", dBatchDeformableRefit}, {"basic", dBatchDeformableBasic}});
-  add_mode(
-      app, "--organization", o.organization,
-      "How the work is cut into kernels (default: pipelined)", "pipelined|monolithic",
-      {{"pipelined", dBatchOrganizationPipelined}, {"monolithic", dBatchOrganizationMonolithic}});
-  add_mode(app, "--edges", o.edges, "Whether edges are cast besides vertices (default: on)",
-           "on|off", {{"on", dBatchEdgesOn}, {"off", dBatchEdgesOff}});
-  add_mode(app, "--workload", o.workload, "How kernels are launched (default: predicted)",
-           "predicted|exact",
-           {{"predicted", dBatchWorkloadPredicted}, {"exact", dBatchWorkloadExact}});
-  add_mode(app, "--prediction", o.prediction, "GRAPP's Eq. 1 or Eq. 2 (default: pair-scaled)",
-           "pair-scaled|plain",
-           {{"pair-scaled", dBatchPredictionPairScaled}, {"plain", dBatchPredictionPlain}});
-  add_mode(app, "--misprediction", o.misprediction,
-           "Where a buffer was predicted too small (default: redo); after backtrack the step is "
-           "collided again",
-           "redo|ignore|backtrack",
-           {{"redo", dBatchMispredictionRedo},
-            {"ignore", dBatchMispredictionIgnore},
-            {"backtrack", dBatchMispredictionBacktrack}});
-}
-
 }  // namespace
 
 ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out,
@@ -134,10 +95,13 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->capture_default_str()
       ->group("Collision");
   app.add_option("--device", o.device, "OpenCL device, as in ODE_EXT_DEVICE")->group("Collision");
-  add_modes(app, o);
-  app.add_option("--confidence", o.confidence, "Factor on predictions (default: the library's)")
-      ->check(positive)
-      ->group("Modes of the batch collider");
+  app.add_option("--config", o.config,
+                 "Settings of the batch collider, such as rays=iterative,workload=exact; "
+                 "ode_ext_info --settings lists them")
+      ->check([](const std::string& config) {
+        return dBatchConfigCheck(config.c_str()) == 0 ? "" : dBatchColliderGetLastErrorMessage();
+      })
+      ->group("Collision");
   app.add_flag("--trust-meshes", o.trust_meshes, "Do not look for changed meshes in every pass")
       ->group("Collision");
 

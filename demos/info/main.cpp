@@ -22,6 +22,14 @@ std::string describe_devices(const char* selection) {
   return text;
 }
 
+// The settings of dBatchColliderParams::config.
+void list_settings() {
+  for (int i = 0; dBatchConfigName(i) != nullptr; ++i) {
+    std::cout << dBatchConfigName(i) << " = " << dBatchConfigValues(i) << "  (default "
+              << dBatchConfigDefault(i) << ")\n    " << dBatchConfigMeaning(i) << '\n';
+  }
+}
+
 // A device may be listed and yet fail: its compiler may refuse the kernels, or its arithmetic.
 int try_to_create(const char* selection) {
   dBatchColliderParams params;
@@ -49,10 +57,17 @@ int main(int argc, char** argv) {
       "Exit codes: 0 a collider works, 2 wrong usage, 3 no device.");
   std::string device;
   app.add_option("--device", device, "As ODE_EXT_DEVICE: platform:type:name, or an index");
+  bool settings = false;
+  app.add_flag("--settings", settings,
+               "List what dBatchColliderParams::config and falling_objects --config take, and end");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kExitOk : kExitUsage;
+  }
+  if (settings) {
+    list_settings();
+    return kExitOk;
   }
   const char* selection = app.count("--device") > 0 ? device.c_str() : nullptr;
   dInitODE2(0);

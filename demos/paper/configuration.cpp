@@ -48,25 +48,18 @@ std::string Configuration::name() const {
   return name;
 }
 
-dBatchColliderParams Configuration::params(const std::string& device) const {
-  dBatchColliderParams params;
-  dBatchColliderParamsInit(&params);
-  if (!device.empty()) params.device = device.c_str();
-  params.rays = rays == Rays::kFull ? dBatchRaysFull
-                : has(kChecked)     ? dBatchRaysIterative
-                                    : dBatchRaysIterativePaper;
-  params.deformable_target = has(kBasic) ? dBatchDeformableBasic : dBatchDeformableRefit;
-  params.organization =
-      has(kMonolithic) ? dBatchOrganizationMonolithic : dBatchOrganizationPipelined;
-  params.workload = has(kExact) ? dBatchWorkloadExact : dBatchWorkloadPredicted;
-  params.prediction = has(kPlain) ? dBatchPredictionPlain : dBatchPredictionPairScaled;
-  if (has(kIgnore)) {
-    params.misprediction = dBatchMispredictionIgnore;
-    params.confidence = static_cast<dReal>(kPapersConfidence);
-  }
-  params.edges = has(kEdges) ? dBatchEdgesOn : dBatchEdgesOff;  // the paper has none
-  params.count_work = has(kCount);
-  return params;
+std::string Configuration::config() const {
+  std::string config = rays == Rays::kFull ? "rays=full"
+                       : has(kChecked)     ? "rays=iterative"
+                                           : "rays=iterative-paper";
+  if (has(kBasic)) config += ",deformable_target=basic";
+  if (has(kMonolithic)) config += ",organization=monolithic";
+  if (has(kExact)) config += ",workload=exact";
+  if (has(kPlain)) config += ",prediction=plain";
+  if (has(kIgnore)) config += std::string(",misprediction=ignore,confidence=") + kPapersConfidence;
+  config += has(kEdges) ? ",edges=on" : ",edges=off";  // the paper has none
+  if (has(kCount)) config += ",count_work=on";
+  return config;
 }
 
 Configuration parse_configuration(std::string_view name) {

@@ -11,20 +11,20 @@
 namespace paper {
 
 // GRAPP section 5.4: a variability of 2 %.
-inline constexpr double kPapersConfidence = 1.02;
+inline constexpr const char* kPapersConfidence = "1.02";
 
 enum class Rays { kFull, kIterative };
 
 // The words of a name after the first, in the order in which they are written.
 enum Word : unsigned {
-  kChecked = 1 << 0,     // dBatchRaysIterative, else dBatchRaysIterativePaper
-  kBasic = 1 << 1,       // dBatchDeformableBasic
-  kMonolithic = 1 << 2,  // dBatchOrganizationMonolithic
-  kExact = 1 << 3,       // dBatchWorkloadExact
-  kPlain = 1 << 4,       // dBatchPredictionPlain: Eq. 2
-  kIgnore = 1 << 5,      // dBatchMispredictionIgnore, with the paper's confidence
-  kCount = 1 << 6,       // count_work
-  kEdges = 1 << 7,       // dBatchEdgesOn; with full rays the library as it is by default
+  kChecked = 1 << 0,     // rays=iterative, else rays=iterative-paper
+  kBasic = 1 << 1,       // deformable_target=basic
+  kMonolithic = 1 << 2,  // organization=monolithic
+  kExact = 1 << 3,       // workload=exact
+  kPlain = 1 << 4,       // prediction=plain: Eq. 2
+  kIgnore = 1 << 5,      // misprediction=ignore, with the paper's confidence
+  kCount = 1 << 6,       // count_work=on
+  kEdges = 1 << 7,       // edges=on; with full rays the library as it is by default
 };
 
 struct Configuration {
@@ -41,7 +41,7 @@ struct Configuration {
   // So slow that it takes part in some steps only.
   bool is_sampled() const { return has(kCount) || has(kBasic); }
   std::string name() const;
-  dBatchColliderParams params(const std::string& device) const;
+  std::string config() const;  // of dBatchColliderParams
 };
 
 // Throws std::invalid_argument, a sentence that lists the words.

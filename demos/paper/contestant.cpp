@@ -9,7 +9,11 @@ namespace paper {
 namespace {
 
 dBatchColliderID create(const Configuration& configuration, const std::string& device) {
-  const dBatchColliderParams params = configuration.params(device);
+  const std::string config = configuration.config();
+  dBatchColliderParams params;
+  dBatchColliderParamsInit(&params);
+  if (!device.empty()) params.device = device.c_str();
+  params.config = config.c_str();
   const dBatchColliderID collider = dBatchColliderCreate(&params);
   if (collider == nullptr)
     throw falling_objects::NoDevice{configuration.name() + ": " +

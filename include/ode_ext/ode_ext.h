@@ -61,109 +61,42 @@ extern "C" {
 /** Handle of a collider. 0 is "none": the collide functions then do what plain ODE does. */
 typedef struct dxBatchCollider *dBatchColliderID;
 
-/** How many work-groups a kernel is launched with (GRAPP section 4.2). Never changes a result but
-    what dBatchMispredictionIgnore loses. */
-enum {
-  dBatchWorkloadPredicted =
-      0,                  /**< predicted from the last pass; one read-back per pass (default) */
-  dBatchWorkloadExact = 1 /**< the counter is read back before every launch */
-};
-
-/** How workloads and buffer sizes are predicted (GRAPP section 4.1). Never changes a result but
-    what dBatchMispredictionIgnore loses and when dBatchMispredictionBacktrack delivers nothing. */
-enum {
-  dBatchPredictionPairScaled = 0, /**< Eq. 1: last count * pairs now / pairs then * confidence */
-  dBatchPredictionPlain = 1       /**< Eq. 2: last count * confidence */
-};
-
-/** Which rays are cast (GRAPP section 3). By default those of vertices inside, where crossings of
-    edges tell which these are; with any other choice of rays, deformable_target, organization,
-    misprediction (than redo), edges or count_work those of all vertices, as in the paper. Both
-    give the same contacts but in three cases: a vertex that is on the other surface to within
-    rounding may be inside by crossings and not by its ray; solids of one shape in one place have
-    contacts by crossings alone; and where an open mesh is in a body and meets none of its edges
-    rays of all vertices find some of the body behind it. All choices that cast those of all
-    vertices agree to the byte, but where said. */
-enum {
-  dBatchRaysFull = 0,      /**< every ray in full (default) */
-  dBatchRaysIterative = 1, /**< where a pair moved little, from the triangle met in the last pass;
-                                  what lies before what that finds is looked at */
-  dBatchRaysIterativePaper = 2 /**< as the paper: where a pair moved little, a vertex without
-                                  temporal data is dropped and what the walk finds is believed.
-                                  Misses contacts */
-};
-
-/** How rays at a deformable mesh are cast. Both give the same bytes among rays of all vertices,
-    unless rays are the paper's or mispredictions are ignored. */
-enum {
-  dBatchDeformableRefit = 0, /**< through a BVH refitted on the device in every pass (default) */
-  dBatchDeformableBasic = 1  /**< against every triangle, as the paper */
-};
-
-/** How the work is cut into kernels. Both give the same bytes among rays of all vertices,
-    unless mispredictions are ignored. */
-enum {
-  dBatchOrganizationPipelined = 0, /**< a kernel per step and per ray algorithm, append buffers in
-                                      between (default) */
-  dBatchOrganizationMonolithic = 1 /**< one kernel with a switch for vertices and their rays, a
-                                      work-item per vertex of every pair: what the paper compares
-                                      itself with. Crossings of edges are searched as ever */
-};
-
-/** What happens when an append buffer was predicted too small (GRAPP section 4.1). */
-enum {
-  dBatchMispredictionRedo = 0,     /**< it grows and the pass is computed again; nothing is lost
-                                      (default) */
-  dBatchMispredictionIgnore = 1,   /**< as the paper: what exceeds the prediction is lost, and
-                                      counted as dBatchCounterMissed */
-  dBatchMispredictionBacktrack = 2 /**< the pass delivers nothing, returns 0 and makes no callback;
-                                      the statistics say what was short, and the next pass of that
-                                      space has room for it */
-};
-
-/** Whether edges are cast besides vertices. */
-enum {
-  dBatchEdgesOn = 0, /**< yes (default): every region in which two surfaces overlap gets a contact,
-                          and may be parted along the common normal of two edges */
-  dBatchEdgesOff = 1 /**< as the paper: what only edges know of goes unnoticed: of coarse meshes
-                          in random poses one colliding pair in ten, of fine ones in a settled pile
-                          one in a hundred */
-};
-
-/** Creation parameters. Fill with dBatchColliderParamsInit, then change what you need. */
+/** Creation parameters. Fill with dBatchColliderParamsInit, then change what you need. A later
+    version may add some at the end: a program that was built before gets their defaults. */
 typedef struct dBatchColliderParams {
-  size_t struct_size;    /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
-  const char *device;    /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
-                                Read during dBatchColliderCreate only. */
-  int max_contacts;      /**< contacts kept per pair, 1..64 (default 16) */
-  int workload;          /**< dBatchWorkload... */
-  int prediction;        /**< dBatchPrediction... */
-  int trust_meshes;      /**< nonzero: meshes change only where the program says so through
-                                dBatchColliderTriMeshDataUpdate / ...Destroyed; saves comparing
-                                every mesh in every pass with what it was (default 0) */
-  dReal confidence;      /**< factor on predictions, > 0 (default 1.2). Below 1 costs time only,
-                                unless `misprediction` is not redo */
-  dReal open_thickness;  /**< [m] how far below an open surface it is solid; 0 (default): the mean
-                                edge length of the mesh */
-  int work_group_size;   /**< work-items per work-group, 1..device limit; 0 (default): 64 */
-  int initial_capacity;  /**< entries of each append buffer at the start; 0: default (16384).
-                                Buffers grow by themselves */
-  int rays;              /**< dBatchRays... */
-  int deformable_target; /**< dBatchDeformable... */
-  int organization;      /**< dBatchOrganization... */
-  int misprediction;     /**< dBatchMisprediction... */
+  size_t struct_size; /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
+  const char *device; /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
+                             Read during dBatchColliderCreate only, as is `config` */
+  int max_contacts;   /**< contacts kept per pair, 1..64 (default 16) */
   int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh; 0 (default):
-                                all of them */
-  int walk_limit;           /**< triangles an iterative ray walks across at most; 0 (default): 32 */
-  dReal displacement_limit; /**< how far the vertices of a pair may have moved since its last pass
-                                for iterative rays, in mean edge lengths of the target; 0 (default):
-                                1 */
-  int count_work;         /**< nonzero: count the work of every work-item of vertices and their rays
-                             (see dBatchWork...), of all vertices (see dBatchRays...); slow */
-  int edges;              /**< dBatchEdges... */
+                                      all of them */
+  dReal open_thickness;        /**< [m] how far below an open surface it is solid; 0 (default): the
+                                      mean edge length of the mesh */
+  int trust_meshes;            /**< nonzero: meshes change only where the program says so through
+                           dBatchColliderTriMeshDataUpdate / ...Destroyed; saves comparing every
+                           mesh in every pass with what it was (default 0) */
   int triangle_callbacks; /**< nonzero: a mesh's dTriCallback may refuse contacts of mesh pairs (see
-                             above); 0 (default): as in ODE it is not asked */
+                                 above); 0 (default): as in ODE it is not asked */
+  const char *config; /**< what serves the paper and tuning, "rays=full,organization=monolithic";
+                                 what is not named keeps its default, as all does with NULL. The
+                                 settings: dBatchConfigName, and `ode_ext_info --settings` */
 } dBatchColliderParams;
+
+/** The settings of params.config, numbered from 0: what one is called, its values
+    ("full|iterative", or a range in words), its default, and what it does, a sentence.
+    By default rays are cast of vertices inside, where crossings of edges tell which these are; with
+    any other choice of rays, deformable_target, organization, misprediction, edges or count_work
+    those of all vertices, as in the paper. README, "Modes", says how little that changes; workload,
+    prediction and all numbers change no byte unless mispredictions are not redone.
+    @return constant text, or NULL past the last */
+ODE_EXT_API const char *dBatchConfigName(int index);
+ODE_EXT_API const char *dBatchConfigValues(int index);
+ODE_EXT_API const char *dBatchConfigDefault(int index);
+ODE_EXT_API const char *dBatchConfigMeaning(int index);
+
+/** @return 0 if dBatchColliderCreate would take this as params.config, else -1, and the last error
+    says what is wrong with it. A device may still refuse a work_group_size. */
+ODE_EXT_API int dBatchConfigCheck(const char *config);
 
 /** Sets struct_size and the defaults. NULL is ignored. */
 ODE_EXT_API void dBatchColliderParamsInit(dBatchColliderParams *params);
@@ -192,7 +125,7 @@ ODE_EXT_API const char *dBatchColliderGetLastErrorMessage(void);
  * A collider of 0 means plain dSpaceCollide. Inside the callback and after the call
  * dCollide(mesh, mesh, ...) answers from the batch, in either argument order and any number of
  * times, until the poses or the meshes change.
- * @return 1 delivered; 0 nothing delivered, no callback was made (dBatchMispredictionBacktrack);
+ * @return 1 delivered; 0 nothing delivered, no callback was made (misprediction=backtrack);
  *         -1 error, no callback was made
  */
 ODE_EXT_API int dBatchColliderSpaceCollide(dBatchColliderID collider, dSpaceID space, void *data,
@@ -295,8 +228,8 @@ enum {
   dBatchStatusGatherSkipped = 1 << 3, /**< the space was known to hold no mesh pair */
   dBatchStatusMeshLeftBox = 1 << 4,   /**< a mesh has vertices outside of the box that ODE knows of
                                            it: pairs may go unnoticed by ODE's broad phase */
-  dBatchStatusMissed = 1 << 5,        /**< dBatchMispredictionIgnore: something was lost */
-  dBatchStatusBacktracked = 1 << 6,   /**< dBatchMispredictionBacktrack: nothing was delivered */
+  dBatchStatusMissed = 1 << 5,        /**< misprediction=ignore: something was lost */
+  dBatchStatusBacktracked = 1 << 6,   /**< misprediction=backtrack: nothing was delivered */
   dBatchStatusPoseRefused = 1 << 7    /**< a mesh's position is not finite, or beyond 1e36 m, or its
                                            matrix is off a rotation by more than 0.001 (else it
                                            is taken for the rotation it means); its pairs get no
@@ -321,7 +254,7 @@ enum {
   dBatchStageIterativeRays = 60, /**< ray step, by algorithm */
   dBatchStageBvhRays = 70,
   dBatchStageBasicRays = 80,
-  dBatchStageMonolithic = 90, /**< vertex and ray step in one (dBatchOrganizationMonolithic) */
+  dBatchStageMonolithic = 90, /**< vertex and ray step in one (organization=monolithic) */
   dBatchStageCull = 100,      /**< crossings of edges: which meshlets can meet the other mesh, */
   dBatchStageMatch = 110,     /**< which of those can meet one another, */
   dBatchStageCross = 120,     /**< where edges cross triangles */
@@ -347,9 +280,9 @@ enum {
   dBatchCounterPairsBounded = 3,   /**< of those computed, whose bounding volumes overlap */
   dBatchCounterRedone = 20,        /**< how often the pass was redone for larger buffers */
   dBatchCounterSynchronizations = 21, /**< waits for the device */
-  dBatchCounterMissed = 40, /**< dBatchMispredictionIgnore: entries that did not fit, all buffers */
+  dBatchCounterMissed = 40, /**< misprediction=ignore: entries that did not fit, all buffers */
   dBatchCounterIterativeUnproven = 41, /**< iterative rays that were cast in full after all */
-  dBatchCounterDropped = 42, /**< dBatchRaysIterativePaper: vertices dropped for want of temporal
+  dBatchCounterDropped = 42,       /**< rays=iterative-paper: vertices dropped for want of temporal
                                    data */
   dBatchCounterTemporalPairs = 43, /**< pairs whose temporal data is kept */
   dBatchCounterDeformed = 44,      /**< meshes whose vertices moved since the pass before */
@@ -359,7 +292,7 @@ enum {
   dBatchCounterPairsStock = 62, /**< pairs answered by ODE's own collider */
   dBatchCounterMeshes = 63,     /**< meshes known now */
   /* Append buffers of the last pass, in the order of the pipeline. pair step or flood -> vertex
-     step: runs of up to 16 vertices; where rays are of all vertices (see dBatchRays...) by the
+     step: runs of up to 16 vertices; where rays are of all vertices (as in the paper) by the
      category of their pair, else all in the second */
   dBatchBufferChunksSmall = 1000,      /**< rigid, small displacement */
   dBatchBufferChunksHigh = 1010,       /**< rigid, high displacement; or all */
@@ -385,7 +318,7 @@ enum {
                             another in the same room, so of all but contacts there may be more */
 };
 
-/** The work of a kernel with params.count_work, in units of about one box test: a node visited and
+/** The work of a kernel with count_work=on, in units of about one box test: a node visited and
     an entry of a task 1 each, a vertex looked at and a triangle tested 2 each. In lockstep a group
     of work-items takes as long as its longest, and one branch after the other where they take
     different ones. */
@@ -405,7 +338,7 @@ ODE_EXT_API long long dBatchColliderGetCount(dBatchColliderID collider, int coun
 
 /** @param stage     the vertex step, one of the three of rays, or monolithic
     @param quantity  dBatchWork...
-    @return of the last pass, 0 without params.count_work, or -1 */
+    @return of the last pass, 0 without count_work=on, or -1 */
 ODE_EXT_API long long dBatchColliderGetWork(dBatchColliderID collider, int stage, int quantity);
 
 /** @return the name of a stage, "gather", or of a counter, "predicted_hits"; constant; NULL where

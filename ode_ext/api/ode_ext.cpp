@@ -3,11 +3,9 @@
 #include "ode_ext/ode_ext.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -17,6 +15,7 @@
 #include "device/device.h"
 #include "device/fork_guard.h"
 #include "ode/batch_collider.h"
+#include "ode/config.h"
 #include "ode/contact_ids.h"
 #include "ode/messages.h"
 #include "ode/override.h"
@@ -65,14 +64,17 @@ std::shared_ptr<BatchCollider> live(dBatchColliderID handle) {
   return collider;
 }
 
-// Parameters of a caller that was compiled with an older, shorter struct: its part over the
-// defaults.
+// Where dBatchColliderParams ended in each version of it, this one's last: fields are added at the
+// end alone.
+constexpr std::size_t kParamsSizes[] = {sizeof(dBatchColliderParams)};
+
+// Parameters of a caller that may have been compiled with an older, shorter struct: its part over
+// the defaults.
 dBatchColliderParams complete(const dBatchColliderParams* given) {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
   if (given == nullptr) return params;
-  if (given->struct_size < offsetof(dBatchColliderParams, max_contacts) ||
-      given->struct_size > sizeof(params))
+  if (std::ranges::find(kParamsSizes, given->struct_size) == std::end(kParamsSizes))
     refuse("params->struct_size is " + std::to_string(given->struct_size) + ", expected " +
            std::to_string(sizeof(params)) + "; fill params with dBatchColliderParamsInit first");
   std::memcpy(&params, given, given->struct_size);
@@ -84,41 +86,12 @@ void check(const dBatchColliderParams& p) {
   if (p.max_contacts < 1 || p.max_contacts > static_cast<int>(ode_ext::kMaxContacts))
     refuse("max_contacts is " + std::to_string(p.max_contacts) + ", expected 1 to " +
            std::to_string(ode_ext::kMaxContacts));
-  if (p.workload != dBatchWorkloadPredicted && p.workload != dBatchWorkloadExact)
-    refuse("workload is " + std::to_string(p.workload) + ", expected a dBatchWorkload constant");
-  if (p.prediction != dBatchPredictionPairScaled && p.prediction != dBatchPredictionPlain)
-    refuse("prediction is " + std::to_string(p.prediction) +
-           ", expected a dBatchPrediction constant");
-  if (!(p.confidence > 0) || !std::isfinite(p.confidence))
-    refuse("confidence is " + std::to_string(p.confidence) + ", expected a number above 0");
-  if (!(p.open_thickness >= 0) || !std::isfinite(p.open_thickness))
-    refuse("open_thickness is " + std::to_string(p.open_thickness) + " m, expected 0 or more");
-  if (p.work_group_size < 0)
-    refuse("work_group_size is " + std::to_string(p.work_group_size) + ", expected 0 or more");
-  if (p.initial_capacity < 0)
-    refuse("initial_capacity is " + std::to_string(p.initial_capacity) + ", expected 0 or more");
-  const auto check_constant = [](const char* name, int value, int last, const char* constants) {
-    if (value < 0 || value > last)
-      refuse(std::string(name) + " is " + std::to_string(value) + ", expected a " + constants +
-             " constant");
-  };
-  check_constant("rays", p.rays, dBatchRaysIterativePaper, "dBatchRays");
-  check_constant("deformable_target", p.deformable_target, dBatchDeformableBasic,
-                 "dBatchDeformable");
-  check_constant("organization", p.organization, dBatchOrganizationMonolithic,
-                 "dBatchOrganization");
-  check_constant("misprediction", p.misprediction, dBatchMispredictionBacktrack,
-                 "dBatchMisprediction");
-  check_constant("edges", p.edges, dBatchEdgesOff, "dBatchEdges");
   if (p.max_contacts_deformable < 0 ||
       p.max_contacts_deformable > static_cast<int>(ode_ext::kMaxContacts))
     refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
            ", expected 0 (all) to " + std::to_string(ode_ext::kMaxContacts));
-  if (p.walk_limit < 0)
-    refuse("walk_limit is " + std::to_string(p.walk_limit) + ", expected 0 or more");
-  if (!(p.displacement_limit >= 0) || !std::isfinite(p.displacement_limit))
-    refuse("displacement_limit is " + std::to_string(p.displacement_limit) +
-           ", expected 0 or more");
+  if (!(p.open_thickness >= 0) || !std::isfinite(p.open_thickness))
+    refuse("open_thickness is " + std::to_string(p.open_thickness) + " m, expected 0 or more");
 }
 
 std::string selection_or_environment(const char* selection) {
@@ -131,31 +104,16 @@ ode_ext::ColliderOptions to_options(const dBatchColliderParams& p) {
   ode_ext::ColliderOptions options;
   options.device = selection_or_environment(p.device);
   options.max_contacts = static_cast<std::uint32_t>(p.max_contacts);
-  if (p.workload == dBatchWorkloadExact) options.launches = ode_ext::LaunchRule::kExact;
-  if (p.prediction == dBatchPredictionPlain) options.prediction = ode_ext::PredictionRule::kPlain;
-  options.confidence = p.confidence;
-  options.rays = std::array{ode_ext::Rays::kFull, ode_ext::Rays::kIterative,
-                            ode_ext::Rays::kIterativePaper}[static_cast<std::size_t>(p.rays)];
-  if (p.deformable_target == dBatchDeformableBasic)
-    options.deformable_target = ode_ext::DeformableTarget::kBasic;
-  if (p.organization == dBatchOrganizationMonolithic)
-    options.organization = ode_ext::Organization::kMonolithic;
-  if (p.misprediction == dBatchMispredictionIgnore)
-    options.misprediction = ode_ext::Misprediction::kIgnore;
-  if (p.misprediction == dBatchMispredictionBacktrack)
-    options.misprediction = ode_ext::Misprediction::kBacktrack;
   options.max_contacts_deformable = static_cast<std::uint32_t>(p.max_contacts_deformable);
-  if (p.walk_limit != 0) options.walk_limit = static_cast<std::uint32_t>(p.walk_limit);
-  if (p.displacement_limit > 0)
-    options.displacement_limit = static_cast<float>(
-        std::min<dReal>(p.displacement_limit, std::numeric_limits<float>::max()));
-  options.count_work = p.count_work != 0;
-  options.edges = p.edges == dBatchEdgesOn;
-  if (p.work_group_size != 0)
-    options.work_group_size = static_cast<std::uint32_t>(p.work_group_size);
-  if (p.initial_capacity != 0)
-    options.initial_capacity = static_cast<std::uint64_t>(p.initial_capacity);
+  if (p.config != nullptr) ode_ext::apply_config(p.config, options);
   return options;
+}
+
+// Field `text` of a setting, or null past the last.
+const char* setting_text(int index, const char* ode_ext::Setting::*text) {
+  const auto settings = ode_ext::settings();
+  if (index < 0 || static_cast<std::size_t>(index) >= settings.size()) return nullptr;
+  return settings[static_cast<std::size_t>(index)].*text;
 }
 
 int collide(const char* call, dBatchColliderID handle, const PassRoot& root, void* data,
@@ -249,9 +207,24 @@ void dBatchColliderParamsInit(dBatchColliderParams* params) {
   *params = {};
   params->struct_size = sizeof(*params);
   params->max_contacts = 16;
-  params->workload = dBatchWorkloadPredicted;
-  params->prediction = dBatchPredictionPairScaled;
-  params->confidence = 1.2;
+}
+
+const char* dBatchConfigName(int index) { return setting_text(index, &ode_ext::Setting::name); }
+const char* dBatchConfigValues(int index) { return setting_text(index, &ode_ext::Setting::values); }
+const char* dBatchConfigDefault(int index) {
+  return setting_text(index, &ode_ext::Setting::initial);
+}
+const char* dBatchConfigMeaning(int index) {
+  return setting_text(index, &ode_ext::Setting::meaning);
+}
+
+int dBatchConfigCheck(const char* config) {
+  return guarded("dBatchConfigCheck", -1, [&] {
+    if (config == nullptr) refuse("the config is NULL");
+    ode_ext::ColliderOptions options;
+    ode_ext::apply_config(config, options);
+    return 0;
+  });
 }
 
 dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {

@@ -40,7 +40,7 @@ class Pass {
   Pass& operator=(const Pass&) = delete;
 
   // ODE's own pass with the program's callback, which may throw. False: nothing is delivered
-  // (dBatchMispredictionBacktrack), and no callback was made.
+  // (misprediction=backtrack), and no callback was made.
   bool deliver(void* data, dNearCallback* callback);
 
   // Of this thread: the innermost collider that passes, or null; what all passes traverse.

@@ -36,7 +36,7 @@ TEST_F(ApiDeterminism, RepeatedRunsAgree) {
 TEST_F(ApiDeterminism, WorkGroupSizesAgree) {
   const auto expected = answers();
   for (const int size : {1, 32, 64, 256}) {
-    EXPECT_EQ(difference(answers([=](auto& p) { p.work_group_size = size; }), expected), "")
+    EXPECT_EQ(difference(answers(with("work_group_size=" + std::to_string(size))), expected), "")
         << size;
   }
 }
@@ -48,7 +48,7 @@ TEST_F(ApiDeterminism, ConfidencesAgree) {
   const auto second = answers();
   EXPECT_NE(difference(first, second), "");
   for (const double confidence : {0.01, 10.0}) {
-    const BatchCollider collider([=](auto& p) { p.confidence = confidence; });
+    const BatchCollider collider(with("confidence=" + std::to_string(confidence)));
     pile.shake(1);
     EXPECT_EQ(difference(answers_of(collider.pass(space)), first), "") << confidence;
     pile.shake(2);
@@ -58,18 +58,17 @@ TEST_F(ApiDeterminism, ConfidencesAgree) {
 
 TEST_F(ApiDeterminism, ASmallInitialCapacityLosesNothing) {
   const auto expected = answers();
-  EXPECT_EQ(difference(answers([](auto& p) { p.initial_capacity = 1; }), expected), "");
+  EXPECT_EQ(difference(answers(with("initial_capacity=1")), expected), "");
 }
 
 TEST_F(ApiDeterminism, ExactAndPredictedWorkloadsAgree) {
   const auto expected = answers();
-  EXPECT_EQ(difference(answers([](auto& p) { p.workload = dBatchWorkloadExact; }), expected), "");
+  EXPECT_EQ(difference(answers(with("workload=exact")), expected), "");
 }
 
 TEST_F(ApiDeterminism, BothPredictionsAgree) {
   const auto expected = answers();
-  EXPECT_EQ(difference(answers([](auto& p) { p.prediction = dBatchPredictionPlain; }), expected),
-            "");
+  EXPECT_EQ(difference(answers(with("prediction=plain")), expected), "");
 }
 
 TEST_F(ApiDeterminism, APairAloneAgreesWithABatch) {
@@ -131,8 +130,8 @@ TEST_F(ApiDeterminism, ASecondSceneOfTheSameMakeAgrees) {
 // nothing before the library sees them; positions are 10^6 + a double's 2^-33 there.
 TEST_F(ApiDeterminism, FarFromTheOriginContactsAreTheSameToATenthOfAMillimetre) {
   const Point far{1e6, -1e6, 1e6};
-  for (const int edges : {dBatchEdgesOn, dBatchEdgesOff}) {
-    const BatchCollider collider([=](dBatchColliderParams& params) { params.edges = edges; });
+  for (const char* edges : {"edges=on", "edges=off"}) {
+    const BatchCollider collider(with(edges));
     for (const std::uint64_t seed : {1u, 4u, 5u, 6u}) {
       const dSpaceID there = world.space(SpaceKind::Simple);  // a hash space overflows its cells
       const dSpaceID here = world.space(SpaceKind::Simple);

@@ -9,27 +9,19 @@ namespace {
 
 struct Mode {
   const char* name;
-  BatchCollider::Change change;
+  const char* config;
 };
 
 const Mode kSameBytes[] = {
-    {"FullRays", [](auto& p) { p.rays = dBatchRaysFull; }},
-    {"Monolithic", [](auto& p) { p.organization = dBatchOrganizationMonolithic; }},
-    {"MonolithicFullRays",
-     [](auto& p) {
-       p.organization = dBatchOrganizationMonolithic;
-       p.rays = dBatchRaysFull;
-     }},
-    {"BasicDeformables", [](auto& p) { p.deformable_target = dBatchDeformableBasic; }},
-    {"ExactWorkload", [](auto& p) { p.workload = dBatchWorkloadExact; }},
-    {"PlainPrediction", [](auto& p) { p.prediction = dBatchPredictionPlain; }},
-    {"NoWalk",
-     [](auto& p) {
-       p.walk_limit = 1;
-       p.displacement_limit = 100;
-     }},
-    {"HardlyEverIterative", [](auto& p) { p.displacement_limit = 1e-6; }},
-    {"CountedWork", [](auto& p) { p.count_work = 1; }},
+    {"FullRays", "rays=full"},
+    {"Monolithic", "organization=monolithic"},
+    {"MonolithicFullRays", "organization=monolithic,rays=full"},
+    {"BasicDeformables", "deformable_target=basic"},
+    {"ExactWorkload", "workload=exact"},
+    {"PlainPrediction", "prediction=plain"},
+    {"NoWalk", "walk_limit=1,displacement_limit=100"},
+    {"HardlyEverIterative", "displacement_limit=1e-6"},
+    {"CountedWork", "count_work=on"},
 };
 
 class ApiModes : public ::testing::TestWithParam<Mode> {
@@ -40,7 +32,7 @@ class ApiModes : public ::testing::TestWithParam<Mode> {
 };
 
 TEST_P(ApiModes, GiveTheBytesOfTheDefaults) {
-  const BatchCollider defaults, collider(GetParam().change);
+  const BatchCollider defaults, collider(with(GetParam().config));
   for (std::uint64_t step = 1; step < 7; ++step) {
     if (step % 2 != 0) pile.shake(step);  // and every other pass finds all at rest
     const auto expected = answers_of(defaults.pass(space));
@@ -70,7 +62,7 @@ class ApiMode : public ::testing::Test {
 };
 
 TEST_F(ApiMode, IterativeRaysAreUsedWhereTheyAreAskedFor) {
-  const BatchCollider collider([](auto&p) { p.rays = dBatchRaysIterative; }), full;
+  const BatchCollider collider(with("rays=iterative")), full;
   for (const BatchCollider* each : {&collider, &full}) each->pass(space);
   EXPECT_GT(collider.stats().temporal_pairs, 0);
   nudge();
@@ -82,7 +74,7 @@ TEST_F(ApiMode, IterativeRaysAreUsedWhereTheyAreAskedFor) {
 }
 
 TEST_F(ApiMode, ThePapersIterativeRaysDropVerticesAndSayHowMany) {
-  const BatchCollider paper([](auto& p) { p.rays = dBatchRaysIterativePaper; });
+  const BatchCollider paper(with("rays=iterative-paper"));
   paper.pass(space);
   EXPECT_EQ(paper.stats().dropped, 0);
   long long dropped = 0;
@@ -96,11 +88,8 @@ TEST_F(ApiMode, ThePapersIterativeRaysDropVerticesAndSayHowMany) {
 
 TEST_F(ApiMode, CountedWorkIsReportedPerKernel) {
   // Every vertex is looked at.
-  const BatchCollider counting([](auto& p) {
-    p.count_work = 1;
-    p.edges = dBatchEdgesOff;
-  });
-  const BatchCollider plain([](auto& p) { p.edges = dBatchEdgesOff; });
+  const BatchCollider counting(with("count_work=on,edges=off"));
+  const BatchCollider plain(with("edges=off"));
   counting.pass(space);
   plain.pass(space);
   for (const int stage : {dBatchStageVertexStep, dBatchStageBvhRays}) {
@@ -120,13 +109,8 @@ TEST_F(ApiMode, CountedWorkIsReportedPerKernel) {
 void count_calls(void* data, dGeomID, dGeomID) { ++*static_cast<int*>(data); }
 
 TEST_F(ApiMode, BacktrackingDeliversNothingMakesNoCallbackAndReturnsZero) {
-  const BatchCollider collider([](auto& p) {
-    p.misprediction = dBatchMispredictionBacktrack;
-    p.prediction = dBatchPredictionPlain;
-    p.initial_capacity = 1;
-    p.confidence = 1;
-    p.rays = dBatchRaysFull;
-  });
+  const BatchCollider collider(
+      with("misprediction=backtrack,prediction=plain,initial_capacity=1,confidence=1"));
   // One pair is enough to predict from; then there are many more.
   for (std::size_t i = 2; i < pile.geoms.size(); ++i) dGeomDisable(pile.geoms[i]);
   int calls = 0;
@@ -151,11 +135,7 @@ TEST_F(ApiMode, BacktrackingDeliversNothingMakesNoCallbackAndReturnsZero) {
 }
 
 TEST_F(ApiMode, IgnoringMispredictionsSaysWhatWasMissed) {
-  const BatchCollider collider([](auto& p) {
-    p.misprediction = dBatchMispredictionIgnore;
-    p.prediction = dBatchPredictionPlain;
-    p.confidence = 1;
-  });
+  const BatchCollider collider(with("misprediction=ignore,prediction=plain,confidence=1"));
   for (std::size_t i = 3; i < pile.geoms.size(); ++i) dGeomDisable(pile.geoms[i]);
   collider.pass(space);
   EXPECT_EQ(collider.stats().missed, 0);

@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sstream>
 #include <thread>
 
+#include "ode/config.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {
@@ -15,7 +17,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   dBatchColliderParams params;
@@ -24,23 +25,11 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.struct_size, sizeof params);
   EXPECT_EQ(params.device, nullptr);
   EXPECT_EQ(params.max_contacts, 16);
-  EXPECT_EQ(params.workload, dBatchWorkloadPredicted);
-  EXPECT_EQ(params.prediction, dBatchPredictionPairScaled);
-  EXPECT_EQ(params.trust_meshes, 0);
-  EXPECT_EQ(params.confidence, 1.2);
-  EXPECT_EQ(params.open_thickness, 0);
-  EXPECT_EQ(params.work_group_size, 0);
-  EXPECT_EQ(params.initial_capacity, 0);
-  EXPECT_EQ(params.rays, dBatchRaysFull);
-  EXPECT_EQ(params.deformable_target, dBatchDeformableRefit);
-  EXPECT_EQ(params.organization, dBatchOrganizationPipelined);
-  EXPECT_EQ(params.misprediction, dBatchMispredictionRedo);
   EXPECT_EQ(params.max_contacts_deformable, 0);
-  EXPECT_EQ(params.walk_limit, 0);
-  EXPECT_EQ(params.displacement_limit, 0);
-  EXPECT_EQ(params.count_work, 0);
-  EXPECT_EQ(params.edges, dBatchEdgesOn);
+  EXPECT_EQ(params.open_thickness, 0);
+  EXPECT_EQ(params.trust_meshes, 0);
   EXPECT_EQ(params.triangle_callbacks, 0);
+  EXPECT_EQ(params.config, nullptr);
 }
 
 TEST(ApiParams, InitIgnoresNull) { dBatchColliderParamsInit(nullptr); }
@@ -77,29 +66,35 @@ const BadParameter kBadParameters[] = {
     {"max_contacts", "Zero", [](P& p) { p.max_contacts = 0; }},
     {"max_contacts", "Negative", [](P& p) { p.max_contacts = -1; }},
     {"max_contacts", "TooMany", [](P& p) { p.max_contacts = 65; }},
-    {"workload", "Unknown", [](P& p) { p.workload = 2; }},
-    {"workload", "Negative", [](P& p) { p.workload = -1; }},
-    {"prediction", "Unknown", [](P& p) { p.prediction = 2; }},
-    {"prediction", "Negative", [](P& p) { p.prediction = -1; }},
-    {"confidence", "Zero", [](P& p) { p.confidence = 0; }},
-    {"confidence", "Negative", [](P& p) { p.confidence = -1; }},
-    {"confidence", "Nan", [](P& p) { p.confidence = kNan; }},
-    {"confidence", "Infinite", [](P& p) { p.confidence = kInfinity; }},
-    {"open_thickness", "Negative", [](P& p) { p.open_thickness = -1; }},
-    {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNan; }},
-    {"rays", "Unknown", [](P& p) { p.rays = 3; }},
-    {"rays", "Negative", [](P& p) { p.rays = -1; }},
-    {"deformable_target", "Unknown", [](P& p) { p.deformable_target = 2; }},
-    {"organization", "Unknown", [](P& p) { p.organization = 2; }},
-    {"misprediction", "Unknown", [](P& p) { p.misprediction = 3; }},
     {"max_contacts_deformable", "Negative", [](P& p) { p.max_contacts_deformable = -1; }},
     {"max_contacts_deformable", "TooMany", [](P& p) { p.max_contacts_deformable = 65; }},
-    {"walk_limit", "Negative", [](P& p) { p.walk_limit = -1; }},
-    {"displacement_limit", "Negative", [](P& p) { p.displacement_limit = -1; }},
-    {"displacement_limit", "Nan", [](P& p) { p.displacement_limit = kNan; }},
-    {"work_group_size", "Negative", [](P& p) { p.work_group_size = -1; }},
-    {"work_group_size", "AboveEveryDevice", [](P& p) { p.work_group_size = 1 << 24; }},
-    {"initial_capacity", "Negative", [](P& p) { p.initial_capacity = -1; }},
+    {"open_thickness", "Negative", [](P& p) { p.open_thickness = -1; }},
+    {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNan; }},
+    {"rays", "Unknown", with("rays=fast")},
+    {"edges", "Empty", with("edges=")},
+    {"workload", "InCapitals", with("workload=Exact")},
+    {"prediction", "AsANumber", with("prediction=1")},
+    {"organization", "TwoOfThem", with("organization=pipelined|monolithic")},
+    {"deformable_target", "WithoutValue", with("deformable_target")},
+    {"misprediction", "Unknown", with("misprediction=panic")},
+    {"count_work", "AsANumber", with("count_work=1")},
+    {"confidence", "Zero", with("confidence=0")},
+    {"confidence", "Negative", with("confidence=-1")},
+    {"confidence", "Nan", with("confidence=nan")},
+    {"confidence", "Infinite", with("confidence=inf")},
+    {"confidence", "TooLarge", with("confidence=1e999")},
+    {"confidence", "FollowedByText", with("confidence=1.2x")},
+    {"displacement_limit", "Zero", with("displacement_limit=0")},
+    {"displacement_limit", "Nan", with("displacement_limit=nan")},
+    {"walk_limit", "Negative", with("walk_limit=-1")},
+    {"walk_limit", "Zero", with("walk_limit=0")},
+    {"work_group_size", "Zero", with("work_group_size=0")},
+    {"work_group_size", "AboveEveryDevice", with("work_group_size=16777216")},
+    {"initial_capacity", "Zero", with("initial_capacity=0")},
+    {"initial_capacity", "TooLarge", with("initial_capacity=2147483648")},
+    {"initial_capacity", "AsAFraction", with("initial_capacity=1.5")},
+    {"speed", "NotASetting", with("rays=full,speed=11")},
+    {"rays", "Twice", with("rays=full,rays=full")},
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, ApiCreateRefuses, ::testing::ValuesIn(kBadParameters),
@@ -112,10 +107,87 @@ TEST(ApiCreate, TakesTheLimitsOfEveryParameter) {
   for (const int contacts : {1, 64}) {
     BatchCollider([&](P& p) { p.max_contacts = contacts; });
   }
-  BatchCollider([](P& p) { p.workload = dBatchWorkloadExact; });
-  BatchCollider([](P& p) { p.prediction = dBatchPredictionPlain; });
-  BatchCollider([](P& p) { p.work_group_size = 1; });
-  BatchCollider([](P& p) { p.initial_capacity = 1; });
+  for (const char* config : {"", " , ", "work_group_size=1", "initial_capacity=1"}) {
+    BatchCollider collider(with(config));
+  }
+}
+
+TEST(ApiCreate, TakesBlanksAroundSettings) {
+  OdeWorld world;
+  const BatchCollider collider(with(" rays = iterative , organization=monolithic, "));
+}
+
+TEST(ApiConfig, ListsSettingsWhoseEveryWordAndDefaultIsTaken) {
+  int count = 0;
+  for (; dBatchConfigName(count) != nullptr; ++count) {
+    const std::string name = dBatchConfigName(count), values = dBatchConfigValues(count);
+    SCOPED_TRACE(name);
+    EXPECT_EQ(dBatchConfigCheck((name + "=" + dBatchConfigDefault(count)).c_str()), 0);
+    EXPECT_STRNE(dBatchConfigMeaning(count), "");
+    if (values.find('|') == std::string::npos) continue;
+    std::istringstream words(values);
+    for (std::string word; std::getline(words, word, '|');)
+      EXPECT_EQ(dBatchConfigCheck((name + "=" + word).c_str()), 0) << word;
+  }
+  EXPECT_EQ(count, 13);
+  for (const int index : {-1, count, 1 << 30}) {
+    EXPECT_EQ(dBatchConfigName(index), nullptr);
+    EXPECT_EQ(dBatchConfigValues(index), nullptr);
+    EXPECT_EQ(dBatchConfigDefault(index), nullptr);
+    EXPECT_EQ(dBatchConfigMeaning(index), nullptr);
+  }
+}
+
+TEST(ApiConfig, IsTheDefaultWhereItSaysTheDefaults) {
+  std::string config;
+  for (int i = 0; dBatchConfigName(i) != nullptr; ++i)
+    config += std::string(dBatchConfigName(i)) + "=" + dBatchConfigDefault(i) + ",";
+  ColliderOptions said;
+  apply_config(config, said);
+  const ColliderOptions untouched;
+  EXPECT_EQ(said.rays, untouched.rays);
+  EXPECT_EQ(said.edges, untouched.edges);
+  EXPECT_EQ(said.organization, untouched.organization);
+  EXPECT_EQ(said.deformable_target, untouched.deformable_target);
+  EXPECT_EQ(said.launches, untouched.launches);
+  EXPECT_EQ(said.prediction, untouched.prediction);
+  EXPECT_EQ(said.confidence, untouched.confidence);
+  EXPECT_EQ(said.misprediction, untouched.misprediction);
+  EXPECT_EQ(said.initial_capacity, untouched.initial_capacity);
+  EXPECT_EQ(said.work_group_size, untouched.work_group_size);
+  EXPECT_EQ(said.walk_limit, untouched.walk_limit);
+  EXPECT_EQ(said.displacement_limit, untouched.displacement_limit);
+  EXPECT_EQ(said.count_work, untouched.count_work);
+}
+
+TEST(ApiConfig, SetsWhatItNames) {
+  ColliderOptions options;
+  apply_config(
+      "rays=iterative-paper,edges=off,organization=monolithic,deformable_target=basic,"
+      "workload=exact,prediction=plain,confidence=1.02,misprediction=backtrack,"
+      "initial_capacity=7,work_group_size=32,walk_limit=9,displacement_limit=0.5,count_work=on",
+      options);
+  EXPECT_EQ(options.rays, Rays::kIterativePaper);
+  EXPECT_FALSE(options.edges);
+  EXPECT_EQ(options.organization, Organization::kMonolithic);
+  EXPECT_EQ(options.deformable_target, DeformableTarget::kBasic);
+  EXPECT_EQ(options.launches, LaunchRule::kExact);
+  EXPECT_EQ(options.prediction, PredictionRule::kPlain);
+  EXPECT_EQ(options.confidence, 1.02);
+  EXPECT_EQ(options.misprediction, Misprediction::kBacktrack);
+  EXPECT_EQ(options.initial_capacity, 7u);
+  EXPECT_EQ(options.work_group_size, 32u);
+  EXPECT_EQ(options.walk_limit, 9u);
+  EXPECT_EQ(options.displacement_limit, 0.5f);
+  EXPECT_TRUE(options.count_work);
+}
+
+TEST(ApiConfig, ThatIsRefusedSaysWhatThereIs) {
+  EXPECT_EQ(dBatchConfigCheck("ray=full"), -1);
+  EXPECT_THAT(last_error(), HasSubstr("nothing is called 'ray'; there are rays, edges,"));
+  EXPECT_EQ(dBatchConfigCheck("rays=fast"), -1);
+  EXPECT_THAT(last_error(), HasSubstr("rays is 'fast', expected full|iterative|iterative-paper"));
+  EXPECT_EQ(dBatchConfigCheck(nullptr), -1);
 }
 
 TEST(ApiDestroy, IgnoresNull) { dBatchColliderDestroy(nullptr); }

@@ -70,7 +70,7 @@ std::string complaint(const dContactGeom& c, dGeomID g1, dGeomID g2) {
 
 struct Handling {
   const char* name;
-  int edges;
+  const char* config;
   bool deformable;
 };
 
@@ -80,7 +80,7 @@ TEST_P(ApiSoundness, OfEveryPairOfKindsAreFiniteUnitAndValid) {
   OdeWorld world;
   const BatchCollider collider([](dBatchColliderParams& params) {
     params.max_contacts = 64;
-    params.edges = GetParam().edges;
+    params.config = GetParam().config;
   });
   const std::vector<TestMesh> kinds = all_kinds();
   std::vector<dGeomID> first, second;
@@ -117,9 +117,9 @@ TEST_P(ApiSoundness, OfEveryPairOfKindsAreFiniteUnitAndValid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, ApiSoundness,
-                         ::testing::Values(Handling{"WithEdges", dBatchEdgesOn, false},
-                                           Handling{"WithoutEdges", dBatchEdgesOff, false},
-                                           Handling{"OfDeformableMeshes", dBatchEdgesOn, true}),
+                         ::testing::Values(Handling{"WithEdges", "edges=on", false},
+                                           Handling{"WithoutEdges", "edges=off", false},
+                                           Handling{"OfDeformableMeshes", "edges=on", true}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

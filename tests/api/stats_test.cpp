@@ -112,7 +112,7 @@ TEST_F(ApiStats, TimeTheStages) {
 }
 
 TEST_F(ApiStats, TellThatABufferWasTooSmallAndThePassRedone) {
-  const BatchCollider collider([](dBatchColliderParams& p) { p.initial_capacity = 1; });
+  const BatchCollider collider(with("initial_capacity=1"));
   collider.pass(space);
   const auto stats = collider.stats();
   EXPECT_NE(stats.status & dBatchStatusRedone, 0u);
@@ -127,7 +127,7 @@ TEST_F(ApiStats, TellThatABufferWasTooSmallAndThePassRedone) {
 // Exact waits for each counter before the next launch; predicted once for all of them.
 TEST_F(ApiStats, CountMoreSynchronizationsForExactWorkloads) {
   const BatchCollider predicted;
-  const BatchCollider exact([](dBatchColliderParams& p) { p.workload = dBatchWorkloadExact; });
+  const BatchCollider exact(with("workload=exact"));
   for (int i = 0; i < 3; ++i) {  // the first pass has nothing to predict from
     pile.shake(static_cast<std::uint64_t>(i) + 1);
     predicted.pass(space);
@@ -137,7 +137,7 @@ TEST_F(ApiStats, CountMoreSynchronizationsForExactWorkloads) {
 }
 
 TEST_F(ApiStats, PredictTheNextPassFromTheLastByEquationOne) {
-  const BatchCollider collider([](dBatchColliderParams& p) { p.confidence = 1.5; });
+  const BatchCollider collider(with("confidence=1.5"));
   collider.pass(space);
   const auto first = collider.stats();
   pile.shake(2);
@@ -153,10 +153,7 @@ TEST_F(ApiStats, PredictTheNextPassFromTheLastByEquationOne) {
 }
 
 TEST_F(ApiStats, PredictTheNextPassFromTheLastByEquationTwo) {
-  const BatchCollider collider([](dBatchColliderParams& p) {
-    p.confidence = 1.5;
-    p.prediction = dBatchPredictionPlain;
-  });
+  const BatchCollider collider(with("confidence=1.5,prediction=plain"));
   collider.pass(space);
   const auto first = collider.stats();
   pile.shake(2);

@@ -37,13 +37,7 @@ TEST(Options, AreThePapersSceneByDefault) {
   EXPECT_EQ(o.hz, 60);
   EXPECT_EQ(o.collider, Collider::kBatch);
   EXPECT_EQ(o.max_contacts, 16);
-  EXPECT_EQ(o.workload, dBatchWorkloadPredicted);
-  EXPECT_EQ(o.rays, dBatchRaysFull);
-  EXPECT_EQ(o.organization, dBatchOrganizationPipelined);
-  EXPECT_EQ(o.edges, dBatchEdgesOn);
-  EXPECT_EQ(o.deformable_target, dBatchDeformableRefit);
-  EXPECT_EQ(o.misprediction, dBatchMispredictionRedo);
-  EXPECT_EQ(o.prediction, dBatchPredictionPairScaled);
+  EXPECT_EQ(o.config, "");
 }
 
 TEST(Options, AreThePapersSecondSceneByItsName) {
@@ -58,31 +52,21 @@ TEST(Options, AreThePapersSecondSceneByItsName) {
 }
 
 TEST(Options, TakeEveryNameForItsValue) {
-  const Options o = parse({"--collider", "ode", "--workload", "exact", "--prediction", "plain",
-                           "--confidence", "0.5", "--device", "pocl", "--compare", "--check-rest"})
+  const Options o = parse({"--collider", "ode", "--config", "workload=exact,confidence=0.5",
+                           "--device", "pocl", "--compare", "--check-rest"})
                         .parsed.options;
   EXPECT_EQ(o.collider, Collider::kOde);
-  EXPECT_EQ(o.workload, dBatchWorkloadExact);
-  EXPECT_EQ(o.prediction, dBatchPredictionPlain);
-  EXPECT_EQ(o.confidence, 0.5);
+  EXPECT_EQ(o.config, "workload=exact,confidence=0.5");
   EXPECT_EQ(o.device, "pocl");
   EXPECT_TRUE(o.compare);
   EXPECT_TRUE(o.check_rest);
   EXPECT_FALSE(o.check);
 }
 
-TEST(Options, NameEveryModeOfTheCollider) {
-  const Options o = parse({"--rays", "iterative-paper", "--organization", "monolithic", "--edges",
-                           "off", "--deformable-target", "basic", "--misprediction", "backtrack"})
-                        .parsed.options;
-  EXPECT_EQ(o.rays, dBatchRaysIterativePaper);
-  EXPECT_EQ(o.organization, dBatchOrganizationMonolithic);
-  EXPECT_EQ(o.edges, dBatchEdgesOff);
-  EXPECT_EQ(o.deformable_target, dBatchDeformableBasic);
-  EXPECT_EQ(o.misprediction, dBatchMispredictionBacktrack);
-  EXPECT_EQ(parse({"--rays", "full"}).parsed.options.rays, dBatchRaysFull);
-  EXPECT_EQ(parse({"--misprediction", "ignore"}).parsed.options.misprediction,
-            dBatchMispredictionIgnore);
+TEST(Options, OfTheColliderAreRefusedInTheLibrarysWords) {
+  const Outcome outcome = parse({"--config", "rays=fast"});
+  EXPECT_EQ(outcome.parsed.exit_code, kExitUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("rays is 'fast', expected full|iterative|iterative-paper"));
 }
 
 TEST(Options, CollectRepeatedMeshes) {
@@ -105,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{"--objects", "many"}, std::vector{"--hz", "-60"},
                     std::vector{"--hz", "0"}, std::vector{"--max-contacts", "65"},
                     std::vector{"--collider", "none"}, std::vector{"--scene", "soft"},
-                    std::vector{"--confidence", "-1"}, std::vector{"--steps", "-1"},
+                    std::vector{"--config", "confidence=-1"}, std::vector{"--steps", "-1"},
                     std::vector{"--mesh"}, std::vector{"stray"}, std::vector{"--sheets", "2"},
                     std::vector{"--scene", "rigid-deformable", "--compare"},
                     std::vector{"--scene", "rigid-deformable", "--collider", "ode"}));

@@ -61,31 +61,16 @@ TEST(PaperConfiguration, IsRefusedWithTheListOfWords) {
   }
 }
 
-TEST(PaperConfiguration, SetsEveryParameterItNames) {
-  dBatchColliderParams p = parse_configuration("full").params("");
-  EXPECT_EQ(p.rays, dBatchRaysFull);
-  EXPECT_EQ(p.organization, dBatchOrganizationPipelined);
-  EXPECT_EQ(p.workload, dBatchWorkloadPredicted);
-  EXPECT_EQ(p.prediction, dBatchPredictionPairScaled);
-  EXPECT_EQ(p.misprediction, dBatchMispredictionRedo);
-  EXPECT_EQ(p.deformable_target, dBatchDeformableRefit);
-  EXPECT_EQ(p.count_work, 0);
-  EXPECT_EQ(p.device, nullptr);
-  EXPECT_EQ(p.edges, dBatchEdgesOff);
-  EXPECT_EQ(parse_configuration("full-edges").params("").edges, dBatchEdgesOn);
-  const std::string device = "pocl";
-  p = parse_configuration("iterative-checked-basic-monolithic-exact-plain-ignore-count")
-          .params(device);
-  EXPECT_EQ(p.rays, dBatchRaysIterative);
-  EXPECT_EQ(p.organization, dBatchOrganizationMonolithic);
-  EXPECT_EQ(p.workload, dBatchWorkloadExact);
-  EXPECT_EQ(p.prediction, dBatchPredictionPlain);
-  EXPECT_EQ(p.misprediction, dBatchMispredictionIgnore);
-  EXPECT_EQ(p.confidence, kPapersConfidence);
-  EXPECT_EQ(p.deformable_target, dBatchDeformableBasic);
-  EXPECT_NE(p.count_work, 0);
-  EXPECT_STREQ(p.device, "pocl");
-  EXPECT_EQ(parse_configuration("iterative").params("").rays, dBatchRaysIterativePaper);
+TEST(PaperConfiguration, SetsEverySettingItNames) {
+  EXPECT_EQ(parse_configuration("full").config(), "rays=full,edges=off");
+  EXPECT_EQ(parse_configuration("full-edges").config(), "rays=full,edges=on");
+  EXPECT_EQ(parse_configuration("iterative").config(), "rays=iterative-paper,edges=off");
+  const std::string all =
+      parse_configuration("iterative-checked-basic-monolithic-exact-plain-ignore-count").config();
+  EXPECT_EQ(all,
+            "rays=iterative,deformable_target=basic,organization=monolithic,workload=exact,"
+            "prediction=plain,misprediction=ignore,confidence=1.02,edges=off,count_work=on");
+  EXPECT_EQ(dBatchConfigCheck(all.c_str()), 0) << dBatchColliderGetLastErrorMessage();
 }
 
 TEST(PaperSchedule, GivesEveryConfigurationEveryPlaceEquallyOften) {

@@ -21,8 +21,8 @@ same() {
 same "once more" "$(contact_hash)"
 same "one thread" "$(POCL_MAX_PTHREAD_COUNT=1 POCL_CPU_MAX_CU_COUNT=1 contact_hash)"
 same "two threads" "$(POCL_MAX_PTHREAD_COUNT=2 POCL_CPU_MAX_CU_COUNT=2 contact_hash)"
-same "exact workload" "$(contact_hash --workload exact)"
-same "under-predicted" "$(contact_hash --confidence 0.01)"
+same "exact workload" "$(contact_hash --config workload=exact)"
+same "under-predicted" "$(contact_hash --config confidence=0.01)"
 
 # Sheets, which two threads solve: long enough for them to lie on objects and on each other.
 sheet_hash() {

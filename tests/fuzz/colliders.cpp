@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fuzz/colliders.h"
 
+#include <span>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace ode_ext::fuzz {
 namespace {
 
 // Kernels are compiled anew for each size, which takes PoCL seconds: two are enough.
-constexpr int kGroupSizes[] = {0, 16};
+constexpr const char* kGroupSizes[] = {"64", "16"};
 
 Collider make_kept(std::size_t index) {
   dBatchColliderParams params;
@@ -17,27 +20,48 @@ Collider make_kept(std::size_t index) {
     case 0:
       break;
     case 1:  // everything must be grown and redone
-      params.workload = dBatchWorkloadExact;
-      params.initial_capacity = 1;
-      params.confidence = 0.01;
+      params.config = "workload=exact,initial_capacity=1,confidence=0.01";
       break;
     case 2:  // looks at every vertex, so its contacts are others
-      params.rays = dBatchRaysIterative;
-      params.organization = dBatchOrganizationMonolithic;
+      params.config =
+          "rays=iterative,organization=monolithic,deformable_target=basic,work_group_size=16";
       collider.alike = false;
-      params.deformable_target = dBatchDeformableBasic;
-      params.work_group_size = kGroupSizes[1];
       break;
     default:
       params.max_contacts = 3;
       params.triangle_callbacks = 1;
-      params.prediction = dBatchPredictionPlain;
+      params.config = "prediction=plain";
       collider.alike = false;
   }
   collider.id = dBatchColliderCreate(&params);
   if (collider.id == nullptr) throw std::runtime_error(dBatchColliderGetLastErrorMessage());
   return collider;
 }
+
+// Settings, some of which are wrong.
+class Config {
+ public:
+  void set(const char* name, std::string_view value) {
+    text_ += std::string(text_.empty() ? "" : ",") + name + "=" + std::string(value);
+  }
+  void choose(const char* name, std::span<const char* const> values, int index) {
+    set(name, values[static_cast<std::size_t>(index)]);
+  }
+  bool says(std::string_view value) const { return text_.find(value) != std::string::npos; }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+constexpr const char* kWorkloads[] = {"predicted", "exact", "exac"};
+constexpr const char* kPredictions[] = {"pair-scaled", "plain", ""};
+constexpr const char* kRays[] = {"full", "iterative", "iterative-paper", "0"};
+constexpr const char* kTargets[] = {"refit", "basic", "refit|basic"};
+constexpr const char* kOrganizations[] = {"pipelined", "monolithic", "="};
+constexpr const char* kMispredictions[] = {"redo", "ignore", "backtrack", "Redo"};
+constexpr const char* kEdges[] = {"on", "off", "1"};
+constexpr const char* kCapacities[] = {"16384", "1", "64", "100000", "-1"};
 
 }  // namespace
 
@@ -55,58 +79,58 @@ void Colliders::renew() {
 }
 
 Collider decode_collider(ByteSource& bytes) {
-  constexpr int kCapacities[] = {0, 1, 64, 100000, -1};
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
+  Config config;
   for (int changes = bytes.below(5); changes > 0; --changes) {
     switch (bytes.below(18)) {
       case 0:
         params.max_contacts = bytes.between(0, 65);
         break;
       case 1:
-        params.workload = bytes.below(3);
+        config.choose("workload", kWorkloads, bytes.below(3));
         break;
       case 2:
-        params.prediction = bytes.below(3);
+        config.choose("prediction", kPredictions, bytes.below(3));
         break;
       case 3:
         params.trust_meshes = bytes.below(2);
         break;
       case 4:
-        params.confidence = bytes.wild();
+        config.set("confidence", std::to_string(bytes.wild()));
         break;
       case 5:
         params.open_thickness = bytes.wild();
         break;
       case 6:
-        params.work_group_size = kGroupSizes[bytes.below(2)];
+        config.choose("work_group_size", kGroupSizes, bytes.below(2));
         break;
       case 7:
-        params.initial_capacity = kCapacities[bytes.below(5)];
+        config.choose("initial_capacity", kCapacities, bytes.below(5));
         break;
       case 8:
-        params.rays = bytes.below(4);
+        config.choose("rays", kRays, bytes.below(4));
         break;
       case 9:
-        params.deformable_target = bytes.below(3);
+        config.choose("deformable_target", kTargets, bytes.below(3));
         break;
       case 10:
-        params.organization = bytes.below(3);
+        config.choose("organization", kOrganizations, bytes.below(3));
         break;
       case 11:
-        params.misprediction = bytes.below(4);
+        config.choose("misprediction", kMispredictions, bytes.below(4));
         break;
       case 12:
         params.max_contacts_deformable = bytes.between(-1, 65);
         break;
       case 13:
-        params.walk_limit = bytes.between(-1, 40);
+        config.set("walk_limit", std::to_string(bytes.between(-1, 40)));
         break;
       case 14:
-        params.displacement_limit = bytes.wild();
+        config.set("displacement_limit", std::to_string(bytes.wild()));
         break;
       case 15:
-        params.edges = bytes.below(3);
+        config.choose("edges", kEdges, bytes.below(3));
         break;
       case 16:
         params.triangle_callbacks = bytes.below(2);
@@ -119,10 +143,11 @@ Collider decode_collider(ByteSource& bytes) {
         }
     }
   }
+  params.config = config.text().c_str();
   Collider collider;
-  collider.complete = params.trust_meshes == 0 && params.rays != dBatchRaysIterativePaper &&
-                      params.misprediction == dBatchMispredictionRedo &&
-                      params.edges == dBatchEdgesOn && params.triangle_callbacks == 0;
+  collider.complete = params.trust_meshes == 0 && params.triangle_callbacks == 0 &&
+                      !config.says("iterative-paper") && !config.says("ignore") &&
+                      !config.says("backtrack") && !config.says("off");
   collider.alike = false;
   collider.id = dBatchColliderCreate(&params);
   return collider;

@@ -193,9 +193,11 @@ void SoakThread::settle() {
 void SoakThread::replace_collider() {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
-  if (once_in(3)) params.workload = dBatchWorkloadExact;
-  if (once_in(3)) params.initial_capacity = 64;
-  if (once_in(3)) params.prediction = dBatchPredictionPlain;
+  std::string config;
+  if (once_in(3)) config += "workload=exact,";
+  if (once_in(3)) config += "initial_capacity=64,";
+  if (once_in(3)) config += "prediction=plain,";
+  params.config = config.c_str();
   dBatchColliderDestroy(collider_);
   collider_ = dBatchColliderCreate(&params);
   if (mark_deformables(collider_)) ++progress_.colliders;

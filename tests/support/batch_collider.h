@@ -48,6 +48,13 @@ class BatchCollider {
   dBatchColliderID id_ = nullptr;
 };
 
+// A collider with these settings.
+inline BatchCollider::Change with(std::string config) {
+  return [config = std::move(config)](dBatchColliderParams& params) {
+    params.config = config.c_str();
+  };
+}
+
 inline std::string last_error() { return dBatchColliderGetLastErrorMessage(); }
 
 // What a collider answers for a pair alone.
