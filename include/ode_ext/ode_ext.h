@@ -98,8 +98,14 @@ ODE_EXT_API const char *dBatchConfigMeaning(int index);
     says what is wrong with it. A device may still refuse a work_group_size. */
 ODE_EXT_API int dBatchConfigCheck(const char *config);
 
+/** Sets struct_size and the defaults of a struct of that size: that of the header that the program
+    was compiled with. NULL is ignored. */
+ODE_EXT_API void dBatchColliderParamsInitSize(dBatchColliderParams *params, size_t struct_size);
+
 /** Sets struct_size and the defaults. NULL is ignored. */
-ODE_EXT_API void dBatchColliderParamsInit(dBatchColliderParams *params);
+static inline void dBatchColliderParamsInit(dBatchColliderParams *params) {
+  dBatchColliderParamsInitSize(params, sizeof(dBatchColliderParams));
+}
 
 /**
  * Creates a collider on an OpenCL 1.2 device and installs it as ODE's trimesh-trimesh collider.
@@ -350,6 +356,35 @@ ODE_EXT_API const char *dBatchCounterName(int counter);
     dBatchStageNext(s)). @return the least value above the one given, -1 after the last */
 ODE_EXT_API int dBatchStageNext(int stage);
 ODE_EXT_API int dBatchCounterNext(int counter);
+
+/** What is known of a device. */
+enum {
+  dBatchDevicePlatform = 0, /**< texts: */
+  dBatchDeviceName = 10,
+  dBatchDeviceVendor = 20,
+  dBatchDeviceType = 30, /**< "gpu", "accelerator", "cpu" or "other" */
+  dBatchDeviceDriver = 40,
+  dBatchDeviceVersion = 50, /**< of OpenCL */
+  dBatchDeviceProblem = 60, /**< why no collider can use it: a sentence's end; "": none known */
+  dBatchDeviceComputeUnits = 1000, /**< numbers: */
+  dBatchDeviceMemory = 1010,       /**< [bytes] */
+  dBatchDeviceLargestBuffer = 1020 /**< [bytes] */
+};
+
+/** Looks which OpenCL devices there are. The functions below tell of what the calling thread's last
+    call found. Needs no collider. @return how many there are, or -1 */
+ODE_EXT_API int dBatchDeviceCount(void);
+
+/** @param device  0 to dBatchDeviceCount() - 1, the number that ODE_EXT_DEVICE takes
+    @return a text of a device, valid until this thread's next dBatchDeviceCount; or NULL */
+ODE_EXT_API const char *dBatchDeviceGetText(int device, int property);
+
+/** @return a number of a device, or -1 */
+ODE_EXT_API long long dBatchDeviceGetNumber(int device, int property);
+
+/** @param selection  as ODE_EXT_DEVICE; NULL: the environment, else the default
+    @return the device that a collider would be created on, or -1: the last error says why none */
+ODE_EXT_API int dBatchDeviceChoose(const char *selection);
 
 /**
  * Describes every OpenCL device in words, one a line, and marks the one that `selection` (as

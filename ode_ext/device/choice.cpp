@@ -16,13 +16,6 @@ constexpr const char* kSyntax =
     "of "
     "a platform's or device's name";
 
-const char* type_name(cl_device_type type) {
-  if (type & CL_DEVICE_TYPE_GPU) return "gpu";
-  if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accelerator";
-  if (type & CL_DEVICE_TYPE_CPU) return "cpu";
-  return "other";
-}
-
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -84,6 +77,13 @@ auto rank(const DeviceInfo& device) {
 }
 
 }  // namespace
+
+const char* type_name(cl_device_type type) {
+  if (type & CL_DEVICE_TYPE_GPU) return "gpu";
+  if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accelerator";
+  if (type & CL_DEVICE_TYPE_CPU) return "cpu";
+  return "other";
+}
 
 std::string why_unusable(const DeviceInfo& device) {
   int major = 0, minor = 0;

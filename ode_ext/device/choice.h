@@ -16,6 +16,9 @@ struct Choice {
 
 Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& selection);
 
+// "gpu", "accelerator", "cpu" or "other".
+const char* type_name(cl_device_type type);
+
 // Why this library cannot use the device, or "" if it can.
 std::string why_unusable(const DeviceInfo& device);
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Choosing and describing devices.
+// What a program learns of the OpenCL devices.
 #include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <vector>
 
 #include "support/batch_collider.h"
 
@@ -14,121 +9,50 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kNothing = "no platform of this name::";
-
-std::string described(const char* selection = nullptr) {
-  const int size = dBatchColliderDescribeDevices(selection, nullptr, 0);
-  std::vector<char> text(static_cast<std::size_t>(size) + 1);
-  EXPECT_EQ(dBatchColliderDescribeDevices(selection, text.data(), text.size()), size);
-  return text.data();
-}
-
-std::string default_device() {
-  OdeWorld world;
-  return BatchCollider().stats().device;
-}
-
-TEST(ApiDescribeDevices, NamesTheDeviceThatACollideGets) {
-  EXPECT_THAT(described(), HasSubstr(default_device()));
-}
-
-TEST(ApiDescribeDevices, ReturnsTheWholeLengthAndTerminatesWhatFits) {
-  const std::string whole = described();
-  ASSERT_GT(whole.size(), 8u);
-  char text[8];
-  std::fill_n(text, sizeof text, '#');
-  EXPECT_EQ(dBatchColliderDescribeDevices(nullptr, text, 6), static_cast<int>(whole.size()));
-  EXPECT_EQ(std::string(text), whole.substr(0, 5));
-  EXPECT_EQ(text[6], '#');
-}
-
-TEST(ApiDescribeDevices, MarksNothingForASelectionThatMatchesNothing) {
-  EXPECT_NE(described(kNothing), described());
-  EXPECT_THAT(described(kNothing), HasSubstr(default_device()));  // still listed
-}
-
-TEST(ApiDevice, ThatMatchesNothingIsRefusedWithAListOfThoseThatExist) {
-  const std::string existing = default_device();
-  OdeWorld world;
-  dBatchColliderParams params;
-  dBatchColliderParamsInit(&params);
-  params.device = kNothing;
-  EXPECT_EQ(dBatchColliderCreate(&params), nullptr);
-  EXPECT_THAT(last_error(), HasSubstr(existing));
-  EXPECT_THAT(last_error(), HasSubstr(kNothing));
-}
-
-TEST(ApiDevice, OfTheEnvironmentThatMatchesNothingIsRefusedWithAList) {
-  const std::string existing = default_device();
-  OdeWorld world;
-  const Environment environment("ODE_EXT_DEVICE", kNothing);
-  EXPECT_EQ(dBatchColliderCreate(nullptr), nullptr);
-  EXPECT_THAT(last_error(), HasSubstr(existing));
-  EXPECT_THAT(last_error(), HasSubstr(kNothing));
-}
-
-TEST(ApiDevice, OfTheParametersGoesBeforeThatOfTheEnvironment) {
-  OdeWorld world;
-  const Environment environment("ODE_EXT_DEVICE", kNothing);
-  const BatchCollider collider([](dBatchColliderParams& p) { p.device = "0"; });
-  EXPECT_NE(collider.stats().device[0], '\0');
-}
-
-TEST(ApiDevice, IsFoundByAPartOfItsNameInEitherCase) {
-  std::string part = "::" + default_device().substr(0, 5);
-  for (char& c : part) c = static_cast<char>(std::toupper(c));
-  OdeWorld world;
-  const BatchCollider collider([&](dBatchColliderParams& p) { p.device = part.c_str(); });
-  EXPECT_NE(collider.stats().device[0], '\0');
-}
-
-TEST(ApiDevice, IndexBeyondTheLastIsRefused) {
-  OdeWorld world;
-  dBatchColliderParams params;
-  dBatchColliderParamsInit(&params);
-  params.device = "9999";
-  EXPECT_EQ(dBatchColliderCreate(&params), nullptr);
-  EXPECT_NE(last_error(), "");
-}
-
-// The loader reads OCL_ICD_VENDORS once a process, so this runs in one of its own.
-TEST(ApiDeviceDeathTest, NoPlatformAtAllIsAMessageAndNoCrash) {
-  ::testing::FLAGS_gtest_death_test_style = "threadsafe";
-  EXPECT_EXIT(
-      {
-        setenv("OCL_ICD_VENDORS", "/nonexistent", 1);
-        OdeWorld world;
-        const bool refused = dBatchColliderCreate(nullptr) == nullptr;
-        std::fprintf(stderr, "[%s]\n", dBatchColliderGetLastErrorMessage());
-        std::_Exit(refused && !last_error().empty() ? 0 : 1);
-      },
-      ::testing::ExitedWithCode(0), "OpenCL");
-}
-
-// A program whose Create failed goes on with the 0 it got.
-TEST(ApiNullCollider, CollidesAsPlainOdeDoes) {
-  OdeWorld world;
-  for (const SpaceKind kind : kSpaceKinds) {
-    const dSpaceID space = world.space(kind);
-    const Pile pile(world, space, 6, 1);
-    Collected plain, batch;
-    dSpaceCollide(space, &plain, &collect);
-    EXPECT_EQ(dBatchColliderSpaceCollide(nullptr, space, &batch, &collect), 1);
-    ASSERT_GT(plain.order.size(), 0u);
-    EXPECT_EQ(difference_with_geoms(plain, batch), "") << name_of(kind);
+TEST(ApiDevices, AreListedWithAllThatIsKnownOfThem) {
+  const int count = dBatchDeviceCount();
+  ASSERT_GT(count, 0) << last_error();
+  for (int device = 0; device < count; ++device) {
+    for (const int property : {dBatchDevicePlatform, dBatchDeviceName, dBatchDeviceVersion}) {
+      const char* text = dBatchDeviceGetText(device, property);
+      ASSERT_NE(text, nullptr) << last_error();
+      EXPECT_STRNE(text, "") << property;
+    }
+    for (const int property : {dBatchDeviceVendor, dBatchDeviceDriver, dBatchDeviceProblem})
+      EXPECT_NE(dBatchDeviceGetText(device, property), nullptr) << property;
+    EXPECT_THAT((std::vector<std::string>{"gpu", "accelerator", "cpu", "other"}),
+                ::testing::Contains(dBatchDeviceGetText(device, dBatchDeviceType)));
+    EXPECT_GT(dBatchDeviceGetNumber(device, dBatchDeviceComputeUnits), 0);
+    EXPECT_GT(dBatchDeviceGetNumber(device, dBatchDeviceMemory), 0);
+    EXPECT_GT(dBatchDeviceGetNumber(device, dBatchDeviceLargestBuffer), 0);
   }
 }
 
-TEST(ApiNullCollider, CollidesTwoSpacesAsPlainOdeDoes) {
+TEST(ApiDevices, ThatIsChosenIsTheOneACollidersNameIsOf) {
   OdeWorld world;
-  const dSpaceID s1 = world.space(SpaceKind::Hash), s2 = world.space(SpaceKind::Simple);
-  const Pile p1(world, s1, 4, 1), p2(world, s2, 4, 2);
-  Collected plain, batch;
-  const auto g1 = reinterpret_cast<dGeomID>(s1), g2 = reinterpret_cast<dGeomID>(s2);
-  dSpaceCollide2(g1, g2, &plain, &collect);
-  EXPECT_EQ(dBatchColliderSpaceCollide2(nullptr, g1, g2, &batch, &collect), 1);
-  ASSERT_GT(plain.order.size(), 0u);
-  EXPECT_EQ(difference_with_geoms(plain, batch), "");
+  const BatchCollider collider;
+  ASSERT_GT(dBatchDeviceCount(), 0);
+  const int chosen = dBatchDeviceChoose(nullptr);
+  ASSERT_GE(chosen, 0) << last_error();
+  EXPECT_STREQ(dBatchDeviceGetText(chosen, dBatchDeviceProblem), "");
+  EXPECT_THAT(dBatchColliderGetDeviceName(collider),
+              HasSubstr(dBatchDeviceGetText(chosen, dBatchDeviceName)));
+  EXPECT_EQ(dBatchDeviceChoose(std::to_string(chosen).c_str()), chosen);
+}
+
+TEST(ApiDevices, ThatDoNotExistAreRefusedWithASentence) {
+  const int count = dBatchDeviceCount();
+  for (const int device : {-1, count, 1 << 30}) {
+    EXPECT_EQ(dBatchDeviceGetText(device, dBatchDeviceName), nullptr);
+    EXPECT_THAT(last_error(), HasSubstr("there is no device " + std::to_string(device)));
+    EXPECT_EQ(dBatchDeviceGetNumber(device, dBatchDeviceMemory), -1);
+  }
+  EXPECT_EQ(dBatchDeviceGetText(0, dBatchDeviceMemory), nullptr);
+  EXPECT_THAT(last_error(), HasSubstr("a device has no text"));
+  EXPECT_EQ(dBatchDeviceGetNumber(0, dBatchDeviceName), -1);
+  EXPECT_THAT(last_error(), HasSubstr("a device has no number"));
+  EXPECT_EQ(dBatchDeviceChoose("no such device"), -1);
+  EXPECT_THAT(last_error(), HasSubstr("no OpenCL device matches"));
 }
 
 }  // namespace

@@ -32,6 +32,28 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.config, nullptr);
 }
 
+TEST(ApiParams, InitWritesNothingBeyondTheSizeItIsGiven) {
+  struct {
+    dBatchColliderParams params;
+    unsigned char behind[64];
+  } memory;
+  std::memset(&memory, 0xAB, sizeof memory);
+  constexpr std::size_t kOlder = offsetof(dBatchColliderParams, open_thickness);
+  dBatchColliderParamsInitSize(&memory.params, kOlder);
+  EXPECT_EQ(memory.params.struct_size, kOlder);
+  EXPECT_EQ(memory.params.max_contacts, 16);
+  for (std::size_t i = kOlder; i < sizeof memory; ++i)
+    ASSERT_EQ(reinterpret_cast<const unsigned char*>(&memory)[i], 0xAB) << i;
+  constexpr std::size_t kLater = sizeof(dBatchColliderParams) + 8;
+  dBatchColliderParamsInitSize(&memory.params, kLater);
+  EXPECT_EQ(memory.params.struct_size, kLater);
+  EXPECT_EQ(memory.behind[7], 0);
+  EXPECT_EQ(memory.behind[8], 0xAB);
+  // A collider of this version cannot know what a later struct asks for.
+  EXPECT_EQ(dBatchColliderCreate(&memory.params), nullptr);
+  EXPECT_THAT(last_error(), HasSubstr("struct_size"));
+}
+
 TEST(ApiParams, InitIgnoresNull) { dBatchColliderParamsInit(nullptr); }
 
 TEST(ApiCreate, TakesNullForDefaults) {
