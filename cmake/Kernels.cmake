@@ -1,36 +1,43 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Which files make up the device program, and the source that carries them in the library.
-#
-# Shared headers come first, in an order in which each needs only earlier ones; then the kernels.
 
 set(kernels_dir ${PROJECT_SOURCE_DIR}/kernels)
-file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/shared/*.h
-     ${kernels_dir}/paper/*.h ${kernels_dir}/contacts/*.h)
-file(GLOB kernels CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.cl
-     ${kernels_dir}/paper/*.cl ${kernels_dir}/contacts/*.cl)
+file(GLOB_RECURSE kernel_files CONFIGURE_DEPENDS RELATIVE ${kernels_dir} ${kernels_dir}/*.h
+     ${kernels_dir}/*.cl)
+
+# Adds a file to the program behind those it includes, which are named from kernels/ on.
+function(ode_ext_add_kernel_file file)
+  if(file IN_LIST ODE_EXT_KERNEL_FILES)
+    return()
+  endif()
+  file(STRINGS ${kernels_dir}/${file} includes REGEX "^#include \"")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" include "${include}")
+    if(NOT include IN_LIST kernel_files)
+      message(FATAL_ERROR "kernels/${file} includes ${include}, which is not in kernels/")
+    endif()
+    ode_ext_add_kernel_file(${include})
+  endforeach()
+  list(APPEND ODE_EXT_KERNEL_FILES ${file})
+  set(ODE_EXT_KERNEL_FILES ${ODE_EXT_KERNEL_FILES} PARENT_SCOPE)
+endfunction()
 
 set(ODE_EXT_KERNEL_FILES)
-foreach(header shared/types shared/scene shared/transform shared/append shared/flooded
-               shared/general_position shared/cull shared/lanes shared/ray_triangle
-               shared/ray_meshlet shared/meshlet_tree shared/nearest shared/closest shared/full_ray
-               shared/vertex_ray paper/types paper/iterative_ray paper/choose paper/cast
-               paper/note_work shared/meshlet shared/exact_sign shared/intersect contacts/types
-               contacts/fields contacts/candidate_list contacts/border contacts/cross
-               contacts/feature
-               contacts/feature_table contacts/chord contacts/mate contacts/face_table contacts/plane
-               contacts/region_fields contacts/region contacts/ways contacts/whole_region
-               contacts/units contacts/candidates shared/deform shared/moves)
-  set(header ${header}.h)
-  if(header IN_LIST headers)
-    list(APPEND ODE_EXT_KERNEL_FILES ${header})
-    list(REMOVE_ITEM headers ${header})
-  endif()
+set(kernels ${kernel_files})
+list(FILTER kernels INCLUDE REGEX "\\.cl$")
+foreach(file IN LISTS kernels)
+  ode_ext_add_kernel_file(${file})
 endforeach()
-list(REMOVE_ITEM kernels whole_step.cl)  # it calls the others
-list(APPEND ODE_EXT_KERNEL_FILES ${headers} ${kernels} whole_step.cl)
+set(unused ${kernel_files})
+list(REMOVE_ITEM unused ${ODE_EXT_KERNEL_FILES})
+if(unused)
+  message(FATAL_ERROR "no kernel includes these files of kernels/: ${unused}")
+endif()
+list(TRANSFORM kernel_files PREPEND ${kernels_dir}/ OUTPUT_VARIABLE kernel_paths)
+# What a file includes decides on the order.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${kernel_paths})
 
 set(ODE_EXT_EMBEDDED_KERNELS ${PROJECT_BINARY_DIR}/generated/embedded_kernels.cpp)
-list(TRANSFORM ODE_EXT_KERNEL_FILES PREPEND ${kernels_dir}/ OUTPUT_VARIABLE kernel_paths)
 add_custom_command(
   OUTPUT ${ODE_EXT_EMBEDDED_KERNELS}
   COMMAND ${CMAKE_COMMAND} -DOUT=${ODE_EXT_EMBEDDED_KERNELS} -DROOT=${kernels_dir}
