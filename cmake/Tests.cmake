@@ -47,7 +47,7 @@ if(test_sources)
   # A fixed seed: a run that fails must fail again. For other seeds run bin/ode_ext_tests itself.
   gtest_discover_tests(ode_ext_tests
     NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 120 ENVIRONMENT "RC_PARAMS=seed=1")
+    PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1")
 endif()
 
 # The tests of threads alone: what ThreadSanitizer is run over, in a tenth of the time that building

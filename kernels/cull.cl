@@ -38,8 +38,8 @@ static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
     const float3 middle = vload3(0, target->box_centre);
     const float3 half_size = vload3(0, target->box_half);
     // The box of the target in the frame of the source: cheaper to ask, and says less.
-    const float3 there = ox_place(pair, 1u - side, middle);
-    const float3 reach = ox_turn_extents(pair, 1u - side, half_size) + margin;
+    const float3 there = ox_transform(pair, 1u - side, middle);
+    const float3 reach = ox_rotate_extents(pair, 1u - side, half_size) + margin;
     ox_box box;
     box.lo = there - reach;
     box.hi = there + reach;
@@ -61,8 +61,8 @@ static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
           const uint k = first + ox_lowest(met);
           const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
           const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
-          const float3 d = fabs(ox_place(pair, side, 0.5f * (lo + hi)) - middle);
-          const float3 limit = ox_turn_extents(pair, side, 0.5f * (hi - lo)) + half_size + margin;
+          const float3 d = fabs(ox_transform(pair, side, 0.5f * (lo + hi)) - middle);
+          const float3 limit = ox_rotate_extents(pair, side, 0.5f * (hi - lo)) + half_size + margin;
           if (d.x > limit.x || d.y > limit.y || d.z > limit.z) continue;
           walk.child[walk.count++] = node->child[k];
         }

@@ -16,12 +16,12 @@ static bool ox_boxes_overlap(__global const ox_pair* pair, __global const ox_mes
                              __global const ox_mesh* b, float epsilon) {
   const float3 ha = vload3(0, a->box_half);
   const float3 hb = vload3(0, b->box_half);
-  const float3 d = ox_place(pair, 0u, vload3(0, a->box_centre)) - vload3(0, b->box_centre);
-  const float3 in_b = ox_turn_extents(pair, 0u, ha) + hb;
+  const float3 d = ox_transform(pair, 0u, vload3(0, a->box_centre)) - vload3(0, b->box_centre);
+  const float3 in_b = ox_rotate_extents(pair, 0u, ha) + hb;
   if (fabs(d.x) > in_b.x + epsilon || fabs(d.y) > in_b.y + epsilon || fabs(d.z) > in_b.z + epsilon)
     return false;
-  const float3 d_in_a = ox_turn(pair, 1u, d);
-  const float3 in_a = ox_turn_extents(pair, 1u, hb) + ha;
+  const float3 d_in_a = ox_rotate(pair, 1u, d);
+  const float3 in_a = ox_rotate_extents(pair, 1u, hb) + ha;
   if (fabs(d_in_a.x) > in_a.x + epsilon || fabs(d_in_a.y) > in_a.y + epsilon ||
       fabs(d_in_a.z) > in_a.z + epsilon)
     return false;

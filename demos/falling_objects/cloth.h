@@ -20,7 +20,7 @@ using ode_ext::oracle::Vector;
 // it is at the end of the step.
 struct ClothContact {
   std::uint32_t vertex = 0;
-  Vector normal;      // unit, the way out
+  Vector normal;      // unit, along which it leaves
   double offset = 0;  // [m] dot(normal, x) of a vertex on the plane
   Vector velocity;    // of what is behind the plane [m/s]
   double friction = 0;

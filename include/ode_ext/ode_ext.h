@@ -209,7 +209,7 @@ ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTri
  * (normals, exits, bounds, BVH) is made anew on the device in every pass in which vertices moved.
  * Its normals are rounded otherwise than those of a rigid mesh, so contacts may differ in their
  * last bits. An open deformable mesh is a sheet with two sides: it pushes back from either, and its
- * own vertices take the shorter way out.
+ * own vertices leave by the shorter way.
  * ODE takes the bounding box of a mesh when it is built, and never again: build a mesh that will
  * move with two vertices at the corners of a box that holds every shape it can take, put them back,
  * and call dGeomTriMeshDataUpdate (dBatchStatusMeshLeftBox says when that box was too small).

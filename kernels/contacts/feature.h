@@ -19,7 +19,7 @@ static inline uint ox_side_of(uint flags) { return flags & OX_FEATURE_SIDE; }
 static inline bool ox_is_vertex(uint flags) { return (flags & OX_FEATURE_VERTEX) != 0u; }
 
 static inline float3 ox_in_b(const ox_scene* scene, uint pair, uint side, float3 p) {
-  return side == 0u ? ox_place(scene->pairs + pair, 0u, p) : p;
+  return side == 0u ? ox_transform(scene->pairs + pair, 0u, p) : p;
 }
 
 static inline float3 ox_vertex_of(const ox_scene* scene, uint pair, uint side, uint vertex) {
@@ -28,7 +28,7 @@ static inline float3 ox_vertex_of(const ox_scene* scene, uint pair, uint side, u
 
 static inline float3 ox_normal_of(const ox_scene* scene, uint pair, uint side, uint triangle) {
   const float3 n = vload3(0, scene->surfaces.triangles[triangle].normal);
-  return side == 0u ? ox_turn(scene->pairs + pair, 0u, n) : n;
+  return side == 0u ? ox_rotate(scene->pairs + pair, 0u, n) : n;
 }
 
 // How far, at most, a corner of `other` rises over the plane of a triangle of the same mesh [m].

@@ -205,12 +205,12 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->scene.vertices + index;
-  float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
+  float3 p = ox_transform(s->pair, side, vload3(0, vertex->position));
   // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
   // larger by so much. Rays of vertices start as far out of their own mesh.
   const float out = OX_INFLATION * s->pair->epsilon;
   const bool in_larger = side != 0u && !ox_is_open(s);
-  if (!in_larger) p -= out * ox_turn(s->pair, side, vload3(0, vertex->direction));
+  if (!in_larger) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
   if (!ox_is_open(s))
     return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
            (ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
@@ -218,7 +218,7 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   if (!ox_casts_ray(vertex)) return false;
   const float3 direction = vload3(0, vertex->direction);
   ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
-  query.direction = ox_turn(s->pair, side, direction);
+  query.direction = ox_rotate(s->pair, side, direction);
   query.cast = ox_cast_from(p, query.direction);
   uint work = 0u;
   const ox_nearest nearest = ox_trace(false, &query, s->target, &s->scene.surfaces, OX_NONE, &work);
@@ -257,7 +257,7 @@ static bool ox_may_be_inside(const ox_flood_state* s, uint first) {
   }
   if (ox_is_vertex_inside(s, farthest)) return true;
   const float3 there =
-      ox_place(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
+      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
   const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
   return ox_closest_triangle(&s->scene.surfaces, s->target, there, near) != OX_NONE;
 }

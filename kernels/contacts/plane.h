@@ -178,7 +178,7 @@ static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint 
 static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, float3 direction,
                                    float limit) {
   __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
-  const float3 d = side == 0u ? ox_turn(scene->pairs + pair, 1u, direction) : direction;
+  const float3 d = side == 0u ? ox_rotate(scene->pairs + pair, 1u, direction) : direction;
   const float origin =
       side == 0u ? ox_dot(direction, vload3(0, scene->pairs[pair].offset[0])) : 0.0f;
   float farthest = -INFINITY;

@@ -17,7 +17,7 @@ static inline __global const ox_mesh* ox_target_of(const ox_region_view* r, uint
 
 // A point of the frame of B in that of the mesh which mesh `side` is in.
 static inline float3 ox_in_target(const ox_region_view* r, uint side, float3 p) {
-  return side == 0u ? p : ox_place(r->scene->pairs + r->pair, 1u, p);
+  return side == 0u ? p : ox_transform(r->scene->pairs + r->pair, 1u, p);
 }
 
 // Whether a point of mesh `side` is still inside the other where a plane takes it: another part of

@@ -41,8 +41,8 @@ static void ox_displace(__global ox_pair* pair, __global const ox_relative_pose*
   const float3 a_was =
       (float3)(ox_dot(old0, ca), ox_dot(old1, ca), ox_dot(old2, ca)) + vload3(0, before->offset[0]);
   const float3 b_was = cb.x * old0 + cb.y * old1 + cb.z * old2 + vload3(0, before->offset[1]);
-  const float3 a_moved = ox_place(pair, 0u, ca) - a_was;
-  const float3 b_moved = ox_place(pair, 1u, cb) - b_was;
+  const float3 a_moved = ox_transform(pair, 0u, ca) - a_was;
+  const float3 b_moved = ox_transform(pair, 1u, cb) - b_was;
   pair->displacement[0] = sqrt(ox_dot(a_moved, a_moved)) + angle * a->radius;
   pair->displacement[1] = sqrt(ox_dot(b_moved, b_moved)) + angle * b->radius;
 }

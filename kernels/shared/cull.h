@@ -14,9 +14,9 @@ static inline bool ox_keep_chunk(__global const ox_pair* pair, uint side,
                                  __global const ox_mesh* target, __global const ox_chunk* chunk) {
   // Inside a closed target is inside its box; under an open one is not: the ray has to reach it.
   const float reach = (target->flags & OX_MESH_CLOSED) != 0u ? 0.0f : chunk->reach;
-  const float3 middle = ox_place(pair, side, vload3(0, chunk->centre));
+  const float3 middle = ox_transform(pair, side, vload3(0, chunk->centre));
   const float3 d = fabs(middle - vload3(0, target->box_centre));
-  const float3 limit = ox_turn_extents(pair, side, vload3(0, chunk->half_size)) +
+  const float3 limit = ox_rotate_extents(pair, side, vload3(0, chunk->half_size)) +
                        vload3(0, target->box_half) + (OX_CULL_MARGIN(pair) + reach);
   return d.x <= limit.x && d.y <= limit.y && d.z <= limit.z;
 }
@@ -50,14 +50,14 @@ static inline bool ox_keep_vertex(__global const ox_pair* pair, uint side,
                                   __global const ox_mesh* meshes,
                                   __global const ox_vertex* vertex) {
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
-  const float3 p = ox_place(pair, side, vload3(0, vertex->position));
+  const float3 p = ox_transform(pair, side, vload3(0, vertex->position));
   if ((target->flags & OX_MESH_CLOSED) != 0u) {
     const float3 d = fabs(p - vload3(0, target->box_centre));
     const float3 limit = vload3(0, target->box_half) + OX_CULL_MARGIN(pair);
     return d.x <= limit.x && d.y <= limit.y && d.z <= limit.z;
   }
   if (vertex->exit == INFINITY) return false;  // its ray would never end
-  const float3 direction = ox_turn(pair, side, vload3(0, vertex->direction));
+  const float3 direction = ox_rotate(pair, side, vload3(0, vertex->direction));
   const bool both_ways = (meshes[pair->mesh[side]].flags & OX_MESH_TWO_SIDED) != 0u;
   return ox_reaches_box(target, p, direction, vertex->exit + OX_CULL_MARGIN(pair), both_ways,
                         OX_CULL_MARGIN(pair));

@@ -156,9 +156,9 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   __global const ox_mesh* source = meshes + pair->mesh[side];
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
   ox_vertex_ray ray;
-  ray.direction = ox_turn(pair, side, vload3(0, vertex->direction));
+  ray.direction = ox_rotate(pair, side, vload3(0, vertex->direction));
   ray.ahead = OX_INFLATION * pair->epsilon;
-  ray.origin = ox_place(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
+  ray.origin = ox_transform(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
   ray.epsilon = pair->epsilon;
   ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;
   ray.exit = vertex->exit;

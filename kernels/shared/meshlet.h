@@ -12,7 +12,7 @@ typedef struct {
 } ox_points;
 
 // A block of the vertices of a meshlet of the source in the frame of the target; lane by lane the
-// bits of ox_place.
+// bits of ox_transform.
 static inline void ox_place_vertices(__global const ox_pair* pair, uint side,
                                      __global const ox_meshlet* meshlet, uint block,
                                      ox_points* points) {
@@ -53,7 +53,7 @@ static inline ox_box ox_box_there(__global const ox_pair* pair, uint side,
 static inline ox_slab ox_slab_there(__global const ox_pair* pair, uint side,
                                     __global const ox_meshlet* meshlet, float margin) {
   ox_slab slab;
-  slab.normal = ox_turn(pair, side, vload3(0, meshlet->slab_normal));
+  slab.normal = ox_rotate(pair, side, vload3(0, meshlet->slab_normal));
   const float moved = ox_dot(slab.normal, vload3(0, pair->offset[side]));
   slab.lo = meshlet->slab_lo + moved - margin - 2.0f * pair->epsilon;
   slab.hi = meshlet->slab_hi + moved + margin + 2.0f * pair->epsilon;

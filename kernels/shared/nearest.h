@@ -168,7 +168,7 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
         ox_exit_through(triangles, nearest->back, reversed ? -query->direction : query->direction,
                         nearest->back_t, exit, query->epsilon);
     // The ray enters the target where it starts and leaves it where it leaves its own mesh: the
-    // surfaces run along one another on both sides. It is inside, but this is no way out.
+    // surfaces run along one another on both sides. It is inside, but no face separates it here.
     if (nearest->entered && nearest->back_t >= exit - query->epsilon)
       outcome.kind = OX_HIT_FALLBACK;
     if (reversed) outcome.kind |= OX_HIT_REVERSED;

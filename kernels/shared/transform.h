@@ -17,18 +17,18 @@ static inline float3 ox_plain_cross(float3 a, float3 b) {
 static inline float ox_max(float a, float b) { return a > b ? a : b; }
 static inline float ox_min(float a, float b) { return a < b ? a : b; }
 
-static inline float3 ox_turn(__global const ox_pair* pair, uint side, float3 v) {
+static inline float3 ox_rotate(__global const ox_pair* pair, uint side, float3 v) {
   __global const float* rotation = pair->rotation[side];
   return (float3)(ox_dot(vload3(0, rotation), v), ox_dot(vload3(1, rotation), v),
                   ox_dot(vload3(2, rotation), v));
 }
 
-static inline float3 ox_place(__global const ox_pair* pair, uint side, float3 p) {
-  return ox_turn(pair, side, p) + vload3(0, pair->offset[side]);
+static inline float3 ox_transform(__global const ox_pair* pair, uint side, float3 p) {
+  return ox_rotate(pair, side, p) + vload3(0, pair->offset[side]);
 }
 
 // Half extents of a turned box.
-static inline float3 ox_turn_extents(__global const ox_pair* pair, uint side, float3 h) {
+static inline float3 ox_rotate_extents(__global const ox_pair* pair, uint side, float3 h) {
   __global const float* rotation = pair->rotation[side];
   return (float3)(ox_dot(fabs(vload3(0, rotation)), h), ox_dot(fabs(vload3(1, rotation)), h),
                   ox_dot(fabs(vload3(2, rotation)), h));

@@ -96,11 +96,11 @@ constexpr Buffer kBuffers[] = {
     {dBatchBufferFloodWords, "flood_words"},
     {dBatchBufferContacts, "contacts"},
 };
-static_assert(std::size(kBuffers) == kArrowCount);
+static_assert(std::size(kBuffers) == kListCount);
 
 std::vector<Counter> all_counters() {
   std::vector<Counter> all(std::begin(kPlainCounters), std::end(kPlainCounters));
-  for (std::size_t i = 0; i < kArrowCount; ++i) {
+  for (std::size_t i = 0; i < kListCount; ++i) {
     const auto [value, name] = kBuffers[i];
     all.push_back({value + dBatchActual, std::string("actual_") + name,
                    [](const PassStats& s, std::size_t buffer) {
@@ -140,9 +140,9 @@ const std::vector<Counter>& counters() {
 }
 
 const WorkCount* work_of(const PassStats& stats, int stage) {
-  constexpr std::array<int, kWorkerCount> kCounted{dBatchStageVertexStep, dBatchStageIterativeRays,
-                                                   dBatchStageBvhRays, dBatchStageBasicRays,
-                                                   dBatchStageMonolithic};
+  constexpr std::array<int, kCountedKernelCount> kCounted{
+      dBatchStageVertexStep, dBatchStageIterativeRays, dBatchStageBvhRays, dBatchStageBasicRays,
+      dBatchStageMonolithic};
   for (std::size_t i = 0; i < kCounted.size(); ++i) {
     if (kCounted[i] == stage) return &stats.report.work[i];
   }

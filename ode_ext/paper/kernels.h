@@ -37,7 +37,7 @@ class Kernels {
                 cl_uint{dense}, places.first, data.lists.tasks());
   }
   // `category`: one of the lists of chunks.
-  void choose_vertices(Arrow category, Launch per_vertex, const StepData& data,
+  void choose_vertices(List category, Launch per_vertex, const StepData& data,
                        const TemporalCache& temporal, const Buffer& works) {
     data.launch(vertex_rays, per_vertex, static_cast<cl_uint>(category), data.lists.tasks(),
                 data.settings.displacement_limit, temporal.before(), temporal.now(),

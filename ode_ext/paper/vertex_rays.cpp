@@ -62,17 +62,18 @@ void VertexRays::run(StepData& data, Step& step) {
     return;
   }
   step.workload.settle_launches();
-  if (step.remembers()) run_vertices(Arrow::kChunksSmall, data, step);
-  run_vertices(Arrow::kChunks, data, step);
-  if (step.deforms) run_vertices(Arrow::kChunksDeformable, data, step);
+  if (step.remembers()) run_vertices(List::kChunksSmall, data, step);
+  run_vertices(List::kChunks, data, step);
+  if (step.deforms) run_vertices(List::kChunksDeformable, data, step);
   step.workload.settle_launches();
   if (step.remembers()) {
-    run_rays(kernels_.rays_iterative, Arrow::kRaysIterative, Worker::kIterativeRays, data, step);
+    run_rays(kernels_.rays_iterative, List::kRaysIterative, CountedKernel::kIterativeRays, data,
+             step);
     step.workload.settle_launches();  // it hands rays on to the others
   }
-  run_rays(kernels_.rays_full, Arrow::kRays, Worker::kBvhRays, data, step);
+  run_rays(kernels_.rays_full, List::kRays, CountedKernel::kBvhRays, data, step);
   if (step.deforms && options_.deformable_target == DeformableTarget::kBasic)
-    run_rays(kernels_.rays_basic, Arrow::kRaysBasic, Worker::kBasicRays, data, step);
+    run_rays(kernels_.rays_basic, List::kRaysBasic, CountedKernel::kBasicRays, data, step);
 }
 
 void VertexRays::run_dense(StepData& data, Step& step) {
@@ -81,32 +82,33 @@ void VertexRays::run_dense(StepData& data, Step& step) {
   kernels_.run_monolithic(step.workload.launch(items), data, temporal(step), places(),
                           works_.buffer());
   if (works_.is_wanted())
-    works_.take(items, step.report.work[static_cast<std::size_t>(Worker::kMonolithic)]);
+    works_.take(items, step.report.work[static_cast<std::size_t>(CountedKernel::kMonolithic)]);
 }
 
-void VertexRays::run_vertices(Arrow category, StepData& data, Step& step) {
+void VertexRays::run_vertices(List category, StepData& data, Step& step) {
   works_.reserve(OX_CHUNK_VERTICES * data.lists.capacity(category));
   kernels_.choose_vertices(category, step.workload.launch(category), data, temporal(step),
                            works_.buffer());
   if (!works_.is_wanted()) return;
   data.lists.count();
   works_.take(OX_CHUNK_VERTICES * data.lists.length(category),
-              step.report.work[static_cast<std::size_t>(Worker::kVertexStep)]);
+              step.report.work[static_cast<std::size_t>(CountedKernel::kVertexStep)]);
 }
 
-void VertexRays::run_rays(Kernel& rays, Arrow list, Worker worker, StepData& data, Step& step) {
+void VertexRays::run_rays(Kernel& rays, List list, CountedKernel kernel, StepData& data,
+                          Step& step) {
   works_.reserve(data.lists.capacity(list));
   kernels_.cast(rays, step.workload.launch(list), data, temporal(step), works_.buffer());
   if (!works_.is_wanted()) return;
   data.lists.count();
-  works_.take(data.lists.length(list), step.report.work[static_cast<std::size_t>(worker)]);
+  works_.take(data.lists.length(list), step.report.work[static_cast<std::size_t>(kernel)]);
 }
 
 void VertexRays::warm_up(Launch wide, StepData& data, const Step& step) {
   begin_run(data, step);
   works_.reserve(1);
   kernels_.list_chunks(wide, data, nothing_, false, places());
-  for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunks, Arrow::kChunksDeformable})
+  for (const List category : {List::kChunksSmall, List::kChunks, List::kChunksDeformable})
     kernels_.choose_vertices(category, wide, data, nothing_, works_.buffer());
   for (Kernel* rays : {&kernels_.rays_iterative, &kernels_.rays_full, &kernels_.rays_basic})
     kernels_.cast(*rays, wide, data, nothing_, works_.buffer());

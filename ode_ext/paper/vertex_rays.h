@@ -40,8 +40,8 @@ class VertexRays {
   DensePlaces places() const { return {dense_first_, chunks_}; }
   void place_chunks(const Step& step);
   void run_dense(StepData& data, Step& step);
-  void run_vertices(Arrow category, StepData& data, Step& step);
-  void run_rays(Kernel& rays, Arrow list, Worker worker, StepData& data, Step& step);
+  void run_vertices(List category, StepData& data, Step& step);
+  void run_rays(Kernel& rays, List list, CountedKernel kernel, StepData& data, Step& step);
 
   Device& device_;
   const ColliderOptions& options_;

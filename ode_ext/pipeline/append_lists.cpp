@@ -9,11 +9,10 @@
 namespace ode_ext {
 namespace {
 
-static_assert(static_cast<std::size_t>(Arrow::kChunksSmall) == OX_LIST_CHUNKS_SMALL &&
-              static_cast<std::size_t>(Arrow::kRaysIterative) == OX_LIST_RAYS_ITERATIVE &&
-              static_cast<std::size_t>(Arrow::kMeshletPairs) == OX_LIST_MESHLET_PAIRS &&
-              static_cast<std::size_t>(Arrow::kHits) == OX_LIST_HITS &&
-              kArrowCount == OX_LIST_COUNT);
+static_assert(static_cast<std::size_t>(List::kChunksSmall) == OX_LIST_CHUNKS_SMALL &&
+              static_cast<std::size_t>(List::kRaysIterative) == OX_LIST_RAYS_ITERATIVE &&
+              static_cast<std::size_t>(List::kMeshletPairs) == OX_LIST_MESHLET_PAIRS &&
+              static_cast<std::size_t>(List::kHits) == OX_LIST_HITS && kListCount == OX_LIST_COUNT);
 
 constexpr std::size_t kCounterBytes = OX_COUNTER_WORDS * sizeof(ox_u32);
 // That are read: those of the lists, and those of all shares together.
@@ -22,10 +21,10 @@ constexpr std::size_t kReadBytes = OX_COUNTERS_SHARES * kCounterBytes;
 // Records of each list that one of so many shares has room for. What is of no use costs no memory
 // but addresses, mostly; a pair with more is begun again, kernel by kernel, which costs twice as
 // much. All shares together have room for 2^17 crossings and as many hits: 160 MB.
-ArrowCounts room_of_a_share(std::size_t shares) {
+ListCounts room_of_a_share(std::size_t shares) {
   const std::size_t features =
       std::clamp<std::size_t>(131072 / std::max<std::size_t>(shares, 1), 1024, 32768);
-  ArrowCounts counts{};
+  ListCounts counts{};
   counts[OX_LIST_CHUNKS] = features / 4;
   counts[OX_LIST_RAYS] = features;
   counts[OX_LIST_MESHLETS] = features;
@@ -49,9 +48,9 @@ constexpr std::size_t kFeatureBytes =
     OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * sizeof(ox_f32) + 3 * sizeof(ox_u32);
 
 // What a record of each list takes in all buffers together [bytes].
-constexpr ArrowCounts kRecordBytes = [] {
-  ArrowCounts bytes{};
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+constexpr ListCounts kRecordBytes = [] {
+  ListCounts bytes{};
+  for (std::size_t i = 0; i < kListCount; ++i)
     bytes[i] = i <= OX_LIST_CHUNKS_DEFORMABLE ? sizeof(ox_chunk_task) : sizeof(ox_ray);
   bytes[OX_LIST_MESHLETS] = sizeof(ox_meshlet_task);
   bytes[OX_LIST_MESHLET_PAIRS] = sizeof(ox_meshlet_pair);
@@ -62,9 +61,9 @@ constexpr ArrowCounts kRecordBytes = [] {
   return bytes;
 }();
 
-std::uint64_t bytes_of(const ArrowCounts& counts) {
+std::uint64_t bytes_of(const ListCounts& counts) {
   std::uint64_t bytes = 0;
-  for (std::size_t i = 0; i < kArrowCount; ++i) bytes += counts[i] * kRecordBytes[i];
+  for (std::size_t i = 0; i < kListCount; ++i) bytes += counts[i] * kRecordBytes[i];
   return bytes;
 }
 
@@ -108,20 +107,20 @@ void AppendLists::keep_shares(std::size_t count) {
   counters_.reserve((OX_COUNTERS_SHARES + count) * kCounterBytes);
 }
 
-void AppendLists::reserve(const ArrowCounts& counts) {
-  ArrowCounts grown = capacities_;
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+void AppendLists::reserve(const ListCounts& counts) {
+  ListCounts grown = capacities_;
+  for (std::size_t i = 0; i < kListCount; ++i)
     if (counts[i] > grown[i])
       grown[i] = std::min(counts[i] + counts[i] / 4, std::max(kMostRecords, counts[i]));
   resize(grown);
 }
 
-void AppendLists::limit(const ArrowCounts& counts) { resize(counts); }
+void AppendLists::limit(const ListCounts& counts) { resize(counts); }
 
-ArrowCounts AppendLists::affordable(const ArrowCounts& expected) const {
+ListCounts AppendLists::affordable(const ListCounts& expected) const {
   const std::uint64_t cheap = device_->info().largest_buffer / 16;  // [bytes]
-  ArrowCounts counts{};
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+  ListCounts counts{};
+  for (std::size_t i = 0; i < kListCount; ++i)
     counts[i] = std::min(expected[i], std::max(capacities_[i], cheap / kRecordBytes[i]));
   return counts;
 }
@@ -134,8 +133,8 @@ void AppendLists::release() {
     buffer->release();
 }
 
-void AppendLists::note_use(const ArrowCounts& stored, bool is_step) {
-  for (std::size_t i = 0; i < kArrowCount; ++i) most_used_[i] = std::max(most_used_[i], stored[i]);
+void AppendLists::note_use(const ListCounts& stored, bool is_step) {
+  for (std::size_t i = 0; i < kListCount; ++i) most_used_[i] = std::max(most_used_[i], stored[i]);
   if (!is_step || ++steps_noted_ < kStepsNoted) return;
   const std::uint64_t held = bytes_of(capacities_);
   if (held > kNotWorthReleasing && held / 4 > bytes_of(most_used_)) release();
@@ -143,8 +142,8 @@ void AppendLists::note_use(const ArrowCounts& stored, bool is_step) {
   steps_noted_ = 0;
 }
 
-AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
-  const auto after = [&](Arrow first, Arrow last) {
+AppendLists::Ends AppendLists::lay_out(const ListCounts& room) {
+  const auto after = [&](List first, List last) {
     std::uint64_t end = 0;
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
       host_lists_[i] = {static_cast<ox_u32>(end), static_cast<ox_u32>(room[i])};
@@ -152,17 +151,17 @@ AppendLists::Ends AppendLists::lay_out(const ArrowCounts& room) {
     }
     return end;
   };
-  return {after(Arrow::kChunksSmall, Arrow::kChunksDeformable),
-          after(Arrow::kRaysIterative, Arrow::kRaysBasic),
-          after(Arrow::kMeshlets, Arrow::kMeshlets),
-          after(Arrow::kMeshletPairs, Arrow::kMeshletPairs),
-          after(Arrow::kHits, Arrow::kHits),
-          after(Arrow::kCrossings, Arrow::kCrossings),
-          after(Arrow::kFloodWords, Arrow::kFloodWords),
-          after(Arrow::kContacts, Arrow::kContacts)};
+  return {after(List::kChunksSmall, List::kChunksDeformable),
+          after(List::kRaysIterative, List::kRaysBasic),
+          after(List::kMeshlets, List::kMeshlets),
+          after(List::kMeshletPairs, List::kMeshletPairs),
+          after(List::kHits, List::kHits),
+          after(List::kCrossings, List::kCrossings),
+          after(List::kFloodWords, List::kFloodWords),
+          after(List::kContacts, List::kContacts)};
 }
 
-void AppendLists::resize(const ArrowCounts& capacities) {
+void AppendLists::resize(const ListCounts& capacities) {
   Ends ends = lay_out(capacities);
   const auto at_least = [&](std::uint64_t& end, std::size_t list) {
     end = std::max(end, shares_ * share_[list]);
@@ -207,8 +206,8 @@ void AppendLists::reserve_features(std::uint64_t count) {
   candidates_.reserve(words_of(count, OX_CANDIDATE_WORDS));
 }
 
-bool AppendLists::overflowed(const ArrowCounts& counts) const {
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+bool AppendLists::overflowed(const ListCounts& counts) const {
+  for (std::size_t i = 0; i < kListCount; ++i)
     if (counts[i] > capacities_[i]) return true;
   return false;
 }
@@ -218,13 +217,13 @@ std::uint64_t AppendLists::task_capacity() const {
          host_lists_[OX_LIST_CHUNKS_DEFORMABLE].capacity;
 }
 
-void AppendLists::begin(const ArrowCounts& most) {
-  ArrowCounts room{};
-  for (std::size_t i = 0; i < kArrowCount; ++i) room[i] = std::min(capacities_[i], most[i]);
+void AppendLists::begin(const ListCounts& most) {
+  ListCounts room{};
+  for (std::size_t i = 0; i < kListCount; ++i) room[i] = std::min(capacities_[i], most[i]);
   lay_out(room);
-  for (std::size_t i = 0; i < kArrowCount; ++i)
-    host_lists_[kArrowCount + i] = {0, static_cast<ox_u32>(share_[i])};
-  host_lists_[kArrowCount + OX_LIST_CONTACTS] = host_lists_[OX_LIST_CONTACTS];  // of all in common
+  for (std::size_t i = 0; i < kListCount; ++i)
+    host_lists_[kListCount + i] = {0, static_cast<ox_u32>(share_[i])};
+  host_lists_[kListCount + OX_LIST_CONTACTS] = host_lists_[OX_LIST_CONTACTS];  // of all in common
   counters_.fill_zero(kReadBytes);
   if (written_lists_ && std::memcmp(&*written_lists_, &host_lists_, sizeof(Layout)) == 0) return;
   written_lists_.reset();

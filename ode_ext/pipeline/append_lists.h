@@ -21,47 +21,45 @@ class AppendLists {
   // Room for at least so many records; a quarter more where a list has to grow, so that it rarely
   // does. Throws DeviceError where the device has no room for them: then there is none at all, and
   // what the lists held before is given back for a smaller step to take.
-  void reserve(const ArrowCounts& counts);
+  void reserve(const ListCounts& counts);
   // Room for exactly so many, whatever there was.
-  void limit(const ArrowCounts& counts);
+  void limit(const ListCounts& counts);
   // What is only expected gets room as far as it is cheap, a sixteenth of the largest buffer a list
   // (or what the list has): an expectation may be off by any factor, and what then overflows is
   // known exactly and mended.
-  ArrowCounts affordable(const ArrowCounts& expected) const;
+  ListCounts affordable(const ListCounts& expected) const;
   // Gives all room back.
   void release();
   // After each step, with what it stored, and other calls: lists that were far too large for many
   // steps are given back, so that one crowded moment is not paid for ever after.
-  void note_use(const ArrowCounts& stored, bool is_step);
-  const ArrowCounts& capacities() const { return capacities_; }
-  std::uint64_t capacity(Arrow list) const { return capacities_[static_cast<std::size_t>(list)]; }
+  void note_use(const ListCounts& stored, bool is_step);
+  const ListCounts& capacities() const { return capacities_; }
+  std::uint64_t capacity(List list) const { return capacities_[static_cast<std::size_t>(list)]; }
   // The place of a list's first record in its buffer.
-  std::uint64_t first(Arrow list) const {
-    return host_lists_[static_cast<std::size_t>(list)].first;
-  }
+  std::uint64_t first(List list) const { return host_lists_[static_cast<std::size_t>(list)].first; }
   // Beside the lists, `count` work-items have a share of their room each, for a pair at a time
   // (kernels/whole_step.cl).
   void keep_shares(std::size_t count);
   std::size_t shares() const { return shares_; }
-  bool overflowed(const ArrowCounts& counts) const;
+  bool overflowed(const ListCounts& counts) const;
   // Records of all lists of vertex chunks of this step together; their indices are below that.
   std::uint64_t task_capacity() const;
 
   // Before a step: counters at zero, lists as reserved, but none with more room than the step can
   // `most` fill, so that the places of small steps are small numbers.
-  void begin(const ArrowCounts& most);
+  void begin(const ListCounts& most);
   // The device lost its contents.
   void forget() { written_lists_.reset(); }
   // Reads all counters. Waits, for what else is to be read too.
   void count();
   // As of the last count(): what was appended, to the lists and in shares; to the lists alone; and
   // how much of that is there.
-  std::uint64_t counted(Arrow list) const { return counted(static_cast<std::size_t>(list)); }
+  std::uint64_t counted(List list) const { return counted(static_cast<std::size_t>(list)); }
   std::uint64_t counted(std::size_t counter) const {
     return appended(counter) + read_counter(OX_COUNTERS_TOTALS, counter);
   }
   std::uint64_t appended(std::size_t counter) const { return read_counter(0, counter); }
-  std::uint64_t length(Arrow list) const { return std::min(counted(list), capacity(list)); }
+  std::uint64_t length(List list) const { return std::min(counted(list), capacity(list)); }
 
   const Buffer& counters() const { return counters_; }
   const Buffer& lists() const { return lists_; }
@@ -94,20 +92,20 @@ class AppendLists {
   struct Ends {
     std::uint64_t tasks, rays, meshlets, meshlet_pairs, hits, crossings, flood_words, contacts;
   };
-  Ends lay_out(const ArrowCounts& room);
-  void resize(const ArrowCounts& capacities);
+  Ends lay_out(const ListCounts& room);
+  void resize(const ListCounts& capacities);
   void reserve_features(std::uint64_t count);
 
   Device* device_;
-  ArrowCounts capacities_{};
-  ArrowCounts most_used_{};  // in the steps noted so far
+  ListCounts capacities_{};
+  ListCounts most_used_{};  // in the steps noted so far
   int steps_noted_ = 0;
-  using Layout = std::array<ox_list, 2 * kArrowCount>;  // of the lists, and of a share of them
+  using Layout = std::array<ox_list, 2 * kListCount>;  // of the lists, and of a share of them
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
   PinnedMemory read_counters_;
   std::size_t shares_ = 0;
-  ArrowCounts share_{};  // room of one of them
+  ListCounts share_{};  // room of one of them
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,
       crossings_, flood_words_, contacts_, features_, feature_parents_, feature_slots_, regions_,
       members_, faces_, planes_, edge_planes_;

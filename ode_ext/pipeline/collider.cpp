@@ -67,7 +67,7 @@ void Collider::run(Step& step) {
   data_.pairs.upload_pairs(step.scene, workload.tile());
   if (paper_) paper_->begin_run(data_, step);
   read_ranges_.reserve(pairs * sizeof(ox_range));
-  read_contacts_.reserve(data_.lists.capacity(Arrow::kContacts) * sizeof(ox_contact));
+  read_contacts_.reserve(data_.lists.capacity(List::kContacts) * sizeof(ox_contact));
 
   const bool is_whole = workload.is_whole_step();
   const bool launches = !is_whole || workload.expects_left();
@@ -82,7 +82,7 @@ void Collider::run(Step& step) {
 void Collider::read_answer(const Step& step) {
   const std::size_t pairs = step.workload.tile().count;
   data_.pairs.ranges.read(read_ranges_.data(), pairs * sizeof(ox_range));
-  read_contacts(step.workload.predicted(Arrow::kContacts));
+  read_contacts(step.workload.predicted(List::kContacts));
   data_.lists.count();
 }
 
@@ -93,17 +93,17 @@ void Collider::launch_steps(Step& step) {
   if (options_.edges) {
     steps_.cull(workload.launch(pairs), data_);
     workload.settle_launches();
-    steps_.match(workload.launch(Arrow::kMeshlets), data_);
+    steps_.match(workload.launch(List::kMeshlets), data_);
     workload.settle_launches();
-    steps_.cross(workload.launch(Arrow::kMeshletPairs), data_);
+    steps_.cross(workload.launch(List::kMeshletPairs), data_);
   }
   if (paper_)
     paper_->run(data_, step);
   else
     launch_vertices(step);
   workload.settle_launches();
-  const Launch of_crossings = workload.launch(Arrow::kCrossings);
-  const Launch of_hits = workload.launch(Arrow::kHits);
+  const Launch of_crossings = workload.launch(List::kCrossings);
+  const Launch of_hits = workload.launch(List::kHits);
   steps_.assemble(workload.launch(pairs),
                   of_crossings.groups > of_hits.groups ? of_crossings : of_hits,
                   workload.launch_queue(pairs), data_);
@@ -115,21 +115,21 @@ void Collider::launch_vertices(Step& step) {
   steps_.flood(workload.launch_queue(2 * workload.tile().count), data_);
   workload.settle_launches();
   if (!step.floods_all) {
-    steps_.choose_vertices(workload.launch(Arrow::kChunks), data_);
+    steps_.choose_vertices(workload.launch(List::kChunks), data_);
     workload.settle_launches();
   }
-  steps_.cast(workload.launch(Arrow::kRays), data_);
+  steps_.cast(workload.launch(List::kRays), data_);
 }
 
 // At most as many as there is room for.
 void Collider::read_contacts(std::uint64_t count) {
-  const std::uint64_t room = data_.lists.capacity(Arrow::kContacts);
+  const std::uint64_t room = data_.lists.capacity(List::kContacts);
   data_.lists.contacts().read(read_contacts_.data(), std::min(count, room) * sizeof(ox_contact));
 }
 
 void Collider::read_unpredicted(const Step& step) {
-  const std::uint64_t contacts = data_.lists.length(Arrow::kContacts);
-  if (contacts <= step.workload.predicted(Arrow::kContacts)) return;
+  const std::uint64_t contacts = data_.lists.length(List::kContacts);
+  if (contacts <= step.workload.predicted(List::kContacts)) return;
   read_contacts(contacts);
   device_.finish();
 }
@@ -150,7 +150,7 @@ void Collider::deliver(Step& step) {
   append_contacts(
       step.scene, data_.meshes, tile.first,
       {static_cast<const ox_range*>(read_ranges_.data()), tile.count},
-      {static_cast<const ox_contact*>(read_contacts_.data()), lists.length(Arrow::kContacts)},
+      {static_cast<const ox_contact*>(read_contacts_.data()), lists.length(List::kContacts)},
       options_.max_contacts_deformable == 0, result_);
 }
 

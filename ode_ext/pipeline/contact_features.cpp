@@ -52,7 +52,7 @@ std::uint32_t repeated(const Mesh& built, std::uint32_t feature, std::uint64_t t
 
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word) {
   const Mesh& built = topology(meshes.mesh(mesh));
-  const MeshPlace& place = meshes.place(mesh);
+  const MeshRange& place = meshes.range(mesh);
   const std::uint32_t index = word & ((1u << OX_OF_SHIFT) - 1);
   switch (word >> OX_OF_SHIFT) {
     case OX_OF_VERTEX:

@@ -22,7 +22,7 @@ double known_depth(double depth, const Mesh& a, const Mesh& b) {
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
                               std::uint32_t triangle) {
   const Mesh& built = topology(meshes.mesh(mesh));
-  return built.source_triangle[built.bvh.order[triangle - meshes.place(mesh).triangle_first]];
+  return built.source_triangle[built.bvh.order[triangle - meshes.range(mesh).triangle_first]];
 }
 
 // One that has its position and normal with it, in the frame of the second object.
@@ -31,9 +31,9 @@ Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
   const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
   const Scene::Object& b = scene.objects[pair[1]];
   const auto vector = [](const ox_f32(&v)[3]) { return Vec3d(Vec3f{v[0], v[1], v[2]}); };
-  const Vec3d normal = b.pose.turn(vector(contact.normal));
+  const Vec3d normal = b.pose.rotate(vector(contact.normal));
   Contact result;
-  result.position = b.pose.place(vector(contact.position));
+  result.position = b.pose.transform(vector(contact.position));
   result.normal = (1.0 / length(normal)) * normal;
   result.depth =
       known_depth(static_cast<double>(contact.depth), meshes.mesh(scene.objects[pair[0]].mesh),
@@ -51,21 +51,21 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const Scene::Object& target = scene.objects[pair[1 - side]];
   const Mesh& target_mesh = meshes.mesh(target.mesh);
   if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
-  const std::uint32_t vertex = contact.vertex - meshes.place(source.mesh).vertex_first;
+  const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
   const std::uint32_t triangle =
-      topology(target_mesh).bvh.order[contact.triangle - meshes.place(target.mesh).triangle_first];
+      topology(target_mesh).bvh.order[contact.triangle - meshes.range(target.mesh).triangle_first];
 
   // Out of the target is into the source; the normal is to point into the first object.
-  const Vec3d outward = target.pose.turn(face_normal(target_mesh, triangle));
+  const Vec3d outward = target.pose.rotate(face_normal(target_mesh, triangle));
   const bool turned = (side == 0) == ((contact.side_kind & OX_HIT_REVERSED) != 0);
   Contact result;
-  result.position = source.pose.place(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+  result.position = source.pose.transform(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
   result.normal = ((turned ? -1.0 : 1.0) / length(outward)) * outward;
   // Again in double precision: bodies come to rest 1e-9 m deep, where floats would push and let go
   // by turns. What the device took for inside, to within its rounding, stays a contact.
   const Vec3d corner =
-      target.pose.turn(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
-  const Vec3d from = source.pose.turn(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+      target.pose.rotate(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
+  const Vec3d from = source.pose.rotate(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
   // Of places far from the origin the difference is exact, the sums are not.
   const Vec3d apart = (corner - from) + (target.pose.position - source.pose.position);
   const double height = dot(apart, outward) / length(outward);

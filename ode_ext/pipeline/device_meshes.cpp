@@ -197,7 +197,7 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   std::unordered_map<const Mesh*, const Mesh*> shapes_before;
   for (const auto& mesh : meshes_) shapes_before.emplace(&topology(*mesh), mesh.get());
   const MeshList before = std::exchange(meshes_, {});  // keeps them until they are appended
-  places_.clear();
+  ranges_.clear();
   owner_triangles_.clear();
   host_records_.clear();
   host_chunks_.clear();
@@ -268,7 +268,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
 
   const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
   const auto edge_first = static_cast<std::uint32_t>(host_edges_.size());
-  places_.push_back({vertex_first, record.triangle_first, edge_first});
+  ranges_.push_back({vertex_first, record.triangle_first, edge_first});
   if (mesh.deformable) {
     Deformable& deformable = deformables_[static_cast<std::uint32_t>(host_records_.size())];
     deformable.topology = append_topology(built, host_topologies_);
@@ -348,7 +348,7 @@ void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
   move.record.shape = host_records_[mesh];
   measure(shape, move.record.shape);
   move.record.mesh = mesh;
-  move.record.vertex_first = places_[mesh].vertex_first;
+  move.record.vertex_first = ranges_[mesh].vertex_first;
   move.record.vertex_count = static_cast<ox_u32>(shape.vertices.size());
   move.record.position_first = static_cast<ox_u32>(positions_.size());
   move.record.corner_first = deformable.topology.corner_first;

@@ -17,7 +17,7 @@
 namespace ode_ext {
 
 // Where the parts of a mesh start in the concatenated arrays.
-struct MeshPlace {
+struct MeshRange {
   std::uint32_t vertex_first = 0;
   std::uint32_t triangle_first = 0;
   std::uint32_t edge_first = 0;
@@ -39,7 +39,7 @@ class DeviceMeshes {
   double take_milliseconds() { return deform_.take_milliseconds(); }
 
   const Mesh& mesh(std::uint32_t i) const { return *meshes_[i]; }
-  const MeshPlace& place(std::uint32_t i) const { return places_[i]; }
+  const MeshRange& range(std::uint32_t i) const { return ranges_[i]; }
 
   // The program's index of a triangle at a vertex (the lowest); `vertex` counts over all meshes.
   std::uint32_t owner_triangle(std::uint32_t vertex) const { return owner_triangles_[vertex]; }
@@ -84,7 +84,7 @@ class DeviceMeshes {
 
   DeformStep deform_;
   MeshList meshes_;
-  std::vector<MeshPlace> places_;
+  std::vector<MeshRange> ranges_;
   std::vector<std::uint32_t> owner_triangles_;
   std::vector<ox_mesh> host_records_;
   std::vector<ox_chunk> host_chunks_;

@@ -5,13 +5,13 @@
 
 namespace ode_ext {
 
-ArrowCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
-                    double confidence) {
+ListCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
+                   double confidence) {
   double scale = confidence;
   if (rule == PredictionRule::kPairScaled && history.pairs != 0)
     scale *= static_cast<double>(pairs) / static_cast<double>(history.pairs);
-  ArrowCounts predicted{};
-  for (std::size_t i = 0; i < kArrowCount; ++i) {
+  ListCounts predicted{};
+  for (std::size_t i = 0; i < kListCount; ++i) {
     // 2^40 entries exceed every device; the limit keeps the conversion defined.
     const double value = std::ceil(static_cast<double>(history.counts[i]) * scale);
     predicted[i] = static_cast<std::uint64_t>(std::fmin(std::fmax(value, 1.0), 0x1p40));

@@ -9,7 +9,7 @@
 namespace ode_ext {
 
 // The append buffers, in the order of the pipeline. The order is public (dBatchBuffer...).
-enum class Arrow : std::size_t {
+enum class List : std::size_t {
   kChunksSmall,
   kChunks,
   kChunksDeformable,
@@ -23,22 +23,22 @@ enum class Arrow : std::size_t {
   kFloodWords,
   kContacts
 };
-inline constexpr std::size_t kArrowCount = 12;
-using ArrowCounts = std::array<std::uint64_t, kArrowCount>;
+inline constexpr std::size_t kListCount = 12;
+using ListCounts = std::array<std::uint64_t, kListCount>;
 
 enum class PredictionRule { kPairScaled, kPlain };
 
 // What the last pass of the same kind (the same space) truly produced.
 struct History {
   std::uint64_t pairs = 0;
-  ArrowCounts counts{};
-  ArrowCounts appended{};  // of those, not in shares of the lists (kernels/whole_step.cl)
+  ListCounts counts{};
+  ListCounts appended{};   // of those, not in shares of the lists (kernels/whole_step.cl)
   std::uint64_t left = 0;  // pairs that did not fit into one
 };
 
 // Eq. 1 (pair-scaled) or Eq. 2 (plain) for a pass of `pairs` pairs, rounded up; at least 1. Where
 // the last pass had no pairs Eq. 1 has no ratio to scale by, and the last counts stand as they are.
-ArrowCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
-                    double confidence);
+ListCounts predict(const History& history, std::uint64_t pairs, PredictionRule rule,
+                   double confidence);
 
 }  // namespace ode_ext

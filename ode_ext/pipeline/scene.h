@@ -18,12 +18,12 @@ struct Pose {
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool operator==(const Pose&) const = default;
 
-  Vec3d turn(Vec3d v) const {
+  Vec3d rotate(Vec3d v) const {
     const auto& r = rotation;
     return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
             r[6] * v.x + r[7] * v.y + r[8] * v.z};
   }
-  Vec3d place(Vec3d p) const { return turn(p) + position; }
+  Vec3d transform(Vec3d p) const { return rotate(p) + position; }
 };
 
 struct Scene {

@@ -39,7 +39,7 @@ std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t,
 
 }  // namespace
 
-ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
+ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
   std::uint64_t chunks = 0, vertices = 0, meshlets = 0, meshlet_pairs = 0, crossings = 0,
                 contacts = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
@@ -78,9 +78,9 @@ ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& o
           meshlets, meshlet_pairs, vertices, crossings, flood_words, contacts};
 }
 
-ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole) {
-  ArrowCounts result{};
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+ListCounts share(const ListCounts& counts, std::size_t part, std::size_t whole) {
+  ListCounts result{};
+  for (std::size_t i = 0; i < kListCount; ++i)
     result[i] = static_cast<std::uint64_t>(std::ceil(
         static_cast<double>(counts[i]) * static_cast<double>(part) / static_cast<double>(whole)));
   return result;

@@ -20,9 +20,9 @@ std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices
                                  std::size_t tile_pairs);
 
 // What a tile can append at the very most.
-ArrowCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options);
+ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options);
 
 // The share of some records that a part of the pairs has.
-ArrowCounts share(const ArrowCounts& counts, std::size_t part, std::size_t whole);
+ListCounts share(const ListCounts& counts, std::size_t part, std::size_t whole);
 
 }  // namespace ode_ext

@@ -6,9 +6,7 @@
 namespace ode_ext {
 namespace {
 
-std::uint64_t& at(ArrowCounts& counts, Arrow arrow) {
-  return counts[static_cast<std::size_t>(arrow)];
-}
+std::uint64_t& at(ListCounts& counts, List list) { return counts[static_cast<std::size_t>(list)]; }
 
 // Codes that say "too large", of which a smaller tile may be the cure.
 bool is_out_of_memory(int code) {
@@ -38,11 +36,11 @@ Workload::Workload(const ColliderOptions& options, const Device& device, AppendL
   // Without a history nothing was predicted that could be wrong.
   misprediction_ = has_history ? options.misprediction : Misprediction::kRedo;
   // Of what whole steps do the lists have the contacts alone.
-  ArrowCounts expected = report_.predicted;
+  ListCounts expected = report_.predicted;
   if (is_whole_step()) {
-    const History left = {pairs, has_history ? memory->history.appended : ArrowCounts{}};
+    const History left = {pairs, has_history ? memory->history.appended : ListCounts{}};
     expected = predict(left, pairs, PredictionRule::kPlain, options.confidence);
-    at(expected, Arrow::kContacts) = report_.predicted[static_cast<std::size_t>(Arrow::kContacts)];
+    at(expected, List::kContacts) = report_.predicted[static_cast<std::size_t>(List::kContacts)];
   }
   const std::size_t tile_pairs =
       memory != nullptr && memory->tile_pairs != 0 ? memory->tile_pairs : pairs;
@@ -57,7 +55,7 @@ bool Workload::next() {
   tiles_.pop_back();
   // A prediction may be as far off as it likes: it costs no more than the worst case would.
   most_ = most_records(scene_, tile_.tile, options_);
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+  for (std::size_t i = 0; i < kListCount; ++i)
     predicted_[i] = std::min(tile_.expected[i], most_[i]);
   if (!may_lose()) predicted_ = lists_.affordable(predicted_);
   needed_ = predicted_;
@@ -70,33 +68,33 @@ void Workload::begin_run() {
   lists_.begin(most_);
 }
 
-void Workload::reserve(const ArrowCounts& counts) {
-  ArrowCounts wanted = counts;
+void Workload::reserve(const ListCounts& counts) {
+  ListCounts wanted = counts;
   if (may_lose()) {
     lists_.limit(wanted);
     return;
   }
   // Pairs go from one category to another, and rays with them: room for all of them in either.
-  const auto share_room = [&](Arrow a, Arrow b) {
+  const auto share_room = [&](List a, List b) {
     at(wanted, a) = at(wanted, b) = at(wanted, a) + at(wanted, b);
   };
   if (remembers()) {
-    share_room(Arrow::kChunksSmall, Arrow::kChunks);
-    share_room(Arrow::kRaysIterative, Arrow::kRays);
+    share_room(List::kChunksSmall, List::kChunks);
+    share_room(List::kRaysIterative, List::kRays);
   }
   for (std::uint64_t& count : wanted) count = std::max(count, options_.initial_capacity);
   // A record takes as many words.
-  std::uint64_t& words = at(wanted, Arrow::kFloodWords);
+  std::uint64_t& words = at(wanted, List::kFloodWords);
   words = std::max(words, 16 * options_.initial_capacity);
   lists_.reserve(wanted);
 }
 
 bool Workload::is_settled() {
-  const ArrowCounts counts = stored();
+  const ListCounts counts = stored();
   if (!may_lose() && lists_.overflowed(counts)) {
     // What comes after a list that overflowed has not seen everything, so its count is only a lower
     // bound and may overflow in the next run; each run mends at least one list.
-    for (std::size_t i = 0; i < kArrowCount; ++i) needed_[i] = std::max(needed_[i], counts[i]);
+    for (std::size_t i = 0; i < kListCount; ++i) needed_[i] = std::max(needed_[i], counts[i]);
     measured_ = true;
     // To backtrack, the true counts have to be known: it is run again, for them alone.
     if (misprediction_ == Misprediction::kBacktrack)
@@ -109,8 +107,8 @@ bool Workload::is_settled() {
 }
 
 void Workload::report_tile() {
-  const ArrowCounts counts = stored();
-  for (std::size_t i = 0; i < kArrowCount; ++i) {
+  const ListCounts counts = stored();
+  for (std::size_t i = 0; i < kListCount; ++i) {
     report_.actual[i] += lists_.counted(i);
     report_.appended[i] += lists_.appended(i);
     if (may_lose() && counts[i] > lists_.capacities()[i])
@@ -158,10 +156,10 @@ Launch Workload::launch_queue(std::uint64_t items) const {
       items, std::uint64_t{device_.compute_units} * options_.work_group_size));
 }
 
-Launch Workload::launch(Arrow list) const {
+Launch Workload::launch(List list) const {
   const bool exact = options_.launches == LaunchRule::kExact;
   std::uint64_t items = exact ? lists_.counted(list) : predicted(list);
-  if (list <= Arrow::kChunksDeformable) items *= OX_CHUNK_VERTICES;
+  if (list <= List::kChunksDeformable) items *= OX_CHUNK_VERTICES;
   // A few groups for every compute unit cost nothing where there is no history yet. The paper
   // launches what is predicted, and no more.
   if (!exact && !may_lose())
@@ -181,13 +179,13 @@ void Workload::settle_launches() {
 // Of what the last run counted, what was to be stored: the monolithic organization has no lists of
 // chunks and of rays, and pairs of meshlets that are not stored are crossed at once
 // (kernels/match.cl).
-ArrowCounts Workload::stored() const {
-  ArrowCounts counts;
-  for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = lists_.appended(i);
+ListCounts Workload::stored() const {
+  ListCounts counts;
+  for (std::size_t i = 0; i < kListCount; ++i) counts[i] = lists_.appended(i);
   if (options_.organization == Organization::kMonolithic)
-    std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(Arrow::kMeshlets), 0u);
-  std::uint64_t& pairs = at(counts, Arrow::kMeshletPairs);
-  pairs = std::min(pairs, lists_.capacity(Arrow::kMeshletPairs));
+    std::fill(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(List::kMeshlets), 0u);
+  std::uint64_t& pairs = at(counts, List::kMeshletPairs);
+  pairs = std::min(pairs, lists_.capacity(List::kMeshletPairs));
   return counts;
 }
 

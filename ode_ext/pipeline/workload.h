@@ -48,7 +48,7 @@ class Workload {
   // Of one whose work-items take them one by one (shared/append.h): some for every compute unit.
   Launch launch_queue(std::uint64_t items) const;
   // Of one that takes a list.
-  Launch launch(Arrow list) const;
+  Launch launch(List list) const;
   // Whether each pair is taken through all steps at once, if it fits (kernels/whole_step.cl).
   bool is_whole_step() const { return lists_.shares() != 0; }
   // Of that: a work-item for each share of the lists.
@@ -59,18 +59,18 @@ class Workload {
   void settle_launches();
 
   // Of the tile.
-  std::uint64_t predicted(Arrow list) const { return predicted_[static_cast<std::size_t>(list)]; }
+  std::uint64_t predicted(List list) const { return predicted_[static_cast<std::size_t>(list)]; }
 
  private:
   struct ExpectedTile {
     Tile tile;
-    ArrowCounts expected;
+    ListCounts expected;
   };
 
   // Records may be lost, as the paper has it.
   bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
-  ArrowCounts stored() const;
-  void reserve(const ArrowCounts& counts);
+  ListCounts stored() const;
+  void reserve(const ListCounts& counts);
   bool remembers() const { return memory_ != nullptr && memory_->temporal != nullptr; }
 
   const ColliderOptions& options_;
@@ -82,10 +82,10 @@ class Workload {
   Misprediction misprediction_;
   std::vector<ExpectedTile> tiles_;  // to be run, the last one first
   ExpectedTile tile_{};
-  ArrowCounts most_{};       // that the tile can append
-  ArrowCounts predicted_{};  // of the tile
-  ArrowCounts needed_{};     // of its next run
-  bool measured_ = false;    // `needed_` is what a run had, not what was expected of it
+  ListCounts most_{};       // that the tile can append
+  ListCounts predicted_{};  // of the tile
+  ListCounts needed_{};     // of its next run
+  bool measured_ = false;   // `needed_` is what a run had, not what was expected of it
 };
 
 }  // namespace ode_ext

@@ -7,7 +7,7 @@ namespace ode_ext::test {
 namespace {
 
 // A block pressed 0.05 m onto a lying torus of 2 M triangles: its highest vertices are the deepest,
-// 0.05 m above the block's lower face, and the way out is up.
+// 0.05 m above the block's lower face, and the separation is up.
 TEST(ApiLargeMesh, OfTwoMillionTrianglesCollides) {
   OdeWorld world;
   const dSpaceID space = world.space(SpaceKind::Simple);

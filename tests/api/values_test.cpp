@@ -157,7 +157,7 @@ TEST_F(ApiValues, ExistWhereOneMeshIsInsideTheOther) {
 }
 
 // For shallow overlaps of convex meshes the contacts' normals and depths are the true ones:
-// libccd's shortest way out. Shallow, because a face's depth is the way out only while no side is
+// libccd's least separation. Shallow: a face's depth is the separation only while no side is
 // nearer.
 TEST_F(ApiValues, OfShallowConvexPairsAreTheShortestWayOut) {
   const TestMesh cube = make_cube(1), block = make_box({6, 6, 2});

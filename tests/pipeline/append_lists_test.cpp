@@ -9,8 +9,8 @@
 namespace ode_ext {
 namespace {
 
-ArrowCounts all(std::uint64_t count) {
-  ArrowCounts counts;
+ListCounts all(std::uint64_t count) {
+  ListCounts counts;
   counts.fill(count);
   return counts;
 }
@@ -39,7 +39,7 @@ TEST(AppendLists, GrowByAQuarterMoreThanAsked) {
 TEST(AppendLists, HaveRoomForTheFeaturesOfAllCrossingsAndHits) {
   Device device("");
   AppendLists lists(device);
-  ArrowCounts counts{};
+  ListCounts counts{};
   counts[OX_LIST_CROSSINGS] = 4000;
   counts[OX_LIST_HITS] = 8000;
   lists.reserve(counts);
@@ -59,18 +59,18 @@ TEST(AppendLists, LieBesideOneAnotherWithoutOverlap) {
   Device device("");
   AppendLists lists(device);
   lists.reserve({4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48});
-  EXPECT_EQ(lists.first(Arrow::kChunksSmall), 0u);
-  EXPECT_EQ(lists.first(Arrow::kChunks), 5u);
-  EXPECT_EQ(lists.first(Arrow::kChunksDeformable), 15u);
-  EXPECT_EQ(lists.first(Arrow::kRaysIterative), 0u);
-  EXPECT_EQ(lists.first(Arrow::kRays), 20u);
-  EXPECT_EQ(lists.first(Arrow::kRaysBasic), 45u);
-  EXPECT_EQ(lists.first(Arrow::kMeshlets), 0u);
-  EXPECT_EQ(lists.first(Arrow::kMeshletPairs), 0u);
-  EXPECT_EQ(lists.first(Arrow::kHits), 0u);
-  EXPECT_EQ(lists.first(Arrow::kCrossings), 0u);
-  EXPECT_EQ(lists.first(Arrow::kFloodWords), 0u);
-  EXPECT_EQ(lists.first(Arrow::kContacts), 0u);
+  EXPECT_EQ(lists.first(List::kChunksSmall), 0u);
+  EXPECT_EQ(lists.first(List::kChunks), 5u);
+  EXPECT_EQ(lists.first(List::kChunksDeformable), 15u);
+  EXPECT_EQ(lists.first(List::kRaysIterative), 0u);
+  EXPECT_EQ(lists.first(List::kRays), 20u);
+  EXPECT_EQ(lists.first(List::kRaysBasic), 45u);
+  EXPECT_EQ(lists.first(List::kMeshlets), 0u);
+  EXPECT_EQ(lists.first(List::kMeshletPairs), 0u);
+  EXPECT_EQ(lists.first(List::kHits), 0u);
+  EXPECT_EQ(lists.first(List::kCrossings), 0u);
+  EXPECT_EQ(lists.first(List::kFloodWords), 0u);
+  EXPECT_EQ(lists.first(List::kContacts), 0u);
 }
 
 TEST(AppendLists, KeepTheirMemoryWhileThereIsRoom) {
@@ -110,11 +110,11 @@ TEST(AppendLists, FindRoomForTheExpectedOnlyAsFarAsItIsCheap) {
   Device device("", kLargest);
   AppendLists lists(device);
   EXPECT_EQ(lists.affordable(all(100)), all(100));
-  const ArrowCounts bounded = lists.affordable(all(std::uint64_t{1} << 40));
+  const ListCounts bounded = lists.affordable(all(std::uint64_t{1} << 40));
   lists.reserve(bounded);
   EXPECT_LE(lists.candidates().capacity(), kLargest / 4);
   // Room that is there already costs nothing.
-  ArrowCounts crossings{};
+  ListCounts crossings{};
   crossings[OX_LIST_CROSSINGS] = 2000;
   lists.reserve(crossings);
   EXPECT_EQ(lists.affordable(all(2500))[OX_LIST_CROSSINGS], 2500u);
@@ -123,7 +123,7 @@ TEST(AppendLists, FindRoomForTheExpectedOnlyAsFarAsItIsCheap) {
 TEST(AppendLists, GiveBackWhatNobodyUsedForLong) {
   Device device("");
   AppendLists lists(device);
-  const ArrowCounts peak = all(1000000);
+  const ListCounts peak = all(1000000);
   lists.reserve(peak);
   lists.note_use(peak, true);
   for (int i = 0; i < 255; ++i) lists.note_use(all(1000), true);

@@ -37,7 +37,7 @@ Curves find_curves(const TestScene& scene) {
   data.meshes.set(meshes);
   data.pairs.upload_objects(scene.scene);
   data.pairs.upload_pairs(scene.scene, {0, scene.pairs.size()});
-  ArrowCounts room{};
+  ListCounts room{};
   room.fill(1u << 18);
   data.lists.reserve(room);
   data.lists.begin(data.lists.capacities());
@@ -48,8 +48,8 @@ Curves find_curves(const TestScene& scene) {
   steps.cross(launch, data);
   data.lists.count();
   EXPECT_FALSE(data.lists.overflowed([&] {
-    ArrowCounts counts{};
-    for (std::size_t i = 0; i < kArrowCount; ++i) counts[i] = data.lists.counted(i);
+    ListCounts counts{};
+    for (std::size_t i = 0; i < kListCount; ++i) counts[i] = data.lists.counted(i);
     return counts;
   }()));
   std::vector<ox_edge_crossing> crossings(data.lists.counted(std::size_t{OX_LIST_CROSSINGS}));

@@ -379,18 +379,18 @@ TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
   EXPECT_EQ(first.pairs, 100u);
   EXPECT_EQ(history.history.pairs, 100u);
   EXPECT_EQ(history.history.counts, first.actual);
-  EXPECT_EQ(first.predicted, (ArrowCounts{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(first.predicted, (ListCounts{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   collider.collide(scene.scene, &history);
   const StepReport& second = collider.report();
   EXPECT_EQ(second.actual, first.actual);
-  for (std::size_t i = 0; i < kArrowCount; ++i) {
+  for (std::size_t i = 0; i < kListCount; ++i) {
     const double expected = std::ceil(1.2 * static_cast<double>(first.actual[i]));
     EXPECT_EQ(second.predicted[i],
               std::max<std::uint64_t>(1, static_cast<std::uint64_t>(expected)));
     EXPECT_GE(second.capacity[i], second.predicted[i]);
   }
-  for (const Arrow arrow : {Arrow::kCrossings, Arrow::kRays, Arrow::kHits, Arrow::kContacts})
-    EXPECT_GT(first.actual[static_cast<std::size_t>(arrow)], 0u);
+  for (const List list : {List::kCrossings, List::kRays, List::kHits, List::kContacts})
+    EXPECT_GT(first.actual[static_cast<std::size_t>(list)], 0u);
   const double rays = second.milliseconds(Stage::kBvhRays) + second.milliseconds(Stage::kWholeStep);
   EXPECT_GT(rays, 0);
   EXPECT_GE(second.ms_total, rays);

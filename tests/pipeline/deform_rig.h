@@ -39,7 +39,7 @@ class DeformRig {
     MeshRecords records;
     meshes_.records().read(&records.mesh, sizeof(ox_mesh), i * sizeof(ox_mesh));
     device().finish();
-    read(meshes_.vertices(), records.vertices, meshes_.place(i).vertex_first,
+    read(meshes_.vertices(), records.vertices, meshes_.range(i).vertex_first,
          built.vertices.size());
     read(meshes_.triangles(), records.triangles, records.mesh.triangle_first,
          built.triangles.size());
@@ -49,7 +49,7 @@ class DeformRig {
     read(meshes_.meshlet_nodes(), records.meshlet_nodes, records.mesh.meshlet_node_first,
          built.meshlets.tree.size());
     device().finish();
-    for (ox_chunk& chunk : records.chunks) chunk.first -= meshes_.place(i).vertex_first;
+    for (ox_chunk& chunk : records.chunks) chunk.first -= meshes_.range(i).vertex_first;
     return records;
   }
 

@@ -177,7 +177,7 @@ TEST_F(DeviceFailure, LeavesNoTemporalDataHalfWritten) {
         ASSERT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected)
             << "after call " << n << " failed with " << code;
       }
-      iterative += collider.report().actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
+      iterative += collider.report().actual[static_cast<std::size_t>(List::kRaysIterative)];
     }
   }
   EXPECT_GT(iterative, 1000u);

@@ -24,7 +24,7 @@ ColliderOptions flooded() {
 }
 
 std::uint64_t hits(const Collider& collider) {
-  return collider.report().actual[static_cast<std::size_t>(Arrow::kHits)];
+  return collider.report().actual[static_cast<std::size_t>(List::kHits)];
 }
 
 class Flood : public testing::Test {
@@ -289,7 +289,7 @@ TEST_F(Flood, GrowsWhatItNeedsRoomForAtABorder) {
   const auto expected = bits_of(flood_.collide(scene.scene, nullptr));
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
   EXPECT_GT(collider.report().redone, 0);
-  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(Arrow::kChunks)], 20u);
+  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(List::kChunks)], 20u);
 }
 
 TEST_F(Flood, FindsTheVerticesInsideOfADeformableMesh) {

@@ -112,7 +112,7 @@ class InsideOracles {
   static Point in_target(const Scene& scene, std::uint32_t pair_side, Vec3f vertex) {
     const Pose& ps = scene.objects[scene.pairs[pair_side >> 1][pair_side & 1]].pose;
     const Pose& pt = scene.objects[scene.pairs[pair_side >> 1][1 - (pair_side & 1)]].pose;
-    const Vec3d d = ps.turn(Vec3d(vertex)) + (ps.position - pt.position);
+    const Vec3d d = ps.rotate(Vec3d(vertex)) + (ps.position - pt.position);
     const auto& r = pt.rotation;
     return {r[0] * d.x + r[3] * d.y + r[6] * d.z, r[1] * d.x + r[4] * d.y + r[7] * d.z,
             r[2] * d.x + r[5] * d.y + r[8] * d.z};

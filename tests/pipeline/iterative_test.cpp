@@ -19,10 +19,10 @@ ColliderOptions with_rays(Rays rays) {
 }
 
 std::uint64_t iterative(const StepReport& report) {
-  return report.actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
+  return report.actual[static_cast<std::size_t>(List::kRaysIterative)];
 }
 std::uint64_t bvh(const StepReport& report) {
-  return report.actual[static_cast<std::size_t>(Arrow::kRays)];
+  return report.actual[static_cast<std::size_t>(List::kRays)];
 }
 
 class IterativeSteps : public testing::Test {
@@ -186,7 +186,7 @@ TEST(IterativePaper, CastsInFullAgainOnceThePairHasMovedFar) {
   int in_full = 0;
   for (int i = 0; i < 60; ++i, moving.advance()) {
     paper.collide(moving.scene(), &memory);
-    if (paper.report().actual[static_cast<std::size_t>(Arrow::kChunks)] > 0) ++in_full;
+    if (paper.report().actual[static_cast<std::size_t>(List::kChunks)] > 0) ++in_full;
   }
   EXPECT_GT(in_full, 1);
   EXPECT_LT(in_full, 30);

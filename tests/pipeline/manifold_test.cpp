@@ -283,7 +283,7 @@ void expect_same_bytes(const ColliderOptions& baseline,
     Collider expected(baseline), other(others[k]);
     PassMemory memory, other_memory;
     MovingScene moving(meshes, 64, 0.003, 83);
-    constexpr auto kCrossings = static_cast<std::size_t>(Arrow::kCrossings);
+    constexpr auto kCrossings = static_cast<std::size_t>(List::kCrossings);
     std::uint64_t crossings = 0;
     for (int i = 0; i < 6; ++i, moving.advance()) {
       const Bits bits = bits_of(expected.collide(moving.scene(), &memory));
@@ -345,7 +345,7 @@ TEST(Manifolds, OfDeformableMeshesAreTheSameBytesHoweverTheyCameToTheirShape) {
   std::size_t contacts = 0;
   for (const auto& pair : expected) contacts += pair.size();
   EXPECT_GT(contacts, 50u);
-  EXPECT_GT(at_once.report().actual[static_cast<std::size_t>(Arrow::kCrossings)], 50u);
+  EXPECT_GT(at_once.report().actual[static_cast<std::size_t>(List::kCrossings)], 50u);
   PassMemory memory;
   for (const float phase : {0.0f, 1.0f, 1.9f, 2.0f}) {
     shaped(phase);
@@ -376,7 +376,7 @@ ColliderOptions whole_options(Misprediction misprediction) {
 }
 
 // All lists but this one, which is predicted at 10.
-class EdgeLists : public testing::TestWithParam<Arrow> {
+class EdgeLists : public testing::TestWithParam<List> {
  protected:
   std::uint64_t count(const StepReport& report) const {
     return report.actual[static_cast<std::size_t>(GetParam())];
@@ -424,7 +424,7 @@ TEST(MeshletPairs, ThatTheirListHasNoRoomForAreCrossedAtOnce) {
     Collider whole(whole_options(misprediction));
     const Bits expected = bits_of(whole.collide(scene.scene, nullptr));
     const StepReport report = whole.report();
-    constexpr auto kPairs = static_cast<std::size_t>(Arrow::kMeshletPairs);
+    constexpr auto kPairs = static_cast<std::size_t>(List::kMeshletPairs);
     ASSERT_GT(report.actual[kPairs], 100u);
     Collider short_of_room(tight_options(misprediction));
     PassMemory memory;
@@ -438,11 +438,11 @@ TEST(MeshletPairs, ThatTheirListHasNoRoomForAreCrossedAtOnce) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<Arrow>& info) {
-  return info.param == Arrow::kMeshlets ? "Meshlets" : "Crossings";
+std::string name_of(const testing::TestParamInfo<List>& info) {
+  return info.param == List::kMeshlets ? "Meshlets" : "Crossings";
 }
 
-INSTANTIATE_TEST_SUITE_P(Arrows, EdgeLists, testing::Values(Arrow::kMeshlets, Arrow::kCrossings),
+INSTANTIATE_TEST_SUITE_P(Lists, EdgeLists, testing::Values(List::kMeshlets, List::kCrossings),
                          name_of);
 
 }  // namespace

@@ -243,7 +243,7 @@ TEST(OclgrindPipeline, CastsIteratively) {
       std::uint64_t iterative = 0;
       for (int i = 0; i < 3; ++i, moving.advance()) {
         collider.collide(moving.scene(), &memory);
-        iterative += collider.report().actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
+        iterative += collider.report().actual[static_cast<std::size_t>(List::kRaysIterative)];
       }
       EXPECT_GT(iterative, 0u);
     }

@@ -14,8 +14,8 @@ namespace {
 
 using Bits = std::vector<std::vector<ContactBits>>;
 
-std::uint64_t count(const StepReport& report, Arrow arrow) {
-  return report.actual[static_cast<std::size_t>(arrow)];
+std::uint64_t count(const StepReport& report, List list) {
+  return report.actual[static_cast<std::size_t>(list)];
 }
 
 std::vector<TestMesh> all_meshes() {
@@ -46,13 +46,13 @@ TEST_P(Organizations, GiveTheSameBytes) {
   for (int i = 0; i < 10; ++i, moving.advance()) {
     const Bits expected = bits_of(pipelined.collide(moving.scene(), &memory));
     ASSERT_EQ(bits_of(monolithic.collide(moving.scene(), &memory_of_monolithic)), expected) << i;
-    for (const Arrow arrow :
-         {Arrow::kRaysIterative, Arrow::kRays, Arrow::kHits, Arrow::kCrossings, Arrow::kContacts})
-      EXPECT_EQ(count(monolithic.report(), arrow), count(pipelined.report(), arrow)) << i;
-    EXPECT_GT(count(pipelined.report(), Arrow::kCrossings), 1000u);
+    for (const List list :
+         {List::kRaysIterative, List::kRays, List::kHits, List::kCrossings, List::kContacts})
+      EXPECT_EQ(count(monolithic.report(), list), count(pipelined.report(), list)) << i;
+    EXPECT_GT(count(pipelined.report(), List::kCrossings), 1000u);
     EXPECT_EQ(monolithic.report().unproven, pipelined.report().unproven);
     EXPECT_EQ(monolithic.report().dropped, pipelined.report().dropped);
-    EXPECT_EQ(count(monolithic.report(), Arrow::kChunks), 0u);  // no list in between
+    EXPECT_EQ(count(monolithic.report(), List::kChunks), 0u);  // no list in between
   }
 }
 
@@ -79,11 +79,12 @@ TEST_P(Organizations, DoTheSameWork) {
     EXPECT_LE(work.units, work.lockstep32);
     EXPECT_LE(work.lockstep32, work.lockstep64);
   }
-  const WorkCount& alone = monolithic.report().work[static_cast<std::size_t>(Worker::kMonolithic)];
-  const auto items = [&](Worker worker) {
-    return pipelined.report().work[static_cast<std::size_t>(worker)].items;
+  const WorkCount& alone =
+      monolithic.report().work[static_cast<std::size_t>(CountedKernel::kMonolithic)];
+  const auto items = [&](CountedKernel kernel) {
+    return pipelined.report().work[static_cast<std::size_t>(kernel)].items;
   };
-  const auto chosen_from = items(Worker::kVertexStep);
+  const auto chosen_from = items(CountedKernel::kVertexStep);
   // One unit each for the vertices that only the monolithic kernel looks at, to find them dropped.
   EXPECT_EQ(alone.units - (alone.items - chosen_from), sum.units);
   EXPECT_GT(alone.lockstep32, sum.lockstep32);
@@ -175,7 +176,7 @@ TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
   EXPECT_EQ(found.ranges.size(), 40u);
   std::uint64_t missed = 0;
   const StepReport& report = ignoring.report();
-  for (std::size_t i = 0; i < kArrowCount; ++i)
+  for (std::size_t i = 0; i < kListCount; ++i)
     if (report.actual[i] > report.predicted[i]) missed += report.actual[i] - report.predicted[i];
   EXPECT_EQ(report.missed, missed);
   EXPECT_GT(missed, 0u);
@@ -197,7 +198,7 @@ TEST(Misprediction, IsOfNoListThatTheMonolithicOrganizationDoesNotHave) {
   moving.scene().pairs.resize(12);
   collider.collide(moving.scene(), &memory);
   moving.scene().pairs = all;
-  memory.history.counts[static_cast<std::size_t>(Arrow::kRays)] = 1;  // of a list that it lacks
+  memory.history.counts[static_cast<std::size_t>(List::kRays)] = 1;  // of a list that it lacks
   EXPECT_EQ(bits_of(collider.collide(moving.scene(), &memory)),
             bits_of(whole.collide(moving.scene(), nullptr)));
   EXPECT_EQ(collider.report().missed, 0u);

@@ -131,11 +131,11 @@ class Rig {
 
   // The index within its own mesh of a vertex or triangle of all.
   std::uint32_t local_vertex(std::uint32_t mesh, std::uint32_t vertex) const {
-    return vertex - data_.meshes.place(mesh).vertex_first;
+    return vertex - data_.meshes.range(mesh).vertex_first;
   }
   std::uint32_t local_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
     return topology(data_.meshes.mesh(mesh))
-        .bvh.order[triangle - data_.meshes.place(mesh).triangle_first];
+        .bvh.order[triangle - data_.meshes.range(mesh).triangle_first];
   }
 
  private:
@@ -163,7 +163,7 @@ class Rig {
 
   void run_vertices(Launch launch) {
     list_chunks(launch, false);
-    for (const Arrow category : {Arrow::kChunksSmall, Arrow::kChunks, Arrow::kChunksDeformable})
+    for (const List category : {List::kChunksSmall, List::kChunks, List::kChunksDeformable})
       paper_.choose_vertices(category, launch, data_, temporal_, works_);
     for (Kernel* rays : {&paper_.rays_iterative, &paper_.rays_full, &paper_.rays_basic})
       paper_.cast(*rays, launch, data_, temporal_, works_);
@@ -193,7 +193,7 @@ class Rig {
   // Whether the search found more than there was room for, which there now is.
   bool grow_for_search() {
     data_.lists.count();
-    ArrowCounts needed{};
+    ListCounts needed{};
     for (const ox_u32 list :
          {OX_LIST_MESHLETS, OX_LIST_MESHLET_PAIRS, OX_LIST_CROSSINGS, OX_LIST_FLOOD_WORDS})
       needed[list] = data_.lists.counted(std::size_t{list});
@@ -243,15 +243,15 @@ class Rig {
     data_.lists.count();
     const auto& [meshes, pairs, lists, settings] = data_;
     const auto counter = [&](std::size_t i) { return data_.lists.counted(i); };
-    for (std::size_t i = 0; i < kArrowCount; ++i)
+    for (std::size_t i = 0; i < kListCount; ++i)
       if (counter(i) > lists.capacities()[i]) throw std::runtime_error("a list overflowed");
     StepRecords records;
     records.bounded = static_cast<std::uint32_t>(counter(OX_COUNTER_BOUNDED));
     read(pairs.pairs, 0, records.pairs, pairs.count);
-    for (const Arrow list : {Arrow::kChunksSmall, Arrow::kChunks, Arrow::kChunksDeformable})
+    for (const List list : {List::kChunksSmall, List::kChunks, List::kChunksDeformable})
       read(lists.tasks(), lists.first(list), records.tasks,
            counter(static_cast<std::size_t>(list)));
-    for (const Arrow list : {Arrow::kRaysIterative, Arrow::kRays, Arrow::kRaysBasic})
+    for (const List list : {List::kRaysIterative, List::kRays, List::kRaysBasic})
       read(lists.rays(), lists.first(list), records.rays, counter(static_cast<std::size_t>(list)));
     read(lists.hits(), 0, records.hits, counter(OX_LIST_HITS));
     read(pairs.found, 0, records.found, pairs.count);

@@ -199,10 +199,10 @@ TEST(Deformables, GiveTheSameBytesInEveryMode) {
     for (int i = 0; i < 8; ++i, moving.advance()) {
       const Bits expected = bits_of(full.collide(moving.scene(), nullptr));
       ASSERT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected) << mode.name << i;
-      const ArrowCounts& actual = collider.report().actual;
-      iterative += actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
-      basic += actual[static_cast<std::size_t>(Arrow::kRaysBasic)];
-      small += actual[static_cast<std::size_t>(Arrow::kChunksDeformable)];
+      const ListCounts& actual = collider.report().actual;
+      iterative += actual[static_cast<std::size_t>(List::kRaysIterative)];
+      basic += actual[static_cast<std::size_t>(List::kRaysBasic)];
+      small += actual[static_cast<std::size_t>(List::kChunksDeformable)];
       for (const auto& pair : expected) contacts += pair.size();
     }
     EXPECT_GT(contacts, 1000u);
@@ -221,8 +221,8 @@ TEST(Deformables, AreDroppedWithoutTemporalDataInThePapersMode) {
   for (int i = 0; i < 20; ++i, moving.advance()) {
     paper.collide(moving.scene(), &memory);
     dropped += paper.report().dropped;
-    iterative += paper.report().actual[static_cast<std::size_t>(Arrow::kRaysIterative)];
-    if (i > 0) in_full += paper.report().actual[static_cast<std::size_t>(Arrow::kRaysBasic)];
+    iterative += paper.report().actual[static_cast<std::size_t>(List::kRaysIterative)];
+    if (i > 0) in_full += paper.report().actual[static_cast<std::size_t>(List::kRaysBasic)];
   }
   EXPECT_GT(dropped, 100u);
   EXPECT_GT(iterative, 100u);

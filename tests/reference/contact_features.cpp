@@ -24,7 +24,7 @@ class Sets {
     while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
     return i;
   }
-  // The lowest speaks for all.
+  // The lowest represents all.
   void join(std::size_t i, std::size_t j) {
     i = find(i), j = find(j);
     parents_[std::max(i, j)] = std::min(i, j);

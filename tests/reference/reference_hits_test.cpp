@@ -84,7 +84,7 @@ TEST(ReferenceHits, OfSphereInSphereHaveTheDepthOfTheLens) {
   for (const ReferenceHit& hit : hits) {
     const double radius = distance(hit.position, hit.side == 0 ? centre : Point{});
     ASSERT_LT(radius, 1);
-    // Measured along the facet's normal the way out may be longer than along the radius: the ray
+    // Measured along the facet's normal the separation may be longer than along the radius: the ray
     // leaves up to the lens' half width (acos 0.9 = 0.45 rad) to the side.
     EXPECT_GE(hit.depth, 1 - radius - 2 * sagitta);
     EXPECT_LE(hit.depth, 0.2 + kTight);

@@ -8,7 +8,7 @@ namespace ode_ext::test {
 
 struct ConvexPenetration {
   bool overlap = false;
-  double depth = 0;   // [m] the shortest way out, to kEpaTolerance
+  double depth = 0;   // [m] the least separation, to kEpaTolerance
   Point direction{};  // unit, world: moving a by depth * direction separates the two
 };
 

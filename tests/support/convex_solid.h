@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The shortest way out of each other of two convex polyhedra, exactly: it is along the normal of a
+// The least separation of each other of two convex polyhedra, exactly: it is along the normal of a
 // face of their Minkowski difference, and each of these belongs to a face of one of the two or to
 // an edge of either. All are tried.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs of convex meshes whose shortest way out of each other is known.
+// Pairs of convex meshes whose least separation of each other is known.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ bool is_askew(const dContactGeom& contact, const test::Point& truth);
 
 struct KnownPair {
   test::GeomPair geoms;
-  test::Point direction;  // unit, world: the way out of the first geom
+  test::Point direction;  // unit, world: the separation of the first geom
   double depth;           // [m]
 };
 
@@ -29,13 +29,13 @@ struct Body {
   test::ConvexSolid solid;
 };
 
-// `a` over `b`, a's way out being `out`. For every other pair (`b_first`) the geoms are exchanged
+// `a` over `b`, separated along `out`. For every other pair (`b_first`) the geoms are exchanged
 // and the direction with them, so that neither order is favoured.
 KnownPair make_known_pair(test::OdeWorld& world, const Body& a, const test::TestPose& pa,
                           const Body& b, const test::TestPose& pb, const test::WayOut& out,
                           bool b_first);
 
-// Whether the claimed way out is the shortest, by all separating axes: within 1e-4 of the depth and
+// Whether the claimed separation is the least, by all separating axes: within 1e-4 of the depth and
 // a hundredth of a degree. Float vertices are off by 1e-7 of the size.
 bool is_shortest(const test::WayOut& claimed, const Body& a, const test::TestPose& pa,
                  const Body& b, const test::TestPose& pb);

@@ -10,7 +10,7 @@
 //           by 10 mm, that being how deep the foremost corner is.
 //
 // In both it is anywhere along the rim and turned about the vertical by up to 20 degrees. What the
-// shortest way out really is, is asked of all separating axes; where it is another (edge on, over
+// least separation really is, is asked of all separating axes; where it is another (edge on, over
 // an end of the rim, where the end of the plate is the shorter way) the place is drawn again.
 #include <cmath>
 #include <numbers>

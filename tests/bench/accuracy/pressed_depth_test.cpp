@@ -10,7 +10,7 @@ namespace ode_ext::accuracy {
 namespace {
 
 // Where a rim of many short edges bites into an edge, no place where the surfaces cross is where
-// the bodies are deepest, and a contact made there alone says a sixth of the way out.
+// the bodies are deepest, and a contact made there alone says a sixth of the separation.
 TEST(PressedDepth, IsNowhereLessThanHalfTheShortestWayOut) {
   test::OdeWorld world;
   const Body cone(world, test::make_cone(0.5, 1, 16)), cube(world, test::make_cube(1));

@@ -12,7 +12,7 @@ struct PressedPair {
   double size;       // [m] of the smaller
 };
 
-// A random direction is drawn, and `a` comes along it until its shortest way out is `share` of the
+// A random direction is drawn, and `a` comes along it until its least separation is `share` of the
 // smaller one's size, within a thousandth.
 PressedPair press_together(const Body& a, const Body& b, double share, test::Random& random);
 

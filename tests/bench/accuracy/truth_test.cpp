@@ -35,7 +35,7 @@ test::TestMesh mesh_of(dGeomID geom) {
   return mesh;
 }
 
-// One contact per pair, the shortest way out of convex meshes, changed as the test wants.
+// One contact per pair, the least separation of convex meshes, changed as the test wants.
 class Oracle : public Contestant {
  public:
   using Change = void (*)(test::Contacts&);
