@@ -28,6 +28,7 @@ class MeshReader {
  private:
   std::size_t triangle_count() const;
 
+  dTriMeshDataID data_;
   dGeomID geom_;
 };
 
