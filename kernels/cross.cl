@@ -4,17 +4,31 @@
 //
 // in    meshlet_pairs, pairs, meshes, meshlets
 // out   crossings; found: those of each side that is flooded, one after the other
-// item  1 pair of meshlets (grid-stride); an edge against sixteen triangles at a time
+// item  1 pair of meshlets (grid-stride), an edge against a vector of triangles at a time; with
+//       OX_LANES_ARE_ITEMS one block of lanes (shared/lanes.h) of one of its sides: on a GPU one
+//       triangle against the edges of the other meshlet, its neighbours beside it
 // may overflow: OX_LIST_CROSSINGS
 #include "contacts/cross.h"
 
 static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair* meshlet_pairs,
                            __global ox_edge_crossing* crossings) {
   const uint count = ox_length(scene, OX_LIST_MESHLET_PAIRS);
+#ifdef OX_LANES_ARE_ITEMS
+  const uint per_pair = 2u * OX_BLOCKS;
+  const ulong items = (ulong)count * per_pair;
+  for (ulong i = scene->item; i < items; i += scene->item_count) {
+    const ox_meshlet_pair both = meshlet_pairs[i / per_pair];
+    const uint side = (uint)(i / OX_BLOCKS) % 2u;
+    const uint block = (uint)(i % OX_BLOCKS);
+    const ox_block_range blocks = {block, block + 1u};
+    ox_cross_sides(scene, crossings, &both, side, side + 1u, blocks);
+  }
+#else
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_meshlet_pair both = meshlet_pairs[i];
     ox_cross_meshlets(scene, crossings, &both);
   }
+#endif
 }
 
 __kernel void cross_meshlets(OX_SCENE_PARAMETERS, __global const ox_meshlet_pair* meshlet_pairs,

@@ -103,14 +103,15 @@ static inline uint ox_ends_of_near_edges(__global const ox_meshlet* source,
   return ends;
 }
 
-// Where the edges of the source cross the triangles of the target, `target_points` in general
-// position.
+// Where the edges of the source cross the triangles of the target, those of some blocks of its
+// lanes; both in general position.
 static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
                                      __global const ox_pair* pair,
                                      __global const ox_meshlet* source,
                                      const ox_general_points* points,
                                      __global const ox_meshlet* target,
-                                     const ox_general_points* target_points) {
+                                     const ox_general_points* target_points,
+                                     ox_block_range blocks) {
   uint asked = ox_ends_of_near_edges(source, points);
   if (asked == 0u) return;
   __global const ox_mesh* meshes = fresh->scene->meshes;
@@ -119,14 +120,14 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
           ? OX_NEW_FLOODED
           : 0u;
   ox_general_triangles triangles;
-  ox_gather_triangles(pair, 1u - side, target, target_points, &triangles);
+  ox_gather_triangles(pair, 1u - side, target, target_points, blocks, &triangles);
   const ox_general_triangles* t = &triangles;
   ox_general_planes planes;
-  ox_make_planes(t, &planes);
+  ox_make_planes(t, blocks, &planes);
   ox_heights heights[OX_LANES];
   for (; asked != 0u; asked &= asked - 1u) {
     const uint v = ox_lowest(asked);
-    heights[v] = ox_heights_over(t, &planes, ox_general_point(points, v));
+    heights[v] = ox_heights_over(t, &planes, blocks, ox_general_point(points, v));
   }
   const uint present = (1u << target->triangle_count) - 1u;
   for (uint e = 0u; e < source->edge_count; ++e) {
@@ -138,7 +139,7 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
     if (asked_of == 0u) continue;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);
-    const ox_passes passes = ox_passes_of(t, from, to - from);
+    const ox_passes passes = ox_passes_of(t, blocks, from, to - from);
     const uint out = heights[q].above;  // where that is sure
     const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));
     uint met = asked_of &
@@ -159,14 +160,24 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
   }
 }
 
-// The edges of either meshlet against the triangles of the other.
-static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                     const ox_meshlet_pair* both) {
+// Two meshlets of a pair, in general position.
+typedef struct {
+  __global const ox_pair* pair;
+  __global const ox_meshlet* meshlet[2];
+  ox_general_points points[2];
+} ox_placed_meshlets;
+
+// False: they lie apart.
+static inline bool ox_place_meshlets(const ox_scene* scene, const ox_meshlet_pair* both,
+                                     ox_placed_meshlets* placed) {
   __global const ox_pair* pair = scene->pairs + both->pair;
   __global const ox_meshlet* a = scene->surfaces.meshlets + both->meshlet[0];
   __global const ox_meshlet* b = scene->surfaces.meshlets + both->meshlet[1];
-  ox_general_points points_a, points_b;
-  ox_place_generally(pair, 0u, a, &points_a);
+  placed->pair = pair;
+  placed->meshlet[0] = a;
+  placed->meshlet[1] = b;
+  ox_general_points* points = placed->points;
+  ox_place_generally(pair, 0u, a, &points[0]);
   ox_box box;
   box.lo = vload3(0, b->lo) - pair->epsilon;  // the grid moves them by less
   box.hi = vload3(0, b->hi) + pair->epsilon;
@@ -174,19 +185,35 @@ static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_cro
   slab.normal = vload3(0, b->slab_normal);
   slab.lo = b->slab_lo - 2.0f * pair->epsilon;
   slab.hi = b->slab_hi + 2.0f * pair->epsilon;
-  if (!ox_note_beyond(&points_a, &box, &slab)) return;
-  ox_place_generally(pair, 1u, b, &points_b);
-  box = ox_box_of_points(&points_a);
+  if (!ox_note_beyond(&points[0], &box, &slab)) return false;
+  ox_place_generally(pair, 1u, b, &points[1]);
+  box = ox_box_of_points(&points[0]);
   slab = ox_slab_there(pair, 0u, a, pair->margin);
-  if (!ox_note_beyond(&points_b, &box, &slab)) return;
+  return ox_note_beyond(&points[1], &box, &slab);
+}
+
+// The edges of the meshlets of `sides` of two against the triangles of the other one, those of some
+// blocks of its lanes.
+static inline void ox_cross_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                                  const ox_meshlet_pair* both, uint first_side, uint end_side,
+                                  ox_block_range blocks) {
+  ox_placed_meshlets placed;
+  if (!ox_place_meshlets(scene, both, &placed)) return;
   ox_new_crossings fresh;
   fresh.scene = scene;
   fresh.crossings = crossings;
   fresh.pair = both->pair;
   fresh.count = 0u;
-  ox_intersect_side(&fresh, 0u, pair, a, &points_a, b, &points_b);
-  ox_intersect_side(&fresh, 1u, pair, b, &points_b, a, &points_a);
+  for (uint side = first_side; side < end_side; ++side)
+    ox_intersect_side(&fresh, side, placed.pair, placed.meshlet[side], &placed.points[side],
+                      placed.meshlet[1u - side], &placed.points[1u - side], blocks);
   ox_store_crossings(&fresh);
+}
+
+// The edges of either meshlet against the triangles of the other, by one work-item.
+static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                                     const ox_meshlet_pair* both) {
+  ox_cross_sides(scene, crossings, both, 0u, 2u, OX_ALL_BLOCKS);
 }
 
 #endif

@@ -92,17 +92,18 @@ static inline bool ox_note_beyond(ox_general_points* p, const ox_box* box, const
 // Of B: their own corners on the grid. Of A: those among its vertices in general position.
 static inline void ox_gather_triangles(__global const ox_pair* pair, uint side,
                                        __global const ox_meshlet* meshlet,
-                                       const ox_general_points* p, ox_general_triangles* t) {
+                                       const ox_general_points* p, ox_block_range blocks,
+                                       ox_general_triangles* t) {
   if (side != 0u) {
     const float snap = pair->snap;
-    for (uint block = 0u; block < OX_BLOCKS; ++block)
+    for (uint block = blocks.first; block < blocks.end; ++block)
       for (uint corner = 0u; corner < 3u; ++corner)
         for (uint axis = 0u; axis < 3u; ++axis)
           ox_store(ox_load(block, meshlet->corner[corner][axis]) + snap - snap, block,
                    t->corner[corner][axis]);
     return;
   }
-  for (uint k = 0u; k < OX_LANES; ++k)
+  for (uint k = OX_VECTOR_WIDTH * blocks.first; k < OX_VECTOR_WIDTH * blocks.end; ++k)
     for (uint corner = 0u; corner < 3u; ++corner) {
       const uint v = k < meshlet->triangle_count ? OX_CORNER(meshlet->places, k, corner) : 0u;
       t->corner[corner][0][k] = p->x[v];
@@ -115,7 +116,8 @@ static inline float3 ox_general_corner(const ox_general_triangles* t, uint corne
   return (float3)(t->corner[corner][0][k], t->corner[corner][1][k], t->corner[corner][2][k]);
 }
 
-// Of a point, a bit for each triangle: whether it is above its plane, and whether that is in doubt.
+// Of a point, a bit for each triangle of the blocks: whether it is above its plane, and whether
+// that is in doubt.
 typedef struct {
   uint above, doubt;
 } ox_heights;
@@ -129,8 +131,9 @@ typedef struct {
   float doubt[OX_LANES];
 } ox_general_planes;
 
-static inline void ox_make_planes(const ox_general_triangles* t, ox_general_planes* planes) {
-  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+static inline void ox_make_planes(const ox_general_triangles* t, ox_block_range blocks,
+                                  ox_general_planes* planes) {
+  for (uint block = blocks.first; block < blocks.end; ++block) {
     const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]);
     const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]);
     const ox_floats az = ox_load_unaligned(block, t->corner[0][2]);
@@ -149,9 +152,10 @@ static inline void ox_make_planes(const ox_general_triangles* t, ox_general_plan
 }
 
 static inline ox_heights ox_heights_over(const ox_general_triangles* t,
-                                         const ox_general_planes* planes, float3 p) {
+                                         const ox_general_planes* planes, ox_block_range blocks,
+                                         float3 p) {
   ox_heights heights = {0u, 0u};
-  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+  for (uint block = blocks.first; block < blocks.end; ++block) {
     const ox_floats x = p.x - ox_load_unaligned(block, t->corner[0][0]);
     const ox_floats y = p.y - ox_load_unaligned(block, t->corner[0][1]);
     const ox_floats z = p.z - ox_load_unaligned(block, t->corner[0][2]);
@@ -167,16 +171,17 @@ static inline ox_heights ox_heights_over(const ox_general_triangles* t,
   return heights;
 }
 
-// How the line from p along d passes triangles, a bit for each: with all edges on its left, or on
-// its right, surely, or perhaps.
+// How the line from p along d passes triangles of the blocks, a bit for each: with all edges on its
+// left, or on its right, surely, or perhaps.
 typedef struct {
   uint left, right, perhaps_left, perhaps_right;
 } ox_passes;
 
-static inline ox_passes ox_passes_of(const ox_general_triangles* t, float3 p, float3 d) {
+static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_range blocks, float3 p,
+                                     float3 d) {
   ox_passes passes = {0u, 0u, 0u, 0u};
   const float size = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z);
-  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+  for (uint block = blocks.first; block < blocks.end; ++block) {
     const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]) - p.x;
     const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]) - p.y;
     const ox_floats az = ox_load_unaligned(block, t->corner[0][2]) - p.z;

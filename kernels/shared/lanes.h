@@ -15,6 +15,13 @@
 
 #define OX_BLOCKS (OX_LANES / OX_VECTOR_WIDTH)
 
+// The blocks that a work-item takes, from `first` up to `end`: on a processor all of them; on a
+// GPU, where a lane is a work-item, one. Masks then have bits of these alone.
+typedef struct {
+  uint first, end;
+} ox_block_range;
+#define OX_ALL_BLOCKS ((ox_block_range){0u, OX_BLOCKS})
+
 // Values go to functions by address: by value their convention changes with what the CPU has.
 #if OX_VECTOR_WIDTH == 16
 typedef float16 ox_floats;

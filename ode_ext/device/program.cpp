@@ -36,20 +36,19 @@ std::string build_log(cl_program program, cl_device_id device) {
   return code == CL_SUCCESS ? log.c_str() : "(the driver does not give it)";
 }
 
-// The widest that shared/lanes.h knows and the device takes at once.
-unsigned vector_width(const DeviceInfo& device) {
+std::string with_vector_width(const DeviceInfo& device, const std::string& options) {
+  const char* const macro = "-DOX_VECTOR_WIDTH=";
+  if (options.find(macro) != std::string::npos) return options;
+  return options + " " + macro + std::to_string(suitable_vector_width(device));
+}
+
+}  // namespace
+
+unsigned suitable_vector_width(const DeviceInfo& device) {
   for (const unsigned width : {16u, 8u, 4u})
     if (device.vector_width >= width) return width;
   return 1;
 }
-
-std::string with_vector_width(const DeviceInfo& device, const std::string& options) {
-  const char* const macro = "-DOX_VECTOR_WIDTH=";
-  if (options.find(macro) != std::string::npos) return options;
-  return options + " " + macro + std::to_string(vector_width(device));
-}
-
-}  // namespace
 
 std::string embedded_source() {
   std::string source;

@@ -12,6 +12,9 @@
 
 namespace ode_ext {
 
+// Of the widths that shared/lanes.h knows the widest that the device takes at once.
+unsigned suitable_vector_width(const DeviceInfo& device);
+
 class Program {
  public:
   // Builds all files of kernels/ (headers first, then *.cl, each preceded by a #line that names it)

@@ -4,11 +4,11 @@
 
 #include <optional>
 
-#include "device/buffer.h"
 #include "device/program.h"
 #include "paper/vertex_rays.h"
 #include "pipeline/options.h"
 #include "pipeline/pass_memory.h"
+#include "pipeline/read_back.h"
 #include "pipeline/scene.h"
 #include "pipeline/step.h"
 #include "pipeline/step_data.h"
@@ -36,10 +36,6 @@ class Collider {
   void collide_tile(Step& step);
   void run(Step& step);
   void launch_steps(Step& step);
-  void launch_vertices(Step& step);
-  void read_answer(const Step& step);
-  void read_contacts(std::uint64_t count);
-  void read_unpredicted(const Step& step);
   void deliver(Step& step);
   void forget_uploads();
   void drop(Step& step);
@@ -53,7 +49,7 @@ class Collider {
   Steps steps_;
   StepData data_;
   std::optional<paper::VertexRays> paper_;  // where options ask for it
-  PinnedMemory read_ranges_, read_contacts_;
+  ReadBack read_back_;
   PairContacts result_;
   StepReport report_;
 };

@@ -21,10 +21,24 @@ StepSettings settings_of(const ColliderOptions& options) {
   return settings;
 }
 
+bool lanes_are_items(const ColliderOptions& options, const DeviceInfo& device) {
+  if (options.lanes == Lanes::kOfDevice) return (device.type & CL_DEVICE_TYPE_CPU) == 0;
+  return options.lanes == Lanes::kItems;
+}
+
+// How many work-items look at two meshlets: those of a block of lanes of either side.
+std::uint32_t items_per_meshlet_pair(const ColliderOptions& options, const DeviceInfo& device) {
+  if (!lanes_are_items(options, device)) return 1;
+  const unsigned width =
+      options.vector_width != 0 ? options.vector_width : suitable_vector_width(device);
+  return 2 * OX_LANES / width;
+}
+
 std::string program_options(const ColliderOptions& options, const DeviceInfo& device) {
   std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
   if (options.vector_width != 0)
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
   if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   return text;
@@ -36,10 +50,10 @@ Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer),
       program_(device_, program_options(options, device_.info())),
-      steps_(program_, may_run_whole(options_, device_.info())),
+      steps_(program_, may_run_whole(options_, device_.info()),
+             items_per_meshlet_pair(options_, device_.info())),
       data_(program_),
-      read_ranges_(device_),
-      read_contacts_(device_) {
+      read_back_(device_) {
   data_.settings = settings_of(options);
   if (follows_paper(options_)) paper_.emplace(program_, options_);
   if (may_run_whole(options_, device_.info()))

@@ -10,6 +10,8 @@ namespace ode_ext {
 struct Launch {
   std::size_t groups;
   std::size_t local;  // work-items per group; explicit, since PoCL compiles a kernel anew for each
+
+  friend bool operator<(const Launch& a, const Launch& b) { return a.groups < b.groups; }
 };
 
 }  // namespace ode_ext

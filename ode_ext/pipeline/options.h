@@ -12,6 +12,7 @@ enum class LaunchRule { kPredicted, kExact };
 enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
 enum class Organization { kPipelined, kMonolithic };
+enum class Lanes { kOfDevice, kVectors, kItems };
 enum class Misprediction { kRedo, kIgnore, kBacktrack };
 
 struct ColliderOptions {
@@ -31,6 +32,9 @@ struct ColliderOptions {
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
   bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;  // 1, 4, 8 or 16 (shared/lanes.h); 0: what suits the device
+  // Whether a work-item takes all lanes of a meshlet as vectors, or a block of them (cross.cl);
+  // kOfDevice: vectors on a processor, else items. The same bytes.
+  Lanes lanes = Lanes::kOfDevice;
   bool count_work = false;
   // On a processor each pair is taken through all steps by one work-item (kernels/whole_step.cl).
   // The same bytes.

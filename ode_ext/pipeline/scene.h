@@ -54,6 +54,11 @@ struct PairContacts {
   };
   std::vector<Range> ranges;  // one per pair
   std::vector<Contact> contacts;
+
+  void clear() {
+    ranges.clear();
+    contacts.clear();
+  }
 };
 
 }  // namespace ode_ext

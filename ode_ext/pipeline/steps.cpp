@@ -3,7 +3,7 @@
 
 namespace ode_ext {
 
-Steps::Steps(Program& program, bool has_whole)
+Steps::Steps(Program& program, bool has_whole, std::uint32_t items_per_meshlet_pair)
     : pair_step_(program, "pair_step"),
       cull_(program, "cull"),
       match_(program, "match"),
@@ -11,7 +11,8 @@ Steps::Steps(Program& program, bool has_whole)
       flood_(program, "flood"),
       vertex_step_(program, "vertex_step"),
       ray_step_(program, "ray_step"),
-      assembly_(program) {
+      assembly_(program),
+      items_per_meshlet_pair_(items_per_meshlet_pair) {
   if (has_whole) whole_.emplace(program, "whole_step");
 }
 
@@ -28,8 +29,8 @@ void Steps::match(Launch per_meshlet, const StepData& data) {
               data.lists.crossings());
 }
 
-void Steps::cross(Launch per_meshlet_pair, const StepData& data) {
-  data.launch(cross_, per_meshlet_pair, data.lists.meshlet_pairs(), data.lists.crossings());
+void Steps::cross(Launch per_item, const StepData& data) {
+  data.launch(cross_, per_item, data.lists.meshlet_pairs(), data.lists.crossings());
 }
 
 void Steps::flood(Launch per_side, const StepData& data) {

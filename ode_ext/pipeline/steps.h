@@ -2,6 +2,7 @@
 // The kernels of the pipeline, step by step, in the order in which they run.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "device/program.h"
@@ -14,15 +15,18 @@ namespace ode_ext {
 
 class Steps {
  public:
-  // has_whole: the program was built for a whole step too.
-  Steps(Program& program, bool has_whole);
+  // has_whole: the program was built for a whole step too. items_per_meshlet_pair: for so many
+  // work-items to each in cross.cl.
+  Steps(Program& program, bool has_whole, std::uint32_t items_per_meshlet_pair);
+
+  std::uint32_t items_per_meshlet_pair() const { return items_per_meshlet_pair_; }
 
   // Which pairs overlap: kernels/pair_step.cl.
   void relate(Launch per_pair, const StepData& data);
   // Where their edges cross: cull.cl, match.cl, cross.cl.
   void cull(Launch per_pair, const StepData& data);
   void match(Launch per_meshlet, const StepData& data);
-  void cross(Launch per_meshlet_pair, const StepData& data);
+  void cross(Launch per_item, const StepData& data);
   // Which vertices are inside, and where their rays leave: contacts/flood.cl, vertex_step.cl,
   // ray_step.cl.
   void flood(Launch per_side, const StepData& data);
@@ -44,6 +48,7 @@ class Steps {
   Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_;
   PlaneAssembly assembly_;
   std::optional<Kernel> whole_;
+  std::uint32_t items_per_meshlet_pair_;
 };
 
 }  // namespace ode_ext

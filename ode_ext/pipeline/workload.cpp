@@ -114,6 +114,10 @@ void Workload::report_tile() {
     if (may_lose() && counts[i] > lists_.capacities()[i])
       report_.missed += counts[i] - lists_.capacities()[i];
   }
+  report_.pairs_bounded += lists_.counted(OX_COUNTER_BOUNDED);
+  report_.unproven += lists_.counted(OX_COUNTER_UNPROVEN);
+  report_.dropped += lists_.counted(OX_COUNTER_DROPPED);
+  report_.left += lists_.counted(OX_COUNTER_LEFT);
 }
 
 bool Workload::try_smaller(int code) {
@@ -156,9 +160,9 @@ Launch Workload::launch_queue(std::uint64_t items) const {
       items, std::uint64_t{device_.compute_units} * options_.work_group_size));
 }
 
-Launch Workload::launch(List list) const {
+Launch Workload::launch(List list, std::uint32_t items_per_record) const {
   const bool exact = options_.launches == LaunchRule::kExact;
-  std::uint64_t items = exact ? lists_.counted(list) : predicted(list);
+  std::uint64_t items = items_per_record * (exact ? lists_.counted(list) : predicted(list));
   if (list <= List::kChunksDeformable) items *= OX_CHUNK_VERTICES;
   // A few groups for every compute unit cost nothing where there is no history yet. The paper
   // launches what is predicted, and no more.

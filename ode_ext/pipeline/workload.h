@@ -47,8 +47,13 @@ class Workload {
   Launch launch(std::uint64_t items) const;
   // Of one whose work-items take them one by one (shared/append.h): some for every compute unit.
   Launch launch_queue(std::uint64_t items) const;
-  // Of one that takes a list.
-  Launch launch(List list) const;
+  // Of one that takes a list, a record by so many work-items.
+  Launch launch(List list, std::uint32_t items_per_record = 1) const;
+  // The same after settle_launches().
+  Launch settle_launch(List list, std::uint32_t items_per_record = 1) {
+    settle_launches();
+    return launch(list, items_per_record);
+  }
   // Whether each pair is taken through all steps at once, if it fits (kernels/whole_step.cl).
   bool is_whole_step() const { return lists_.shares() != 0; }
   // Of that: a work-item for each share of the lists.

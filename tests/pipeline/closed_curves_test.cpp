@@ -31,7 +31,7 @@ Curves find_curves(const TestScene& scene) {
   const auto& meshes = scene.scene.meshes;
   Device device("");
   Program program(device, "");
-  Steps steps(program, false);
+  Steps steps(program, false, 1);
   StepData data(program);
   data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
   data.meshes.set(meshes);

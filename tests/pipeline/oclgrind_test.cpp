@@ -62,19 +62,21 @@ TEST(OclgrindPipeline, CollidesClosedMeshesByPlanes) {
 }
 
 // Oclgrind's own device has no vectors.
-TEST(OclgrindPipeline, CollidesTheSameByVectors) {
+TEST(OclgrindPipeline, CollidesTheSameByVectorsAndByItems) {
   TestScene scene;
   const std::uint32_t sphere = scene.add_mesh(make_icosphere(0.6, 1));
   scene.add_pair(sphere, at(0.1, 0.05, 0.9), sphere, at(0, 0, 0));
-  const auto contacts = [&](std::uint32_t width) {
+  const auto contacts = [&](std::uint32_t width, Lanes lanes) {
     ColliderOptions options = small_options();
     options.vector_width = width;
+    options.lanes = lanes;
     Collider collider(options);
     return bits_of(collider.collide(scene.scene, nullptr));
   };
-  const auto expected = contacts(1);
+  const auto expected = contacts(1, Lanes::kVectors);
   EXPECT_FALSE(expected[0].empty());
-  EXPECT_EQ(contacts(8), expected);
+  EXPECT_EQ(contacts(8, Lanes::kVectors), expected);
+  EXPECT_EQ(contacts(1, Lanes::kItems), expected);
 }
 
 TEST(OclgrindPipeline, CollidesTheSameInOneLaunch) {

@@ -142,7 +142,7 @@ class Rig {
   Rig()
       : device_(""),
         program_(device_, paper::kProgramOption),
-        steps_(program_, false),
+        steps_(program_, false, 1),
         paper_(program_),
         data_(program_) {}
 

@@ -186,9 +186,9 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
 
 // One by one as on a GPU, or as vectors: lane by lane it is the same arithmetic. Each width is a
 // program to compile, so each is a test; the whole step is of the same functions, and left out.
-class SearchInLanes : public testing::TestWithParam<std::uint32_t> {};
+class SearchInLanes : public testing::TestWithParam<std::tuple<std::uint32_t, Lanes>> {};
 
-TEST_P(SearchInLanes, FindsTheSameBytesWhateverTheWidthOfVectors) {
+TEST_P(SearchInLanes, FindsTheSameBytesByVectorsAndByItems) {
   TestScene scene = random_scene(100, 81);
   // A tree of several levels.
   const std::uint32_t fine = scene.add_mesh(make_icosphere(0.6, 4));
@@ -201,12 +201,16 @@ TEST_P(SearchInLanes, FindsTheSameBytesWhateverTheWidthOfVectors) {
   const auto expected = contacts(options);
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
-  options.vector_width = GetParam();
+  std::tie(options.vector_width, options.lanes) = GetParam();
   options.whole_steps = false;
   EXPECT_EQ(contacts(options), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Widths, SearchInLanes, testing::Values(1u, 4u, 8u, 16u));
+INSTANTIATE_TEST_SUITE_P(
+    Widths, SearchInLanes,
+    testing::Values(std::tuple{1u, Lanes::kVectors}, std::tuple{4u, Lanes::kVectors},
+                    std::tuple{8u, Lanes::kVectors}, std::tuple{16u, Lanes::kVectors},
+                    std::tuple{1u, Lanes::kItems}, std::tuple{8u, Lanes::kItems}));
 
 }  // namespace
 }  // namespace ode_ext::test
