@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target? A vertex that
-// is known to be inside and bounds nothing needs none.
+// Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target?
 //
 // in    rays, crossings, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
 // out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
 #include "contacts/border.h"
-#include "contacts/feature.h"
 #include "shared/closest.h"
 #include "shared/vertex_ray.h"
 
@@ -23,11 +21,6 @@ static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
     const ox_ray ray = rays[first + i];
     const uint side = ray.pair_side & 1u;
     __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
-    if (ray.memory != OX_RAY_ASKING && ox_is_flat_vertex(scene, ray.pair_side >> 1, ray.vertex)) {
-      const ox_outcome none = {OX_NONE, OX_HIT_NONE, 0.0f, 0.0f};
-      ox_append_hit(scene, &ray, true, ray.triangle, &none, hits);
-      continue;
-    }
     __global const ox_mesh* source = scene->meshes + pair->mesh[side];
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);

@@ -6,7 +6,8 @@
 // open target has no inside, but its faces have a space behind them. A part without crossings is
 // not there, and where the flood gets round the border, to an end in front, all vertices are
 // looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
-// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by.
+// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by; but of
+// those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
 //       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
@@ -16,6 +17,7 @@
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
+#include "contacts/feature.h"
 #include "shared/closest.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
@@ -34,6 +36,7 @@ typedef struct {
   bool leaks;    // the flood got round the border of an open target
   bool asks;     // it goes on from a vertex that a ray took to be inside
   bool refuted;  // and got to one that is outside by a crossing
+  uint begin;    // the vertex from which the flood came to those that it is at
   uint crossed;  // so many of the queue are of parts that have crossings
 } ox_flood_state;
 
@@ -55,8 +58,8 @@ static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
   return true;
 }
 
-// Queues a vertex to get a ray. False: there is no room, or it is known to be in front.
-static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint from) {
+// Queues a vertex. False: there is no room, or it is known to be in front.
+static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
   const uint key = OX_KEY(vertex, OX_KEY_VERTEX);
   if (ox_has_key(s, key)) return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
@@ -64,21 +67,30 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint from) {
     s->refuted = s->asks;
     return false;
   }
-  if (!ox_add_key(s, key, from)) return false;
+  if (!ox_add_key(s, key, s->begin)) return false;
   ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
   return true;
 }
 
+// What hangs together lies in the queue one after the other; all of it names the first of it that
+// bounds anything.
 static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
+  uint begin = OX_NONE;
+  uint first = OX_NONE;
   for (uint i = 0u; i < s->table.queued; ++i) {
     const uint vertex = ox_queue(s->words, &s->table)[i];
     if (ox_is_open(s)) {
       ox_append_ray(&s->scene, s->pair_side, vertex, rays);
       continue;
     }
+    if (ox_is_flat_vertex(&s->scene, s->pair_side >> 1, vertex)) continue;
     const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
+    if (s->words[word + 1u] != begin) {
+      begin = s->words[word + 1u];
+      first = vertex;
+    }
     ox_append_inside(&s->scene, s->pair_side, vertex,
-                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, s->words[word + 1u], rays);
+                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first, rays);
   }
 }
 
@@ -179,17 +191,16 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
     for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
       const ox_neighbour neighbour = s->scene.rings[i];
       if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
-      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, vertex))
-        return false;
+      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
     }
   }
   return true;
 }
 
-// From a vertex to all that hang together with it, before another is begun with: so each that
-// hangs together is one tree of `from`.
+// From a vertex to all that hang together with it, before another is begun with.
 static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
-  return ox_flood_vertex(s, vertex, vertex) && ox_flood_on(s, next);
+  s->begin = vertex;
+  return ox_flood_vertex(s, vertex) && ox_flood_on(s, next);
 }
 
 static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {

@@ -306,7 +306,9 @@ typedef struct {
   ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
   ox_f32 depth;     // [m] to the plane of the triangle
   ox_f32 t;         // [m] along the ray
-  ox_u32 from;  // the vertex from which the flood came, itself where it began; OX_NONE: no flood
+  // A vertex that it hangs together with inside, one for all that do, perhaps itself; OX_NONE: no
+  // flood tells.
+  ox_u32 from;
   ox_u32 padding;
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);

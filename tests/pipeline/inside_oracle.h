@@ -63,6 +63,15 @@ class InsideOracle {
   std::unique_ptr<oracle::TriangleTree> surface_;
 };
 
+// Of each vertex whether a face turns at it: within a facet it bounds nothing. Beside a deformable
+// mesh any may.
+inline std::vector<bool> bounding_vertices(const Mesh& mesh, const Mesh& other) {
+  std::vector<bool> bounds(mesh.vertices.size(), mesh.deformable || other.deformable);
+  for (const Edge& edge : topology(mesh).edges)
+    for (const std::uint32_t vertex : edge.vertices) bounds[vertex] = true;
+  return bounds;
+}
+
 // Pair << 1 | side, and the vertex, counted within its mesh.
 using SideVertex = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -74,9 +83,9 @@ class InsideOracles {
     return *kept.second;
   }
 
-  // What the records list beside what they should, a line for each difference. Of open targets
-  // nothing is said, nor of vertices so near to the surface that either is right, which `near`
-  // counts.
+  // What the records of a flood list beside what they should, which is the vertices inside that
+  // bound something; a line for each difference. Of open targets nothing is said, nor of vertices
+  // so near to the surface that either is right, which `near` counts.
   std::vector<std::string> differences(const Scene& scene, const StepRecords& records) {
     std::set<SideVertex> listed;
     for (const ox_hit& hit : records.hits)
@@ -88,6 +97,7 @@ class InsideOracles {
       const InsideOracle& target = of(scene.meshes[mesh_of(scene, i ^ 1)]);
       if (!target.closed()) continue;
       const double doubt = kDoubt * static_cast<double>(records.pairs[i >> 1].epsilon);
+      const auto bounds = bounding_vertices(*source, *scene.meshes[mesh_of(scene, i ^ 1)]);
       for (std::uint32_t v = 0; v < source->vertices.size(); ++v) {
         const Point p = in_target(scene, i, source->vertices[v]);
         const bool maybe = target.may_be_inside(p, doubt);
@@ -95,7 +105,7 @@ class InsideOracles {
           ++near;
           continue;
         }
-        const bool inside = maybe && target.is_inside(p);
+        const bool inside = maybe && bounds[v] && target.is_inside(p);
         if (inside != listed.contains({i, v}))
           lines.push_back("pair " + std::to_string(i >> 1) + " side " + std::to_string(i & 1) +
                           " vertex " + std::to_string(v) +

@@ -20,6 +20,7 @@
 #include "bench/audit/rounding.h"
 #include "falling_objects/simulation.h"
 #include "pipeline/crossing_comparison.h"
+#include "pipeline/inside_oracle.h"
 #include "pipeline/rig.h"
 #include "support/mesh_oracle.h"
 #include "support/ode_world.h"
@@ -118,7 +119,9 @@ class Audit {
     // What is nearer to the surface than A is taken larger, and what rounds, may be on either side.
     const double epsilon = 10 * rounding(*solids_[mesh_of(pair, 0)], scene_.pose_of(pair, 0),
                                          *solids_[mesh_of(pair, 1)], scene_.pose_of(pair, 1));
-    const auto& vertices = scene_.built_mesh_of(pair, side).vertices;
+    const Mesh& mesh = scene_.built_mesh_of(pair, side);
+    const auto& vertices = mesh.vertices;
+    const auto bounds = bounding_vertices(mesh, scene_.built_mesh_of(pair, 1 - side));
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
       const Point p =
           rotate_back(pt, rotate(ps, point_of(vertices[v])) + (ps.position - pt.position));
@@ -132,7 +135,7 @@ class Audit {
         continue;
       }
       counts_.inside += distance < 0;
-      if (found != (distance < 0))
+      if (found != (distance < 0 && bounds[v]))
         report("pair " + std::to_string(pair) + " side " + std::to_string(side) + ": vertex " +
                std::to_string(v) + " is " + std::to_string(1e6 * distance) +
                " um from the surface and " + (found ? "has a hit" : "has none"));
