@@ -70,9 +70,11 @@ static inline float ox_place_of_crossing(float3 from, float3 to, const ox_genera
                                          uint k, float* blur) {
   uint first = 0u;
   for (uint corner = 1u; corner < 3u; ++corner) {
-    const float3 p = ox_general_corner(t, corner, k);
-    const float3 q = ox_general_corner(t, first, k);
-    if (p.x < q.x || (p.x == q.x && (p.y < q.y || (p.y == q.y && p.z < q.z)))) first = corner;
+    const float3 one = ox_general_corner(t, corner, k);
+    const float3 other = ox_general_corner(t, first, k);
+    if (one.x < other.x ||
+        (one.x == other.x && (one.y < other.y || (one.y == other.y && one.z < other.z))))
+      first = corner;
   }
   const float3 a = ox_general_corner(t, first, k);
   const float3 u = ox_general_corner(t, (first + 1u) % 3u, k) - a;
@@ -80,11 +82,13 @@ static inline float ox_place_of_crossing(float3 from, float3 to, const ox_genera
   const float3 n = ox_plain_cross(u, v);
   const float3 d = to - from;
   const float length = sqrt(ox_dot(d, d));
-  const float above = ox_dot(n, from - a);
-  const float along = above - ox_dot(n, to - a);
-  const float3 far = fmax(fabs(from - a), fabs(to - a));
-  const float doubt = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(u.x, u.y, u.z) *
-                      OX_LARGEST_OF(v.x, v.y, v.z) * ox_max(ox_max(far.x, far.y), far.z);
+  const float3 p = from - a;
+  const float3 q = to - a;
+  const float above = ox_dot(n, p);
+  const float along = above - ox_dot(n, q);
+  const float far = ox_max(OX_LARGEST_OF(p.x, p.y, p.z), OX_LARGEST_OF(q.x, q.y, q.z));
+  const float doubt =
+      OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(u.x, u.y, u.z) * OX_LARGEST_OF(v.x, v.y, v.z) * far;
   // Both heights are off by as much. Where they are 0 the edge lies in the plane: anywhere on it.
   *blur = fabs(along) > 2.0f * doubt ? ox_min(2.0f * doubt / fabs(along), 1.0f) * length : length;
   const float part = along != 0.0f ? ox_min(ox_max(above / along, 0.0f), 1.0f) : 0.5f;

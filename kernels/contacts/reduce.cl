@@ -62,7 +62,8 @@ static void ox_note_taken(const ox_fields* list, uint count, uint block, uint ta
   x -= drop * n.x;
   y -= drop * n.y;
   z -= drop * n.z;
-  b->distance2 = fmin(b->distance2, x * x + y * y + z * z);
+  const ox_floats off2 = x * x + y * y + z * z;
+  b->distance2 = OX_LESSER(off2, b->distance2);
   const int region = (int)ox_words_of(list, OX_CANDIDATE_REGION)[taken];
   const int manifold = (int)ox_words_of(list, OX_CANDIDATE_MANIFOLD)[taken];
   const ox_ints none = (ox_ints)(0);
@@ -114,7 +115,7 @@ static uint ox_next_candidate(const ox_fields* list, uint count, uint last, floa
       ox_floats rating;
       ox_rate(&b, what, merge2, &rating);
       rating = left > 0 ? rating : (ox_floats)(-1.0f);
-      best[what] = fmax(best[what], rating);
+      best[what] = OX_GREATER(rating, best[what]);
     }
   }
   for (uint what = 0u; what < 3u; ++what) {

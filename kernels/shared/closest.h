@@ -30,10 +30,11 @@ static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
   ox_dot_lanes(&along, from, &before);
   const ox_floats zero = (ox_floats)(0.0f);
   ox_floats t = length2 > 0.0f ? -before / length2 : zero;
-  t = clamp(t, 0.0f, 1.0f);
+  t = OX_GREATER(t, zero);
+  t = OX_LESSER(t, zero + 1.0f);
   const ox_vectors off = {from->x + t * along.x, from->y + t * along.y, from->z + t * along.z};
   ox_dot_lanes(&off, &off, &off2);
-  *distance2 = fmin(*distance2, off2);
+  *distance2 = OX_LESSER(off2, *distance2);
   ox_vectors across;
   ox_cross_lanes(from, &along, &across);
   ox_dot_lanes(&across, normal, &turn);
@@ -108,10 +109,15 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
     ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats zero = (ox_floats)(0.0f);
-      const ox_vectors off = {
-          fmax(fmax(ox_load(block, node->lo[0]) - p.x, p.x - ox_load(block, node->hi[0])), zero),
-          fmax(fmax(ox_load(block, node->lo[1]) - p.y, p.y - ox_load(block, node->hi[1])), zero),
-          fmax(fmax(ox_load(block, node->lo[2]) - p.z, p.z - ox_load(block, node->hi[2])), zero)};
+      const ox_vectors before = {ox_load(block, node->lo[0]) - p.x,
+                                 ox_load(block, node->lo[1]) - p.y,
+                                 ox_load(block, node->lo[2]) - p.z};
+      const ox_vectors behind = {p.x - ox_load(block, node->hi[0]),
+                                 p.y - ox_load(block, node->hi[1]),
+                                 p.z - ox_load(block, node->hi[2])};
+      const ox_vectors off = {OX_GREATER(OX_GREATER(before.x, behind.x), zero),
+                              OX_GREATER(OX_GREATER(before.y, behind.y), zero),
+                              OX_GREATER(OX_GREATER(before.z, behind.z), zero)};
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
       distance2 *= scale * scale;

@@ -56,13 +56,26 @@ static inline float3 ox_general_point(const ox_general_points* p, uint k) {
   return (float3)(p->x[k], p->y[k], p->z[k]);
 }
 
-static inline ox_box ox_box_of_points(const ox_general_points* p) {
-  ox_box box;
-  box.lo = box.hi = ox_general_point(p, 0u);
-  for (uint k = 1u; k < OX_LANES; ++k) {
-    box.lo = fmin(box.lo, ox_general_point(p, k));
-    box.hi = fmax(box.hi, ox_general_point(p, k));
+static inline void ox_range_of(const float* values, float* least, float* greatest) {
+  ox_floats lo = ox_load_unaligned(0u, values);
+  ox_floats hi = lo;
+  for (uint block = 1u; block < OX_BLOCKS; ++block) {
+    const ox_floats v = ox_load_unaligned(block, values);
+    lo = OX_LESSER(lo, v);
+    hi = OX_GREATER(hi, v);
   }
+  *least = ox_least_of(&lo);
+  *greatest = ox_greatest_of(&hi);
+}
+
+static inline ox_box ox_box_of_points(const ox_general_points* p) {
+  float lo[3], hi[3];
+  ox_range_of(p->x, &lo[0], &hi[0]);
+  ox_range_of(p->y, &lo[1], &hi[1]);
+  ox_range_of(p->z, &lo[2], &hi[2]);
+  ox_box box;
+  box.lo = vload3(0, lo);
+  box.hi = vload3(0, hi);
   return box;
 }
 
@@ -122,7 +135,7 @@ typedef struct {
   uint above, doubt;
 } ox_heights;
 
-#define OX_LARGEST_OF(x, y, z) fmax(fmax(fabs(x), fabs(y)), fabs(z))
+#define OX_LARGEST_OF(x, y, z) OX_GREATER(OX_GREATER(fabs(x), fabs(y)), fabs(z))
 
 // Normals of the triangles, and what the heights of points over them are in doubt by, in parts of
 // the largest coordinate of the point from a.
@@ -200,10 +213,10 @@ static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_ran
     const ox_floats of_a = OX_LARGEST_OF(ax, ay, az);
     const ox_floats of_b = OX_LARGEST_OF(bx, by, bz);
     const ox_floats of_c = OX_LARGEST_OF(cx, cy, cz);
-    const ox_floats largest = fmax(fmax(of_a, of_b), of_c);
+    const ox_floats largest = OX_GREATER(OX_GREATER(of_a, of_b), of_c);
     const ox_floats doubt = size * largest * largest;
-    const ox_floats least = fmin(fmin(u, v), w);
-    const ox_floats greatest = fmax(fmax(u, v), w);
+    const ox_floats least = OX_LESSER(OX_LESSER(u, v), w);
+    const ox_floats greatest = OX_GREATER(OX_GREATER(u, v), w);
     const ox_ints left = least > doubt;
     const ox_ints right = greatest < -doubt;
     const ox_ints perhaps_left = least >= -doubt;

@@ -58,11 +58,14 @@ typedef int ox_ints;
 #define ox_load_unaligned(block, p) ((p)[block])
 #endif
 
+// Not fmin and fmax, which mind what is no number and take PoCL several times as long: where one is
+// none these give b.
+#define OX_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#define OX_GREATER(a, b) ((a) > (b) ? (a) : (b))
+
 // All lanes by one operator: `op(a, b)`.
 #define OX_OR(a, b) ((a) | (b))
 #define OX_AND(a, b) ((a) & (b))
-#define OX_LESSER(a, b) ((a) < (b) ? (a) : (b))
-#define OX_GREATER(a, b) ((a) > (b) ? (a) : (b))
 #define OX_FOLD4(v, op) op(op((v).x, (v).y), op((v).z, (v).w))
 #if OX_VECTOR_WIDTH == 16
 #define OX_FOLD(v, op) OX_FOLD4(op(op((v).s0123, (v).s4567), op((v).s89ab, (v).scdef)), op)
