@@ -58,7 +58,6 @@ function(add_demo name source)
 endfunction()
 
 add_demo(hello demos/hello/hello.c)
-add_demo(ode_ext_info demos/info/main.cpp)
 add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_parts ode_ext_test_support)
 add_demo(paper demos/paper/main.cpp paper_parts falling_objects_parts ode_ext_test_support)
 

@@ -143,6 +143,13 @@ if(TARGET falling_objects)
   set_tests_properties(same_contacts_in_every_run PROPERTIES TIMEOUT 120)
 endif()
 
+if(TARGET falling_objects AND TARGET ode_ext-replay)
+  add_test(NAME captures_replay
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/replay_test.sh $<TARGET_FILE:ode_ext-replay>
+                   $<TARGET_FILE:falling_objects> $<TARGET_FILE:ode_ext_tests>)
+  set_tests_properties(captures_replay PROPERTIES TIMEOUT 120)
+endif()
+
 if(TARGET paper)
   add_test(NAME figures_of_the_paper
            COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/figures_test.sh $<TARGET_FILE:paper>)

@@ -97,7 +97,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.add_option("--device", o.device, "OpenCL device, as in ODE_EXT_DEVICE")->group("Collision");
   app.add_option("--config", o.config,
                  "Settings of the batch collider, such as rays=iterative,workload=exact; "
-                 "ode_ext_info --settings lists them")
+                 "ode_ext-info --settings lists them")
       ->check([](const std::string& config) {
         return dBatchConfigCheck(config.c_str()) == 0 ? "" : dBatchColliderGetLastErrorMessage();
       })

@@ -79,7 +79,7 @@ typedef struct dBatchColliderParams {
                                  above); 0 (default): as in ODE it is not asked */
   const char *config; /**< what serves the paper and tuning, "rays=full,organization=monolithic";
                                  what is not named keeps its default, as all does with NULL. The
-                                 settings: dBatchConfigName, and `ode_ext_info --settings` */
+                                 settings: dBatchConfigName, and `ode_ext-info --settings` */
 } dBatchColliderParams;
 
 /** The settings of params.config, numbered from 0: what one is called, its values
@@ -111,7 +111,8 @@ static inline void dBatchColliderParamsInit(dBatchColliderParams *params) {
  * Creates a collider on an OpenCL 1.2 device and installs it as ODE's trimesh-trimesh collider.
  * Call after dInitODE2. A trimesh-trimesh override of the program's own is replaced; ODE has no
  * way to read it, so it is not restored later.
- * @param params NULL: defaults and environment (ODE_EXT_DEVICE, ODE_EXT_LOG, ODE_EXT_TRACE)
+ * @param params NULL: defaults and environment (ODE_EXT_DEVICE, ODE_EXT_LOG, ODE_EXT_TRACE,
+ *   ODE_EXT_CAPTURE)
  * @return the collider, owned by the caller, or 0 (see dBatchColliderGetLastErrorMessage)
  */
 ODE_EXT_API dBatchColliderID dBatchColliderCreate(const dBatchColliderParams *params);

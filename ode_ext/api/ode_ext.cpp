@@ -11,6 +11,7 @@
 #include "api/params.h"
 #include "device/fork_guard.h"
 #include "ode/batch_collider.h"
+#include "ode/capture.h"
 #include "ode/contact_ids.h"
 #include "ode/override.h"
 #include "ode/pass.h"
@@ -107,9 +108,11 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
           "here; fork before the first collider is created, or call exec in the child");
     ode_ext::set_log_level(ode_ext::log_level_of_environment());
     ode_ext::open_trace_of_environment();
+    ode_ext::open_capture_of_environment();
     auto collider = std::make_shared<BatchCollider>(
         to_options(complete_params), static_cast<float>(complete_params.open_thickness),
         complete_params.trust_meshes != 0, complete_params.triangle_callbacks != 0);
+    ode_ext::capture_collider(collider.get(), complete_params, collider->device_name());
     ode_ext::install_override();
     ode_ext::register_collider(collider);
     return reinterpret_cast<dBatchColliderID>(collider.get());

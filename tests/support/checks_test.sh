@@ -29,6 +29,7 @@ plant_clean_tree() {
   source_file ode_ext/geometry/mesh.cpp '#include "geometry/bvh.h"' \
     "// $(printf '%95s' '') ε"
   source_file ode_ext/device/device.cpp '#include <CL/cl.h>'
+  source_file ode_ext/tools/replay/main.cpp '#include "ode/capture_format.h"'
   source_file demos/hello/hello.c '#include <ode/ode.h>' '#include <ode_ext/ode_ext.h>'
   source_file kernels/shared/types.h 'typedef uint ox_u32;'
   source_file kernels/step.cl '#include "shared/types.h"' \
@@ -87,6 +88,11 @@ expect_fail check-house 'kernels/cull.cl'
 include_fails ode_ext/ode/gather.h '"api/handles.h"'
 include_fails ode_ext/ode/gather.h '<CL/cl.h>'
 include_fails ode_ext/api/create.cpp '<CL/cl.h>'
+include_fails ode_ext/tools/replay/player.cpp '"ode/gather.h"'
+include_fails ode_ext/tools/replay/player.cpp '"ode/capture.h"'
+include_fails ode_ext/tools/replay/player.cpp '"geometry/vec.h"'
+include_fails ode_ext/tools/replay/player.cpp '<CL/cl.h>'
+include_fails ode_ext/api/create.cpp '"tools/replay/player.h"'
 include_fails include/ode_ext/export.h '<CL/cl.h>'
 include_fails demos/hello/hello.c '"pipeline/collider.h"'
 include_fails kernels/step.cl '<ode/ode.h>'

@@ -50,7 +50,7 @@ int try_to_create(const char* selection) {
 int main(int argc, char** argv) {
   setenv("POCL_AFFINITY", "1", 0);  // as in falling_objects: read when OpenCL starts
   CLI::App app("Prints the OpenCL devices that ode_ext sees, the one it chooses, and why.",
-               "ode_ext_info");
+               "ode_ext-info");
   app.footer(
       "Without --device the environment variable ODE_EXT_DEVICE counts; without that a GPU is\n"
       "preferred to an accelerator and that to a CPU.\n"

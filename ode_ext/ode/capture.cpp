@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/capture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "ode/capture_format.h"
+#include "ode/messages.h"
+
+namespace ode_ext {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+// One file, into which the colliders of all threads write their records one by one.
+class CaptureFile {
+ public:
+  explicit CaptureFile(std::FILE* file) : file_(file) {
+    capture::Header header{{}, capture::kVersion, capture::kByteOrder};
+    std::memcpy(header.magic, capture::kMagic, sizeof(header.magic));
+    std::fwrite(&header, sizeof(header), 1, file_.get());
+    std::fflush(file_.get());
+  }
+
+  void collider(const void* address, const dBatchColliderParams& params,
+                const std::string& device) {
+    const std::string config = params.config == nullptr ? "" : params.config;
+    const std::string version = ODE_EXT_VERSION;
+    capture::Collider record{
+        .number = next_collider_++,
+        .max_contacts = static_cast<std::uint32_t>(params.max_contacts),
+        .max_contacts_deformable = static_cast<std::uint32_t>(params.max_contacts_deformable),
+        .config_length = static_cast<std::uint32_t>(config.size()),
+        .device_length = static_cast<std::uint32_t>(device.size()),
+        .version_length = static_cast<std::uint32_t>(version.size()),
+        .open_thickness = params.open_thickness};
+    colliders_[address] = record.number;
+    put(record);
+    for (const std::string& text : {config, device, version}) put(text.data(), text.size());
+    end_record(capture::kCollider);
+  }
+
+  std::uint32_t pass(const void* collider, std::span<const PairMember* const> members,
+                     std::span<const std::array<std::uint32_t, 2>> pairs) {
+    std::vector<std::uint32_t> mesh_of(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) mesh_of[i] = mesh(*members[i]->mesh);
+
+    // By handles, by which two copies at one pose are told apart.
+    std::vector<std::uint32_t> by_handle(members.size()), place(members.size());
+    std::iota(by_handle.begin(), by_handle.end(), 0u);
+    std::ranges::sort(by_handle, std::less<>(), [&](std::uint32_t i) { return members[i]->geom; });
+    for (std::size_t i = 0; i < by_handle.size(); ++i)
+      place[by_handle[i]] = static_cast<std::uint32_t>(i);
+
+    const capture::Pass record{next_pass_++, colliders_[collider],
+                               static_cast<std::uint32_t>(members.size()),
+                               static_cast<std::uint32_t>(pairs.size())};
+    put(record);
+    for (const std::uint32_t i : by_handle) put(object(*members[i], mesh_of[i]));
+    for (const auto& [first, second] : pairs) put(capture::Pair{place[first], place[second]});
+    end_record(capture::kPass);
+    return record.number;
+  }
+
+  void contacts(std::uint32_t pass, const PairContacts& found) {
+    std::uint64_t count = 0;
+    for (const PairContacts::Range& range : found.ranges) count += range.count;
+    put(capture::Contacts{pass, static_cast<std::uint32_t>(found.ranges.size()), count});
+    for (const PairContacts::Range& range : found.ranges) put(range.count);
+    for (const PairContacts::Range& range : found.ranges)
+      for (std::size_t i = 0; i < range.count; ++i) put(contact(found.contacts[range.first + i]));
+    end_record(capture::kContacts);
+  }
+
+  bool failed() const { return std::ferror(file_.get()) != 0; }
+
+ private:
+  // Content that was written before has a number already. Two hashes are taken for it: a mesh that
+  // is forged to have both of another is not worth keeping every mesh.
+  std::uint32_t mesh(const Mesh& mesh) {
+    const std::uint32_t base = mesh.base == nullptr ? capture::kNoBase : this->mesh(*mesh.base);
+    const auto [known, is_new] = meshes_.try_emplace(
+        {mesh.content_hash, mesh.shape_hash, mesh.soup.size(), base, mesh.deformable},
+        static_cast<std::uint32_t>(meshes_.size()));
+    if (!is_new) return known->second;
+    put(capture::Mesh{known->second, base, mesh.deformable ? 1u : 0u,
+                      static_cast<std::uint32_t>(mesh.soup.size() / 3)});
+    put(mesh.soup.data(), mesh.soup.size() * sizeof(Vec3f));
+    end_record(capture::kMesh);
+    return known->second;
+  }
+
+  static capture::Object object(const PairMember& member, std::uint32_t mesh) {
+    const Vec3d& at = member.given.position;
+    capture::Object object{mesh, 0, {at.x, at.y, at.z}, {}};
+    std::ranges::copy(member.given.rotation, object.rotation);
+    return object;
+  }
+
+  static capture::Contact contact(const Contact& c) {
+    return {{c.position.x, c.position.y, c.position.z},
+            {c.normal.x, c.normal.y, c.normal.z},
+            c.depth,
+            static_cast<std::int32_t>(c.triangles[0]),
+            static_cast<std::int32_t>(c.triangles[1])};
+  }
+
+  void put(const void* bytes, std::size_t size) {
+    const auto* first = static_cast<const unsigned char*>(bytes);
+    record_.insert(record_.end(), first, first + size);
+  }
+  template <class T>
+  void put(const T& value) {
+    put(&value, sizeof(value));
+  }
+
+  // Flushed, so that the file has what was given to the device when a program is lost there, and a
+  // forked child has nothing of it.
+  void end_record(std::uint32_t kind) {
+    const capture::Head head{kind, 0, record_.size()};
+    std::fwrite(&head, sizeof(head), 1, file_.get());
+    std::fwrite(record_.data(), 1, record_.size(), file_.get());
+    std::fflush(file_.get());
+    record_.clear();
+  }
+
+  std::unique_ptr<std::FILE, CloseFile> file_;
+  std::vector<unsigned char> record_;  // that is being written
+  std::unordered_map<const void*, std::uint32_t> colliders_;
+  using Content = std::tuple<std::uint64_t, std::uint64_t, std::size_t, std::uint32_t, bool>;
+  std::map<Content, std::uint32_t> meshes_;
+  std::uint32_t next_collider_ = 0;
+  std::uint32_t next_pass_ = 0;
+};
+
+std::mutex mutex;
+std::unique_ptr<CaptureFile> file;
+std::atomic<bool> capturing{false};
+
+// Calls write(file). A file that cannot be written any more, of a full disk for instance, is left.
+template <class Write>
+void write_record(Write write) {
+  if (!capturing.load(std::memory_order_relaxed)) return;
+  const std::lock_guard lock(mutex);
+  if (file == nullptr) return;
+  write(*file);
+  if (!file->failed()) return;
+  log(LogLevel::kError,
+      std::string("the file that ODE_EXT_CAPTURE names cannot be written any more: ") +
+          std::strerror(errno) + "; the capture ends here");
+  capturing = false;
+  file.reset();
+}
+
+}  // namespace
+
+void open_capture_of_environment() {
+  const char* path = std::getenv("ODE_EXT_CAPTURE");
+  if (path == nullptr || *path == '\0') return;
+  const std::lock_guard lock(mutex);
+  if (file != nullptr) return;
+  std::FILE* opened = std::fopen(path, "wb");
+  if (opened == nullptr)
+    throw std::runtime_error("ODE_EXT_CAPTURE names '" + std::string(path) +
+                             "', which cannot be written: " + std::strerror(errno));
+  file = std::make_unique<CaptureFile>(opened);
+  capturing = true;
+}
+
+void capture_collider(const void* collider, const dBatchColliderParams& params,
+                      const std::string& device) {
+  write_record([&](CaptureFile& to) { to.collider(collider, params, device); });
+}
+
+std::uint32_t capture_pass(const void* collider, std::span<const PairMember* const> members,
+                           std::span<const std::array<std::uint32_t, 2>> pairs) {
+  std::uint32_t number = 0;
+  if (!pairs.empty())
+    write_record([&](CaptureFile& to) { number = to.pass(collider, members, pairs); });
+  return number;
+}
+
+void capture_contacts(std::uint32_t pass, const PairContacts& found) {
+  if (!found.ranges.empty()) write_record([&](CaptureFile& to) { to.contacts(pass, found); });
+}
+
+}  // namespace ode_ext
