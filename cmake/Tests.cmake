@@ -150,6 +150,11 @@ if(TARGET falling_objects AND TARGET ode_ext-replay)
   set_tests_properties(captures_replay PROPERTIES TIMEOUT 120)
 endif()
 
+if(ODE_EXT_TOOLS)
+  list(TRANSFORM ODE_EXT_TOOLS REPLACE "(.+)" "$<TARGET_FILE:ode_ext-\\1>" OUTPUT_VARIABLE tools)
+  add_test(NAME manual_pages COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/man_test.sh ${tools})
+endif()
+
 if(TARGET paper)
   add_test(NAME figures_of_the_paper
            COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/figures_test.sh $<TARGET_FILE:paper>)
@@ -167,5 +172,6 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer
            COMMAND ${PROJECT_SOURCE_DIR}/tests/install/run.sh ${PROJECT_BINARY_DIR})
-  set_tests_properties(install_consumer PROPERTIES TIMEOUT 300)
+  add_test(NAME package_recipes COMMAND ${PROJECT_SOURCE_DIR}/tests/install/recipes.sh)
+  set_tests_properties(install_consumer package_recipes PROPERTIES TIMEOUT 300)
 endif()

@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs a build into an empty prefix and builds the programs of this folder against it, through
-# CMake and through pkg-config, from C and from C++, and runs all four. Also checks what the
-# installed library needs and what it exports.
+# Installs a build into an empty prefix, component by component, and builds the programs of this folder
+# against it, through CMake and through pkg-config, from C and from C++, and runs all four. Also
+# checks what the installed library needs and what it exports, and runs the installed tools.
 set -euo pipefail
 
 build=${1:?usage: tests/install/run.sh <build directory>}
@@ -16,7 +16,37 @@ fail() {
   exit 1
 }
 
-cmake --install "$build" --prefix "$prefix" > "$work/install.log"
+# install_component <name> <regular expression of all that it may bring> <one of it>...
+installed() { (cd "$prefix" && find . -type f -o -type l) 2> /dev/null | sort; }
+install_component() {
+  local before others wanted
+  before=$(installed)
+  cmake --install "$build" --prefix "$prefix" --component "$1" >> "$work/install.log"
+  installed | grep -v -x -F -e "$before" > "$work/new" || fail "component $1 brings nothing"
+  others=$(grep -v -E "$2" "$work/new" || true)
+  [[ -z $others ]] || fail "component $1 brings what is not its own: $others"
+  for wanted in "${@:3}"; do
+    grep -q -E "$wanted\$" "$work/new" || fail "component $1 does not bring $wanted"
+  done
+  echo "component $1: $(wc -l < "$work/new") files"
+}
+mkdir "$prefix"
+if [[ $(sed -n 's/^BUILD_SHARED_LIBS:BOOL=//p' "$build/CMakeCache.txt") == ON ]]; then
+  install_component runtime '/libode_ext\.so\.[0-9.]+$' '/libode_ext\.so\.[0-9]+\.[0-9]+'
+  library='/libode_ext\.so'
+else
+  library='/libode_ext\.a'
+fi
+install_component dev "^\./include/ode_ext/|/cmake/ode_ext/|/ode_ext\.pc$|$library\$" \
+  /ode_ext\\.h /ode_ext-config\\.cmake /ode_ext\\.pc "$library"
+install_component tools '^\./(bin/ode_ext-|share/man/man1/ode_ext-)' \
+  /ode_ext-info /ode_ext-replay /ode_ext-info\\.1 /ode_ext-replay\\.1
+install_component docs '^\./share/doc/ode_ext/' /README\\.md /docs/contacts\\.md /hello\\.c
+# All of it is what comes without naming a component.
+installed > "$work/components"
+cmake --install "$build" --prefix "$work/whole" > /dev/null
+(cd "$work/whole" && find . -type f -o -type l) | sort | diff "$work/components" - ||
+  fail "the components are not all that is installed"
 # What works only because the sources are still there would fail everywhere else.
 source_headers=$(cd "$here/../../include" && pwd)
 if grep -r -l -I -F -e "$source_headers" -e "$(cd "$build" && pwd)" "$prefix"; then
@@ -44,6 +74,11 @@ cc $warnings -std=c11 "$here/consumer.c" -o "$work/pc_c" $(flags --cflags --libs
 c++ $warnings "$here/consumer.cpp" -o "$work/pc_cpp" $(flags --cflags --libs)
 LD_LIBRARY_PATH=$libraries "$work/pc_c"
 LD_LIBRARY_PATH=$libraries "$work/pc_cpp"
+
+echo "tools:"
+"$prefix/bin/ode_ext-info" | tail -n 1
+LD_LIBRARY_PATH=$libraries ODE_EXT_CAPTURE=$work/capture "$work/pc_c" > /dev/null
+"$prefix/bin/ode_ext-replay" "$work/capture" | tail -n 1
 
 if [[ ${#static[@]} -eq 0 ]]; then
   library=$libraries/libode_ext.so

@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   bool settings = false;
   app.add_flag("--settings", settings,
                "List what dBatchColliderParams::config and falling_objects --config take, and end");
+  app.set_version_flag("--version", ODE_EXT_VERSION);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
