@@ -100,11 +100,10 @@ foreach(component RUNTIME DEV TOOLS)
   install(FILES ${debian}/copyright ${debian}/changelog.Debian.gz ${debian}/changelog.gz
           DESTINATION share/doc/${CPACK_DEBIAN_${component}_PACKAGE_NAME} COMPONENT ${lower})
 endforeach()
-foreach(tool IN LISTS ODE_EXT_TOOLS)
-  compress(${PROJECT_SOURCE_DIR}/ode_ext/tools/${tool}/ode_ext-${tool}.1
-           ${debian}/ode_ext-${tool}.1.gz)
-  install(FILES ${debian}/ode_ext-${tool}.1.gz
-          DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+foreach(page IN LISTS manual_pages)
+  get_filename_component(name ${page} NAME)
+  compress(${PROJECT_SOURCE_DIR}/${page} ${debian}/${name}.gz)
+  install(FILES ${debian}/${name}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
 endforeach()
 
 include(CPack)

@@ -39,23 +39,27 @@ configure_file(cmake/ode_ext.pc.in ode_ext.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/ode_ext.pc
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
-# The programs, found beside the library in whatever prefix.
+# The programs, which find the library in whatever prefix.
+set(manual_pages)
 file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 foreach(tool IN LISTS ODE_EXT_TOOLS)
   if(BUILD_SHARED_LIBS AND NOT ODE_EXT_DEBIAN_PACKAGES)
     set_target_properties(ode_ext-${tool} PROPERTIES INSTALL_RPATH $ORIGIN/${bin_to_lib})
   endif()
   install(TARGETS ode_ext-${tool} RUNTIME COMPONENT tools)
-  if(NOT ODE_EXT_DEBIAN_PACKAGES)  # there it is compressed
-    install(FILES ode_ext/tools/${tool}/ode_ext-${tool}.1
-            DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
-  endif()
+  list(APPEND manual_pages ode_ext/tools/${tool}/ode_ext-${tool}.1)
 endforeach()
+if(EXISTS ${PROJECT_SOURCE_DIR}/ode_ext/tools/run.cpp)  # installs itself, with the preload
+  list(APPEND manual_pages ode_ext/tools/run/ode_ext-run.1)
+endif()
+if(NOT ODE_EXT_DEBIAN_PACKAGES)  # there they are compressed
+  install(FILES ${manual_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+endif()
 
 # As they refer to one another.
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT docs
-        FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN results EXCLUDE)
+        FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN results EXCLUDE PATTERN site EXCLUDE)
 install(FILES demos/hello/hello.c
         DESTINATION ${CMAKE_INSTALL_DOCDIR}/demos/hello COMPONENT docs)
 

@@ -109,7 +109,8 @@ target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support fal
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(Bullet REQUIRED IMPORTED_TARGET bullet)
 add_library(ode_ext_bench OBJECT EXCLUDE_FROM_ALL
-  tests/bench/pair_cases.cpp tests/bench/rivals.cpp tests/support/fcl_oracle.cpp)
+  tests/bench/pair_cases.cpp tests/bench/captured_cases.cpp
+  ode_ext/tools/replay/capture_file.cpp tests/bench/rivals.cpp tests/support/fcl_oracle.cpp)
 ode_ext_compile_options(ode_ext_bench)
 target_link_libraries(ode_ext_bench PUBLIC
   ode_ext_test_support fcl Eigen3::Eigen PkgConfig::Bullet)
@@ -146,12 +147,16 @@ endif()
 if(TARGET falling_objects AND TARGET ode_ext-replay)
   add_test(NAME captures_replay
            COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/replay_test.sh $<TARGET_FILE:ode_ext-replay>
-                   $<TARGET_FILE:falling_objects> $<TARGET_FILE:ode_ext_tests>)
+                   $<TARGET_FILE:falling_objects> $<TARGET_FILE:ode_ext_tests>
+                   $<TARGET_FILE:pair_times>)
   set_tests_properties(captures_replay PROPERTIES TIMEOUT 120)
 endif()
 
 if(ODE_EXT_TOOLS)
   list(TRANSFORM ODE_EXT_TOOLS REPLACE "(.+)" "$<TARGET_FILE:ode_ext-\\1>" OUTPUT_VARIABLE tools)
+  if(TARGET ode_ext_run)
+    list(APPEND tools $<TARGET_FILE:ode_ext_run>)
+  endif()
   add_test(NAME manual_pages COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/man_test.sh ${tools})
 endif()
 
@@ -172,6 +177,13 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer
            COMMAND ${PROJECT_SOURCE_DIR}/tests/install/run.sh ${PROJECT_BINARY_DIR})
+  file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
+  add_test(NAME code_in_documentation
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/docs/code_blocks.py ${PROJECT_BINARY_DIR}
+                   ${PROJECT_SOURCE_DIR}/README.md ${documents})
+  set_tests_properties(code_in_documentation PROPERTIES TIMEOUT 120)
+  add_test(NAME documentation_site COMMAND ${scripts}/docs)
+  set_tests_properties(documentation_site PROPERTIES TIMEOUT 120)
   add_test(NAME package_recipes COMMAND ${PROJECT_SOURCE_DIR}/tests/install/recipes.sh)
   set_tests_properties(install_consumer package_recipes PROPERTIES TIMEOUT 300)
 endif()

@@ -90,9 +90,9 @@ typedef struct dBatchColliderParams {
     prediction and all numbers change no byte unless mispredictions are not redone.
     @return constant text, or NULL past the last */
 ODE_EXT_API const char *dBatchConfigName(int index);
-ODE_EXT_API const char *dBatchConfigValues(int index);
-ODE_EXT_API const char *dBatchConfigDefault(int index);
-ODE_EXT_API const char *dBatchConfigMeaning(int index);
+ODE_EXT_API const char *dBatchConfigValues(int index);  /**< its values */
+ODE_EXT_API const char *dBatchConfigDefault(int index); /**< its default */
+ODE_EXT_API const char *dBatchConfigMeaning(int index); /**< what it does */
 
 /** @return 0 if dBatchColliderCreate would take this as params.config, else -1, and the last error
     says what is wrong with it. A device may still refuse a work_group_size. */
@@ -175,7 +175,8 @@ enum {
  * alone: not on other meshes, on threads, or on the process.
  */
 typedef struct dBatchContactId {
-  unsigned feature1, feature2; /**< of the meshes of g1 and g2: exchanged arguments exchange them */
+  unsigned feature1; /**< of the mesh of g1: exchanged arguments exchange the two */
+  unsigned feature2; /**< of the mesh of g2 */
 } dBatchContactId;
 
 /**
@@ -351,12 +352,12 @@ ODE_EXT_API long long dBatchColliderGetWork(dBatchColliderID collider, int stage
 /** @return the name of a stage, "gather", or of a counter, "predicted_hits"; constant; NULL where
     there is none */
 ODE_EXT_API const char *dBatchStageName(int stage);
-ODE_EXT_API const char *dBatchCounterName(int counter);
+ODE_EXT_API const char *dBatchCounterName(int counter); /**< likewise of a counter */
 
 /** Walks over all that this version has: for (s = dBatchStageNext(-1); s >= 0; s =
     dBatchStageNext(s)). @return the least value above the one given, -1 after the last */
 ODE_EXT_API int dBatchStageNext(int stage);
-ODE_EXT_API int dBatchCounterNext(int counter);
+ODE_EXT_API int dBatchCounterNext(int counter); /**< likewise of counters */
 
 /** What is known of a device. */
 enum {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/captured_cases.h"
 #include "bench/pair_cases.h"
 #include "bench/rivals.h"
 #include "bench/timing.h"
@@ -37,7 +38,7 @@ struct Options {
   int pairs = 200;
   int repetitions = 9;
   std::vector<int> triangles = {100, 1000, 5000, 20000, 100000};
-  std::string only, csv;
+  std::string only, csv, replay;
 };
 
 struct Contestant {
@@ -143,6 +144,12 @@ void add_shape(const std::string& shape, const test::TestMesh& a, const test::Te
 
 std::vector<Case> cases_of(const Options& options) {
   std::vector<Case> cases;
+  if (!options.replay.empty()) {
+    for (const bench::PairCase& one : bench::captured_cases(options.replay, options.pairs))
+      cases.push_back({one.name, "", one.a.triangle_count(), one.b.triangle_count(),
+                       [one](const std::string&, int) { return one; }});
+    return cases;
+  }
   add_shape("tori", test::make_torus(0.4, 0.15, 48, 24), test::make_torus(0.4, 0.15, 72, 24),
             cases);
   for (const int triangles : options.triangles) {
@@ -225,6 +232,8 @@ int main(int argc, char** argv) {
       ->delimiter(',')
       ->capture_default_str();
   app.add_option("--only", options.only, "only cases whose name has this, for instance 'shallow'");
+  app.add_option("--replay", options.replay,
+                 "a capture (ODE_EXT_CAPTURE): its meshes in the poses in which they met");
   app.add_option("--csv", options.csv, "write the figures there too");
   CLI11_PARSE(app, argc, argv);
   try {

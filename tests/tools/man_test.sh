@@ -11,14 +11,14 @@ fail() {
   echo "man: $*" >&2
   exit 1
 }
-options() { grep -o -E '^  (-[a-z],)?--[a-z-]+' | grep -o -E -- '--[a-z-]+' | sort -u; }
+options() { grep -o -E '^  (-[a-z],)?--[a-z-]+(, --[a-z-]+)*' | grep -o -E -- '--[a-z-]+' | sort -u; }
 
 for program in "$@"; do
   name=$(basename "$program")
   page=$root/ode_ext/tools/${name#ode_ext-}/$name.1
   [[ -e $page ]] || fail "$name has no $page"
   mandoc -T lint -W warning "$page" || fail "$name.1 is not in order"
-  "$program" --version | grep -q -E '^[0-9]+\.[0-9]+\.[0-9]+$' || fail "$name --version: no version"
+  "$program" --version | grep -q -E '[0-9]+\.[0-9]+\.[0-9]+$' || fail "$name --version: no version"
   help=$("$program" --help | options)
   manual=$(sed -n 's/^\.It .*Fl [a-z , ]*-\([a-z-]*\).*/--\1/p; s/^\.It Fl h , -help/--help/p' \
     "$page" | sort -u)

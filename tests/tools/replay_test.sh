@@ -5,8 +5,8 @@
 # several. Files that are cut, changed or of something else are told from captures, in a sentence.
 set -euo pipefail
 
-usage="usage: tests/tools/replay_test.sh <ode_ext-replay> <falling_objects> <ode_ext_tests>"
-replay=${1:?$usage} falling_objects=${2:?$usage} tests=${3:?$usage}
+usage="usage: tests/tools/replay_test.sh <ode_ext-replay> <falling_objects> <ode_ext_tests> <pair_times>"
+replay=${1:?$usage} falling_objects=${2:?$usage} tests=${3:?$usage} pair_times=${4:?$usage}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -44,6 +44,9 @@ capture "$work/threads.capture" "$tests" \
 check threads
 same "rigid, exact workload" "$(replayed "$work/rigid.capture" --config workload=exact)" \
   "$(replayed "$work/rigid.capture")"
+
+"$pair_times" --replay "$work/rigid.capture" --pairs 4 --repetitions 1 > "$work/log"
+grep -q '^meshes [0-9]* and [0-9]* ' "$work/log" || fail "pair_times: $(cat "$work/log")"
 
 # refused <exit code> <words that it must say> <argument>...
 refused() {
@@ -88,4 +91,7 @@ refused 3 "no OpenCL device matches" --device nowhere "$work/rigid.capture"
 said=$(ODE_EXT_CAPTURE=$work/no/where "$falling_objects" --objects 2 --steps 1 --quiet 2>&1) &&
   fail "a capture that cannot be written is no error"
 [[ $said == *"ODE_EXT_CAPTURE names"*"cannot be written"* ]] || fail "$said"
+said=$(ODE_EXT_CAPTURE=/dev/full "$falling_objects" --objects 4 --steps 9 --quiet 2>&1) ||
+  fail "a full disk ends the program: $said"
+[[ $said == *"cannot be written any more: No space left"* ]] || fail "a full disk: $said"
 echo "captures replay"
