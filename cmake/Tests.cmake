@@ -187,3 +187,7 @@ if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME package_recipes COMMAND ${PROJECT_SOURCE_DIR}/tests/install/recipes.sh)
   set_tests_properties(install_consumer package_recipes PROPERTIES TIMEOUT 300)
 endif()
+
+if(TARGET ode_ext_preload)
+  include(PreloadTests)
+endif()

@@ -26,6 +26,13 @@ using ode_ext::CallMark;
 using ode_ext::Pass;
 using ode_ext::PassRoot;
 
+// What dCheckConfiguration calls the precision that this was compiled for.
+#ifdef dSINGLE
+constexpr const char* kPrecision = "ODE_single_precision";
+#else
+constexpr const char* kPrecision = "ODE_double_precision";
+#endif
+
 // In a forked child nothing of the parent's may be touched, not even a lock: ODE's own collider
 // answers there, and the handles are dead.
 bool is_dead(dBatchColliderID handle) {
@@ -100,8 +107,8 @@ extern "C" {
 dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
   return guarded("dBatchColliderCreate", dBatchColliderID{}, [&] {
     const dBatchColliderParams complete_params = complete(params);
-    if (dCheckConfiguration("ODE_double_precision") == 0)
-      refuse("this ODE was built in single precision, ode_ext for double");
+    if (dCheckConfiguration(kPrecision) == 0)
+      refuse(std::string("this ODE was not built for ") + kPrecision + ", as ode_ext was");
     if (ode_ext::is_lost_by_fork())
       refuse(
           "this process was forked from one that had used OpenCL, and its driver does not work "

@@ -135,6 +135,8 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
   stats_.meshes = static_cast<std::int64_t>(meshes_.size());
   stats_.ms_pass = whole.milliseconds();
+  stats_.totals.pairs_batched += stats_.pairs_computed;
+  stats_.totals.ms_passes += stats_.ms_pass;
   trace_pass(whole.start(), stats_);
   return (stats_.status & dBatchStatusBacktracked) != 0;
 }
@@ -201,7 +203,9 @@ void BatchCollider::compute_unasked() {
   unasked_pairs_.clear();
   unasked_members_.clear();
   collide_scene(nullptr);
-  stats_.pairs_computed += static_cast<long long>(collider_.report().pairs);
+  const auto computed = static_cast<long long>(collider_.report().pairs);
+  stats_.pairs_computed += computed;
+  stats_.totals.pairs_batched += computed;
 }
 
 // Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
@@ -288,10 +292,13 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
       return -1;
     }
     if (!has_callbacks(g1, g2, triangle_callbacks_))
-      return export_contacts(known->contacts, known->geoms[0], g1, g2, limit, contacts, skip);
+      return stats_.totals.note_answer(
+          export_contacts(known->contacts, known->geoms[0], g1, g2, limit, contacts, skip));
     asked = copy_of(*known);
   }
-  return export_asked(asked, g1, g2, limit, contacts, skip);
+  const int count = export_asked(asked, g1, g2, limit, contacts, skip);
+  const std::lock_guard lock(mutex_);
+  return stats_.totals.note_answer(count);
 }
 
 // Null: the device fails.
@@ -462,6 +469,7 @@ void BatchCollider::begin_stats(bool within_a_pass) {
   fresh.passes = static_cast<long long>(pass_);
   fresh.pairs_alone = stats_.pairs_alone;
   fresh.pairs_stock = stats_.pairs_stock;
+  fresh.totals = stats_.totals;
   stats_ = fresh;
 }
 

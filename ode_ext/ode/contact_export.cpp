@@ -15,12 +15,12 @@ int export_contacts(std::span<const Contact> contacts, dGeomID first, dGeomID g1
     const Contact& contact = contacts[static_cast<std::size_t>(i)];
     auto& geom = *reinterpret_cast<dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * skip);
     for (std::size_t k = 0; k < 3; ++k) {
-      geom.pos[k] = contact.position[k];
-      geom.normal[k] = swapped ? -contact.normal[k] : contact.normal[k];
+      geom.pos[k] = static_cast<dReal>(contact.position[k]);
+      geom.normal[k] = static_cast<dReal>(swapped ? -contact.normal[k] : contact.normal[k]);
     }
     geom.pos[3] = 0;
     geom.normal[3] = 0;
-    geom.depth = contact.depth;
+    geom.depth = static_cast<dReal>(contact.depth);
     geom.g1 = g1;
     geom.g2 = g2;
     geom.side1 = static_cast<int>(contact.triangles[swapped ? 1 : 0]);

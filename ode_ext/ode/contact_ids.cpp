@@ -12,13 +12,14 @@ static_assert(static_cast<int>(FeatureKind::kNone) == dBatchFeatureNone &&
               static_cast<int>(FeatureKind::kEdge) == dBatchFeatureEdge &&
               static_cast<int>(FeatureKind::kFacet) == dBatchFeatureFacet);
 
-// Compared as numbers: between here and the program ODE may have turned a 0 into -0.
+// Compared as numbers, in ODE's precision: between here and the program ODE may have turned a 0
+// into -0.
 bool is_where(const Contact& known, const dContactGeom& contact, bool swapped) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (known.position[k] != contact.pos[k] ||
-        known.normal[k] != (swapped ? -contact.normal[k] : contact.normal[k]))
+    if (static_cast<dReal>(known.position[k]) != contact.pos[k] ||
+        static_cast<dReal>(known.normal[k]) != (swapped ? -contact.normal[k] : contact.normal[k]))
       return false;
-  return known.depth == contact.depth;
+  return static_cast<dReal>(known.depth) == contact.depth;
 }
 
 bool has_sides(const Contact& known, const dContactGeom& contact, bool swapped) {

@@ -12,11 +12,27 @@
 
 namespace ode_ext {
 
+// Since the collider was created.
+struct Totals {
+  std::int64_t pairs_batched = 0;  // computed in batches
+  std::int64_t asked = 0;          // dCollide of two meshes, as far as this library answered
+  std::int64_t asked_colliding = 0, contacts_given = 0;
+  double ms_passes = 0;  // of the batches, without ODE's own passes and the callbacks
+
+  int note_answer(int contacts) {
+    ++asked;
+    asked_colliding += contacts > 0 ? 1 : 0;
+    contacts_given += contacts;
+    return contacts;
+  }
+};
+
 struct PassStats {
   unsigned status = 0;  // dBatchStatus... bits
   StepReport report;    // of the last batch
   std::int64_t pairs = 0, pairs_computed = 0, pairs_colliding = 0, deformed = 0;
   std::int64_t passes = 0, pairs_alone = 0, pairs_stock = 0, meshes = 0;  // since creation
+  Totals totals;
   double ms_gather = 0, ms_meshes = 0, ms_device = 0, ms_export = 0, ms_pass = 0;
 };
 

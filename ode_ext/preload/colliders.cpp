@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "preload/colliders.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <mutex>
+#include <string>
+
+#include "ode/messages.h"
+#include "ode/registry.h"
+#include "ode_ext/ode_ext.h"
+
+namespace ode_ext {
+namespace {
+
+std::atomic<bool> cannot_create{false};
+std::atomic<double> seconds{0};
+
+// A number of the environment that is not one is as bad as one that a collider refuses.
+int number_of_environment(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  if (text == nullptr || *text == '\0') return otherwise;
+  char* end = nullptr;
+  const long number = std::strtol(text, &end, 10);
+  return *end == '\0' && number >= 0 && number < 1000000 ? static_cast<int>(number) : -1;
+}
+
+// What a program would say in code: settings of the environment.
+dBatchColliderParams params_of_environment() {
+  dBatchColliderParams params;
+  dBatchColliderParamsInit(&params);
+  params.max_contacts = number_of_environment("ODE_EXT_MAX_CONTACTS", params.max_contacts);
+  params.trust_meshes = number_of_environment("ODE_EXT_TRUST_MESHES", 0);
+  params.config = std::getenv("ODE_EXT_CONFIG");
+  return params;
+}
+
+// Null: it cannot be, which is said once and not tried again.
+dBatchColliderID create() {
+  static std::mutex one_at_a_time;
+  const HeldMessages held;
+  const std::lock_guard lock(one_at_a_time);
+  if (cannot_create) return nullptr;
+  const auto start = std::chrono::steady_clock::now();
+  const dBatchColliderParams params = params_of_environment();
+  const dBatchColliderID collider = dBatchColliderCreate(&params);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  seconds = seconds + took.count();
+  if (collider == nullptr) {
+    cannot_create = true;
+    log(LogLevel::kError, std::string(dBatchColliderGetLastErrorMessage()) +
+                              "; the program goes on with ODE's own collider");
+  }
+  return collider;
+}
+
+dBatchColliderID handle_of(const std::shared_ptr<BatchCollider>& collider) {
+  return reinterpret_cast<dBatchColliderID>(collider.get());
+}
+
+// As dBatchColliderSpaceCollide. -1: another thread passes with this collider, or memory is short.
+int collide_by(dBatchColliderID collider, const PassRoot& root, void* data,
+               dNearCallback* callback) {
+  return root.second == nullptr
+             ? dBatchColliderSpaceCollide(collider, reinterpret_cast<dSpaceID>(root.first), data,
+                                          callback)
+             : dBatchColliderSpaceCollide2(collider, root.first, root.second, data, callback);
+}
+
+}  // namespace
+
+bool collide_by_a_free_collider(const PassRoot& root, void* data, dNearCallback* callback) {
+  // The one this thread had last: it is passing with it, or what it knows is of this thread's
+  // spaces.
+  thread_local dBatchColliderID last = nullptr;
+  const auto try_it = [&](dBatchColliderID collider) {
+    const dBatchColliderID before = last;
+    last = collider;  // already during the pass, whose callback may make others
+    const int result = collide_by(collider, root, data, callback);
+    if (result != 1) last = before;
+    return result;
+  };
+  if (last != nullptr) {
+    const int result = try_it(last);
+    if (result >= 0) return result == 1;
+  }
+  bool all_are_passing = true;
+  for (const auto& collider : live_colliders()) {
+    if (handle_of(collider) == last) continue;
+    const int result = try_it(handle_of(collider));
+    if (result >= 0) return result == 1;
+    all_are_passing = all_are_passing && collider->is_passing();
+  }
+  if (!all_are_passing) return false;
+  const dBatchColliderID another = create();
+  return another != nullptr && try_it(another) == 1;
+}
+
+void have_a_collider() {
+  if (live_colliders().empty() && !cannot_create) create();
+}
+
+double seconds_of_starting() { return seconds; }
+
+}  // namespace ode_ext

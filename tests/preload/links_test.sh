@@ -1,0 +1,44 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# libode_ext_preload.so and what it loads bring no ODE into a program, and show a program nothing but
+# the functions of ODE that they stand in front of.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: tests/preload/links_test.sh DIRECTORY
+Looks at the libraries in the given directory.
+TEXT
+}
+
+case "${1:-}" in
+  -h | --help) usage; exit 0 ;;
+  "") usage >&2; exit 2 ;;
+esac
+cd "$1"
+
+failed=0
+fail() {
+  echo "links_test: $*" >&2
+  failed=1
+}
+
+for library in libode_ext_preload.so libode_ext_preload_double.so libode_ext_preload_single.so; do
+  needed=$(readelf -d "$library" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
+  [[ -n $needed ]] || fail "$library needs nothing; is this readelf's output?"
+  if grep -E '^lib(ode|ode_ext)\.so' <<< "$needed"; then
+    fail "$library links ODE"
+  fi
+  if nm -D --undefined-only "$library" | grep -E ' U d[A-Z]'; then
+    fail "$library takes functions of ODE from whoever has them"
+  fi
+done
+if nm -D --defined-only libode_ext_preload.so | awk '{ print $3 }' |
+  grep -v -E '^d(InitODE2?|SpaceCollide2?|Collide|CreateTriMesh|Geom(Destroy|TriMeshData.*))$'; then
+  fail "libode_ext_preload.so exports more than it stands in front of"
+fi
+for precision in double single; do
+  exported=$(nm -D --defined-only libode_ext_preload_$precision.so | awk '{ print $3 }')
+  [[ $exported == ode_ext_preload_core ]] || fail "the $precision library exports $exported"
+done
+exit "$failed"
