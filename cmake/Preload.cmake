@@ -3,6 +3,7 @@
 # objects of the library, of which only those that know ODE are compiled once more.
 
 set(preload_dir ${CMAKE_INSTALL_LIBDIR}/ode_ext)
+# In the build tree as it is installed: ode_ext-run looks for it relative to itself.
 set(preload_output ${PROJECT_BINARY_DIR}/${preload_dir})
 set(ode_includes $<TARGET_PROPERTY:ODE::ODE,INTERFACE_INCLUDE_DIRECTORIES>)
 
@@ -49,3 +50,18 @@ foreach(precision double single)
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
   add_dependencies(ode_ext_preload ${name})
 endforeach()
+
+# --- ode_ext-run ---------------------------------------------------------------------------------
+
+file(RELATIVE_PATH bin_to_preload
+     ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/ode_ext)
+add_executable(ode_ext_run ode_ext/tools/run.cpp ode_ext/tools/elf_program.cpp)
+ode_ext_compile_options(ode_ext_run)
+set_target_properties(ode_ext_run PROPERTIES OUTPUT_NAME ode_ext-run)
+target_include_directories(ode_ext_run PRIVATE ode_ext)
+target_compile_definitions(ode_ext_run PRIVATE
+  ODE_EXT_BIN_TO_PRELOAD="${bin_to_preload}" ODE_EXT_VERSION="${PROJECT_VERSION}")
+add_dependencies(ode_ext_run ode_ext_preload)
+if(PROJECT_IS_TOP_LEVEL)
+  install(TARGETS ode_ext_run RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

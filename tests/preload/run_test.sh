@@ -1,0 +1,66 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# What ode_ext-run says, and what it leaves alone.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: tests/preload/run_test.sh BIN
+  BIN  the directory of idioms, idioms_by_api and ode_ext-run
+TEXT
+}
+
+case "${1:-}" in
+  -h | --help) usage; exit 0 ;;
+esac
+[[ $# -eq 1 ]] || { usage >&2; exit 2; }
+bin=$1
+results=$(mktemp -d)
+trap 'rm -rf "$results"' EXIT
+
+failed=0
+fail() {
+  echo "run_test: $*" >&2
+  failed=1
+}
+
+# expect <exit status> <words of the output> <argument of ode_ext-run>...
+expect() {
+  local wanted=$1 words=$2 status=0
+  shift 2
+  "$bin/ode_ext-run" "$@" > "$results/output" 2>&1 || status=$?
+  [[ $status -eq $wanted ]] || fail "$*: status $status, expected $wanted"
+  [[ -z $words ]] || grep -q -F -e "$words" "$results/output" ||
+    { cat "$results/output"; fail "$*: says nothing of '$words'"; }
+}
+
+expect 0 "usage: ode_ext-run" --help
+expect 0 "ode_ext 0." --version
+expect 2 "usage: ode_ext-run"
+expect 2 "unrecognized option" --nosuch true
+expect 127 "not found" nosuchprogram
+expect 127 "No such file" ./nosuchprogram
+expect 126 "not an executable file" "$(dirname "$0")"
+expect 126 "rights of another user" "$(command -v passwd)"
+printf 'int main(void) { return 0; }\n' > "$results/static.c"
+cc -static -o "$results/static" "$results/static.c"
+expect 126 "linked statically" "$results/static"
+expect 3 "" sh -c 'exit 3'
+expect 0 "called no ODE" --stats true
+expect 0 "--help" echo --help
+expect 0 "uses ode_ext by itself" "$bin/idioms_by_api" in_the_callback
+expect 0 "passes" --stats sh -c "exec '$bin/idioms' in_the_callback"
+
+# same_as_stock <environment> <sentence>: the program goes on as before, and hears of it once.
+same_as_stock() {
+  "$bin/idioms" in_the_callback > "$results/stock"
+  env "$1" "$bin/ode_ext-run" "$bin/idioms" in_the_callback > "$results/preload" 2> "$results/said"
+  cmp "$results/stock" "$results/preload" || fail "$1: not as before"
+  [[ $(grep -c -F -e "$2" "$results/said") -eq 1 ]] || fail "$1: says $(cat "$results/said")"
+}
+
+same_as_stock ODE_EXT_DEVICE=nosuch:: "nosuch"
+same_as_stock ODE_EXT_MAX_CONTACTS=many "max_contacts"
+same_as_stock ODE_EXT_CONFIG=rays=none "rays"
+same_as_stock ODE_EXT_LOG=loud "ODE_EXT_LOG"
+exit "$failed"
