@@ -26,3 +26,35 @@ endforeach()
 
 add_test(NAME preload_run COMMAND ${preload_tests}/run_test.sh ${PROJECT_BINARY_DIR}/bin)
 set_tests_properties(preload_run PROPERTIES TIMEOUT 120)
+
+# The same programs as a plugin that brings ODE late, and with ODE within themselves, exported.
+add_library(idioms_plugin MODULE ${idiom_sources})
+ode_ext_compile_options(idioms_plugin)
+target_include_directories(idioms_plugin PRIVATE tests)
+target_compile_definitions(idioms_plugin PRIVATE IDIOMS_AS_PLUGIN)
+target_link_libraries(idioms_plugin PRIVATE ODE::ODE Threads::Threads)
+add_executable(late_host tests/preload/clients/late_host.cpp)
+ode_ext_compile_options(late_host)
+target_link_libraries(late_host PRIVATE ${CMAKE_DL_LIBS})
+add_dependencies(late_host idioms_plugin)
+
+find_library(ODE_ARCHIVE libode.a REQUIRED)
+add_executable(idioms_static ${idiom_sources})
+ode_ext_compile_options(idioms_static)
+set_target_properties(idioms_static PROPERTIES ENABLE_EXPORTS ON)
+target_include_directories(idioms_static PRIVATE tests ${ode_includes})
+target_link_libraries(idioms_static PRIVATE ${ODE_ARCHIVE} ccd Threads::Threads)
+
+# Programs of others that come with an ODE or bind to Debian's.
+find_package(DART CONFIG REQUIRED COMPONENTS collision-ode)
+add_executable(dart_pairs tests/preload/clients/dart_pairs.cpp)
+ode_ext_compile_options(dart_pairs)
+# DART's headers are not written for these warnings.
+target_include_directories(dart_pairs SYSTEM PRIVATE ${DART_INCLUDE_DIRS})
+target_link_libraries(dart_pairs PRIVATE CLI11::CLI11 dart-collision-ode)
+
+foreach(client dart dartpy panda late static)
+  add_test(NAME preload_client_${client}
+           COMMAND ${preload_tests}/client_test.sh ${PROJECT_BINARY_DIR} ${client})
+  set_tests_properties(preload_client_${client} PROPERTIES TIMEOUT 300)
+endforeach()

@@ -12,6 +12,7 @@
 
 #include "preload/core.h"
 #include "preload/find_ode.h"
+#include "preload/redirect.h"
 #include "preload/statistics.h"
 
 #define EXPORTED __attribute__((visibility("default")))
@@ -61,6 +62,12 @@ static inline const Ode* original(const void* caller) {
   return ode;
 }
 
+/* For the library: it is not to find a function that was redirected. */
+static void* find_function(const char* name) {
+  return strcmp(name, "dSpaceCollide") == 0 ? (void*)the_ode.dSpaceCollide
+                                            : ode_ext_find_function(name);
+}
+
 static void load_core(void) {
   if (dlsym(RTLD_DEFAULT, "dBatchColliderCreate") != NULL) {
     say("this program uses ode_ext by itself", "", "");
@@ -84,7 +91,7 @@ static void load_core(void) {
   } else {
     const char* missing = NULL;
     dxPreloadCoreFn* start = (dxPreloadCoreFn*)dlsym(library, "ode_ext_preload_core");
-    core = start(&ode_ext_find_function, &missing);
+    core = start(&find_function, &missing);
     if (core == NULL) say("this ODE has no ", missing, "");
   }
   free(path);
@@ -114,12 +121,16 @@ static int collide(dGeomID first, dGeomID second, void* data, dNearCallback* cal
   return core->collide(first, second, data, callback);
 }
 
-EXPORTED void dSpaceCollide(dSpaceID space, void* data, dNearCallback* callback) {
-  const Ode* original_ode = original(__builtin_return_address(0));
+static void collide_space(const Ode* original_ode, dSpaceID space, void* data,
+                          dNearCallback* callback) {
   const PassTimer timer = begin_pass();
   if (space == NULL || !collide((dGeomID)space, NULL, data, callback))
     original_ode->dSpaceCollide(space, data, callback);
   end_pass(timer);
+}
+
+EXPORTED void dSpaceCollide(dSpaceID space, void* data, dNearCallback* callback) {
+  collide_space(original(__builtin_return_address(0)), space, data, callback);
 }
 
 EXPORTED void dSpaceCollide2(dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
@@ -207,6 +218,32 @@ BUILD(dGeomTriMeshDataUpdate, (dTriMeshDataID data), (data))
 EXPORTED void dGeomTriMeshDataDestroy(dTriMeshDataID data) {
   ORIGINAL(dGeomTriMeshDataDestroy)(data);
   if (core != NULL && data != NULL) core->mesh_destroyed(data);
+}
+
+/* --- an ODE within the program -------------------------------------------------------------- */
+
+/* A space with itself is its interior. */
+static void collide_interior(dSpaceID space, void* data, dNearCallback* callback) {
+  the_ode.dSpaceCollide2((dGeomID)space, (dGeomID)space, data, callback);
+}
+
+/* Not dSpaceCollide, which here is the program's. */
+static void collide_redirected(dSpaceID space, void* data, dNearCallback* callback) {
+  collide_space(&the_ode, space, data, callback);
+}
+
+/* Calls within a program do not go through the dynamic linker. Of an ODE that is linked into it and
+   exported (-rdynamic) passes are redirected, and pass by pass the rest follows. */
+__attribute__((constructor)) static void redirect_program(void) {
+  if (!ode_ext_ode_is_in_program()) return;
+  find_ode(NULL);
+  void* pass = (void*)the_ode.dSpaceCollide;
+  if (the_ode.dSpaceCollide2 == NULL || !ode_ext_redirect(pass, (void*)&collide_redirected)) {
+    say("ODE is linked into the program itself, whose calls cannot be seen from outside", "", "");
+    return;
+  }
+  the_ode.dSpaceCollide = &collide_interior;
+  mesh_geoms = 2; /* they are not seen */
 }
 
 /* --- the end -------------------------------------------------------------------------------- */

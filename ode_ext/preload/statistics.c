@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "preload/find_ode.h"
-
 static int are_wanted;
 static pid_t process; /* not those that are forked from it */
 static atomic_llong passes, nanoseconds;
@@ -40,12 +38,7 @@ static int is_the_one_asked_for(void) {
 static void print_statistics(void) {
   const char* path = found_ode_path();
   if (getpid() != process || (path == NULL && !is_the_one_asked_for())) return;
-  if (path == NULL && ode_ext_ode_is_in_program()) {
-    fputs(
-        "ode_ext: ODE is linked into the program itself, whose calls of it cannot be seen from "
-        "outside; link the program with ode_ext\n",
-        stderr);
-  } else if (path == NULL) {
+  if (path == NULL) {
     fputs("ode_ext: the program called no ODE that can be seen from outside\n", stderr);
   } else {
     fprintf(stderr, "ode_ext: %lld passes, %.3f s with all that their callbacks did; ODE is %s\n",

@@ -44,7 +44,11 @@ int usage(std::FILE* to) {
 
 }  // namespace
 
+#ifdef IDIOMS_AS_PLUGIN
+extern "C" __attribute__((visibility("default"))) int idioms_main(int argc, char** argv) {
+#else
 int main(int argc, char** argv) {
+#endif
   if (argc < 2) return usage(stderr);
   if (std::strcmp(argv[1], "--help") == 0) return usage(stdout);
   if (std::strcmp(argv[1], "--list") == 0) {

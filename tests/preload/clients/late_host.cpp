@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A program without ODE that loads a plugin with one, late and for itself alone: a Python module, or
+// a physics engine chosen at run time.
+#include <dlfcn.h>
+
+#include <cstdio>
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: late_host PLUGIN IDIOM [--sound]\n");
+    return 2;
+  }
+  void* plugin = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
+  if (plugin == nullptr) {
+    std::fprintf(stderr, "late_host: %s\n", dlerror());
+    return 1;
+  }
+  using Main = int(int, char**);
+  auto* run = reinterpret_cast<Main*>(dlsym(plugin, "idioms_main"));
+  if (run == nullptr) {
+    std::fprintf(stderr, "late_host: %s\n", dlerror());
+    return 1;
+  }
+  const int status = run(argc - 1, argv + 1);
+  dlclose(plugin);
+  return status;
+}
