@@ -53,6 +53,13 @@ ode_ext_compile_options(dart_pairs)
 target_include_directories(dart_pairs SYSTEM PRIVATE ${DART_INCLUDE_DIRS})
 target_link_libraries(dart_pairs PRIVATE CLI11::CLI11 dart-collision-ode)
 
+add_executable(boxes tests/preload/clients/boxes.cpp)
+ode_ext_compile_options(boxes)
+target_link_libraries(boxes PRIVATE CLI11::CLI11 ODE::ODE)
+add_test(NAME preload_leaves_boxes_alone
+         COMMAND ${preload_tests}/overhead.sh ${PROJECT_BINARY_DIR}/bin 1)
+set_tests_properties(preload_leaves_boxes_alone PROPERTIES TIMEOUT 120)
+
 foreach(client dart dartpy panda late static)
   add_test(NAME preload_client_${client}
            COMMAND ${preload_tests}/client_test.sh ${PROJECT_BINARY_DIR} ${client})

@@ -123,10 +123,9 @@ static int collide(dGeomID first, dGeomID second, void* data, dNearCallback* cal
 
 static void collide_space(const Ode* original_ode, dSpaceID space, void* data,
                           dNearCallback* callback) {
-  const PassTimer timer = begin_pass();
+  PASS_TIMER;
   if (space == NULL || !collide((dGeomID)space, NULL, data, callback))
     original_ode->dSpaceCollide(space, data, callback);
-  end_pass(timer);
 }
 
 EXPORTED void dSpaceCollide(dSpaceID space, void* data, dNearCallback* callback) {
@@ -135,10 +134,9 @@ EXPORTED void dSpaceCollide(dSpaceID space, void* data, dNearCallback* callback)
 
 EXPORTED void dSpaceCollide2(dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
   const Ode* original_ode = original(__builtin_return_address(0));
-  const PassTimer timer = begin_pass();
+  PASS_TIMER;
   if (first == NULL || second == NULL || !collide(first, second, data, callback))
     original_ode->dSpaceCollide2(first, second, data, callback);
-  end_pass(timer);
 }
 
 /* In a pass ODE asks the library by itself. What is met before any pass has to bring it in. */
@@ -249,7 +247,10 @@ __attribute__((constructor)) static void redirect_program(void) {
 /* --- the end -------------------------------------------------------------------------------- */
 
 void print_core_statistics(void) {
-  if (core != NULL) core->print_statistics();
+  if (core != NULL)
+    core->print_statistics();
+  else if (!core_is_tried)
+    fputs("ode_ext: no two meshes were there to meet: nothing was loaded\n", stderr);
 }
 
 const char* found_ode_path(void) { return ode == NULL ? NULL : ode_path; }

@@ -19,14 +19,14 @@ PassTimer begin_pass(void) {
   return timer;
 }
 
-void end_pass(PassTimer timer) {
-  if (!timer.is_outermost) return;
+void end_pass(const PassTimer* timer) {
+  if (!timer->is_outermost) return;
   struct timespec end;
   clock_gettime(CLOCK_MONOTONIC, &end);
   --passes_of_this_thread;
   ++passes;
   nanoseconds +=
-      (end.tv_sec - timer.start.tv_sec) * 1000000000LL + end.tv_nsec - timer.start.tv_nsec;
+      (end.tv_sec - timer->start.tv_sec) * 1000000000LL + end.tv_nsec - timer->start.tv_nsec;
 }
 
 /* The program that ode_ext-run was given, not one that it starts in its turn. */

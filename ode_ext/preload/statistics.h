@@ -10,9 +10,13 @@ typedef struct {
   struct timespec start;
 } PassTimer;
 
-/* Around a pass of the program. A pass that is left by longjmp is not counted. */
 PassTimer begin_pass(void);
-void end_pass(PassTimer timer);
+void end_pass(const PassTimer* timer);
+
+/* For a pass of the program, until the end of the block, by an exception of its callback too. One
+   that is left by longjmp is not counted, nor are later ones of its thread. */
+#define PASS_TIMER \
+  __attribute__((cleanup(end_pass), unused)) const PassTimer timer_of_the_pass = begin_pass()
 
 /* Of preload.c. */
 void print_core_statistics(void);

@@ -28,8 +28,8 @@ double between(Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-// A closed surface around the origin, of 2 * kAround * (kAcross - 1) triangles, with a radius [m] of
-// its own at each vertex; or a cube.
+// A closed surface around the origin of 2 * kAround * (kAcross - 1) triangles, each vertex with a
+// radius [m] of its own.
 std::string rock(Random& random) {
   constexpr int kAround = 12, kAcross = 7;
   std::string text;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program without ODE that loads a plugin with one, late and for itself alone: a Python module, or
-// a physics engine chosen at run time.
+// A program without ODE that loads a plugin with one, late and for itself alone: as Python its
+// modules, or a robot simulator the physics engine that it is told.
 #include <dlfcn.h>
 
 #include <cstdio>

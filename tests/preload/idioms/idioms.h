@@ -26,6 +26,7 @@ std::string without_a_pass();  // OpenRAVE: dCollide of any two
 std::string destroyed();       // bodies and meshes between passes
 std::string updated();         // vertices moved in place, without and with passes
 std::string reinitialized();   // DART: dInitODE and dCloseODE with each detector
+std::string forked();          // and the child goes on
 // --- worlds.cpp
 std::string worlds();
 std::string

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <memory>
 
 #include "preload/idioms/idioms.h"
@@ -125,6 +128,41 @@ std::string reinitialized() {
     text += log.text();
   }
   return text;
+}
+
+// A child does not have the device of its parent, and goes on with ODE's own collider.
+std::string forked() {
+  World world;
+  const Mesh torus(Mesh::kTorus);
+  Bodies bodies;
+  for (int i = 0; i < kBodies; ++i) bodies.add(world.world, world.space, torus);
+  Log log;
+  Random random(15);
+  bodies.place(random, 4);
+  space_collide(world.space, &log, &near);
+
+  bodies.place(random, 4);
+  int ends[2];
+  if (pipe(ends) != 0) fail("no pipe");
+  const pid_t child = fork();
+  if (child == 0) {
+    must_be_sound = false;
+    Log of_the_child;
+    space_collide(world.space, &of_the_child, &near);
+    const std::string& text = of_the_child.text();
+    const auto written = write(ends[1], text.data(), text.size());
+    _exit(written == static_cast<ssize_t>(text.size()) ? 0 : 1);
+  }
+  close(ends[1]);
+  std::string text;
+  char part[4096];
+  for (ssize_t count; (count = read(ends[0], part, sizeof(part))) > 0;)
+    text.append(part, static_cast<std::size_t>(count));
+  close(ends[0]);
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || status != 0) fail("the child failed");
+  space_collide(world.space, &log, &near);
+  return text + log.text();
 }
 
 }  // namespace idioms

@@ -29,6 +29,7 @@ constexpr Idiom kIdioms[] = {
     {"destroyed", &idioms::destroyed},
     {"updated", &idioms::updated},
     {"reinitialized", &idioms::reinitialized},
+    {"forked", &idioms::forked},
     {"worlds", &idioms::worlds},
     {"threads", &idioms::threads},
 };
