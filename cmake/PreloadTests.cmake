@@ -60,7 +60,7 @@ add_test(NAME preload_leaves_boxes_alone
          COMMAND ${preload_tests}/overhead.sh ${PROJECT_BINARY_DIR}/bin 1)
 set_tests_properties(preload_leaves_boxes_alone PROPERTIES TIMEOUT 120)
 
-foreach(client dart dartpy panda late static)
+foreach(client dart dartpy panda late two static)
   add_test(NAME preload_client_${client}
            COMMAND ${preload_tests}/client_test.sh ${PROJECT_BINARY_DIR} ${client})
   set_tests_properties(preload_client_${client} PROPERTIES TIMEOUT 300)

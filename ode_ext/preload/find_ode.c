@@ -9,8 +9,6 @@
 /* The preload exports it as well, and must not take its own for the one sought. */
 static const char kSought[] = "dSpaceCollide";
 
-static void* found_in; /* as dlopen gives it */
-
 static struct link_map* object_of(const void* address) {
   Dl_info info;
   struct link_map* object = NULL;
@@ -18,7 +16,7 @@ static struct link_map* object_of(const void* address) {
   return object;
 }
 
-static struct link_map* own_object(void) { return object_of(&found_in); }
+static struct link_map* own_object(void) { return object_of(kSought); }
 
 static void* open_object(const char* name) {
   return dlopen(*name == '\0' ? NULL : name, RTLD_LAZY | RTLD_NOLOAD);
@@ -56,9 +54,17 @@ static int add_name(struct dl_phdr_info* info, size_t size, void* data) {
   return 0;
 }
 
-const char* ode_ext_find_ode(const void* caller) {
+static FoundOde found_in(const struct link_map* ode) {
+  FoundOde found = {NULL, NULL};
+  if (ode != NULL && (found.handle = open_object(ode->l_name)) != NULL) found.path = ode->l_name;
+  return found;
+}
+
+FoundOde ode_ext_find_ode(const void* caller) {
   const struct link_map* calling = object_of(caller);
-  struct link_map* ode = calling == NULL ? NULL : ode_of(calling->l_name);
+  void* of_all = dlsym(RTLD_NEXT, kSought);
+  struct link_map* ode = of_all == NULL ? NULL : object_of(of_all);
+  if (ode == NULL && calling != NULL) ode = ode_of(calling->l_name);
   /* Names first: what dlopen needs is locked while objects are listed. */
   Names names = {NULL, 0};
   if (ode == NULL) dl_iterate_phdr(&add_name, &names);
@@ -67,15 +73,44 @@ const char* ode_ext_find_ode(const void* caller) {
     free(names.names[i]);
   }
   free(names.names);
-  if (ode != NULL) found_in = open_object(ode->l_name);
-  return found_in == NULL ? NULL : ode->l_name;
+  return found_in(ode);
 }
 
-void* ode_ext_find_function(const char* name) { return sought_in(found_in, name); }
-
-int ode_ext_ode_is_in_program(void) {
+FoundOde ode_ext_find_ode_in_program(void) {
   const struct link_map* ode = ode_of("");
-  return ode != NULL && *ode->l_name == '\0';
+  return found_in(ode != NULL && *ode->l_name == '\0' ? ode : NULL);
+}
+
+void* ode_ext_find_function(const FoundOde* ode, const char* name) {
+  return sought_in(ode->handle, name);
+}
+
+typedef struct {
+  uintptr_t address;
+  Extent extent;
+} Sought;
+
+static int take_extent(struct dl_phdr_info* info, size_t size, void* data) {
+  (void)size;
+  Sought* sought = data;
+  uintptr_t begin = UINTPTR_MAX, end = 0;
+  for (size_t i = 0; i < info->dlpi_phnum; ++i) {
+    const ElfW(Phdr)* segment = &info->dlpi_phdr[i];
+    if (segment->p_type != PT_LOAD) continue;
+    const uintptr_t first = info->dlpi_addr + segment->p_vaddr;
+    if (first < begin) begin = first;
+    if (first + segment->p_memsz > end) end = first + segment->p_memsz;
+  }
+  if (sought->address < begin || sought->address >= end) return 0;
+  sought->extent = (Extent){begin, end - begin};
+  return 1;
+}
+
+Extent ode_ext_extent_around(const void* address) {
+  const size_t page = 4096;
+  Sought sought = {(uintptr_t)address, {(uintptr_t)address / page * page, page}};
+  dl_iterate_phdr(&take_extent, &sought);
+  return sought.extent;
 }
 
 char* ode_ext_own_directory(void) {

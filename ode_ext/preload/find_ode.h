@@ -1,18 +1,32 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The ODE of the program: linked to it, loaded by it at any time, wherever its functions are. */
+/* The ODE of a program: linked to it, loaded by it at any time, wherever its functions are. */
 #ifndef ODE_EXT_PRELOAD_FIND_ODE_H
 #define ODE_EXT_PRELOAD_FIND_ODE_H
 
-/* Looks where the object that holds the address `caller` would find dSpaceCollide without this
-   library, then in every object of the process in the order in which they were loaded. What is
-   found stays loaded. Returns where, "" for the program itself, or NULL. */
-const char* ode_ext_find_ode(const void* caller);
+#include <stddef.h>
+#include <stdint.h>
 
-/* A function of the ODE found, or NULL. */
-void* ode_ext_find_function(const char* name);
+typedef struct {
+  void* handle;     /* of the object, which stays loaded; NULL: there is none */
+  const char* path; /* "" for the program itself */
+} FoundOde;
 
-/* Whether the program itself holds an ODE. Its calls then never leave it. */
-int ode_ext_ode_is_in_program(void);
+/* Which one the code at the address `caller` would call without this library: that of all, else
+   that of the object that holds the code. Where this does not tell, the first that was loaded. */
+FoundOde ode_ext_find_ode(const void* caller);
+
+/* A function of it, or NULL. */
+void* ode_ext_find_function(const FoundOde* ode, const char* name);
+
+/* That within the program itself, whose calls never leave it. */
+FoundOde ode_ext_find_ode_in_program(void);
+
+/* Where the object that holds an address is in memory; of what no object holds, its page. */
+typedef struct {
+  uintptr_t begin;
+  size_t size; /* [bytes] */
+} Extent;
+Extent ode_ext_extent_around(const void* address);
 
 /* The directory of this library, with a slash at its end, to be freed. */
 char* ode_ext_own_directory(void);

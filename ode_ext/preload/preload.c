@@ -2,7 +2,6 @@
 /* Stands in front of a program's ODE (LD_PRELOAD): passes with meshes go to the library, which is
    loaded for the first of them, in the precision of that ODE. All else goes straight on. */
 #include <dlfcn.h>
-#include <ode/ode.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -11,75 +10,46 @@
 #include <string.h>
 
 #include "preload/core.h"
-#include "preload/find_ode.h"
+#include "preload/originals.h"
 #include "preload/redirect.h"
 #include "preload/statistics.h"
 
 #define EXPORTED __attribute__((visibility("default")))
 
-/* The program's own. */
-typedef struct {
-#define INTERPOSED(name) __typeof__(&name) name;
-#include "preload/interposed.h"
-  __typeof__(&dGeomGetClass) class_of;
-} Ode;
-
-static Ode the_ode;
-static const Ode* _Atomic ode; /* once it is found */
-static const char* ode_path;
 static const dxPreloadCore* _Atomic core;
-static atomic_bool core_is_tried;
+static Ode* _Atomic core_ode; /* that it collides the meshes of: the first in which two can meet */
 /* Mesh geoms that may be alive: where there are not two, nothing is to be done. */
 static atomic_long mesh_geoms;
 
-static void say(const char* text, const char* of, const char* more) {
+static void say(const char* text, const char* more) {
   const char* level = getenv("ODE_EXT_LOG");
   if (level == NULL || strcmp(level, "off") != 0)
-    fprintf(stderr, "ode_ext: %s%s%s; the program goes on with ODE's own collider\n", text, of,
-            more);
+    fprintf(stderr, "ode_ext: %s%s; the program goes on with ODE's own collider\n", text, more);
 }
 
-static void find_ode(const void* caller) {
-  static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
-  pthread_mutex_lock(&one_at_a_time);
-  if (ode == NULL && (ode_path = ode_ext_find_ode(caller)) != NULL) {
-#define INTERPOSED(name) the_ode.name = (__typeof__(the_ode.name))ode_ext_find_function(#name);
-#include "preload/interposed.h"
-    the_ode.class_of = (__typeof__(the_ode.class_of))ode_ext_find_function("dGeomGetClass");
-    ode = &the_ode;
-  }
-  pthread_mutex_unlock(&one_at_a_time);
-  if (ode == NULL) { /* whoever called had no ODE either */
-    fputs("ode_ext: a function of ODE was called, and there is no ODE in this process\n", stderr);
-    abort();
-  }
-}
-
-/* The program's ODE, whoever called. */
-#define ORIGINAL(name) (*original(__builtin_return_address(0))->name)
-static inline const Ode* original(const void* caller) {
-  if (ode == NULL) find_ode(caller);
-  return ode;
-}
-
-/* For the library: it is not to find a function that was redirected. */
+/* For the library: not a function that was redirected. */
 static void* find_function(const char* name) {
-  return strcmp(name, "dSpaceCollide") == 0 ? (void*)the_ode.dSpaceCollide
-                                            : ode_ext_find_function(name);
+  return strcmp(name, "dSpaceCollide") == 0 ? (void*)core_ode->dSpaceCollide
+                                            : ode_ext_find_function(&core_ode->found, name);
 }
 
-static void load_core(void) {
+static const char* precision_of(const Ode* ode) {
+  __typeof__(&dCheckConfiguration) has =
+      (__typeof__(has))ode_ext_find_function(&ode->found, "dCheckConfiguration");
+  if (has != NULL && has("ODE_double_precision")) return "double";
+  if (has != NULL && has("ODE_single_precision")) return "single";
+  return NULL;
+}
+
+static void load_core_of(Ode* ode) {
+  core_ode = ode;
   if (dlsym(RTLD_DEFAULT, "dBatchColliderCreate") != NULL) {
-    say("this program uses ode_ext by itself", "", "");
+    say("this program uses ode_ext by itself", "");
     return;
   }
-  __typeof__(&dCheckConfiguration) configured =
-      (__typeof__(configured))ode_ext_find_function("dCheckConfiguration");
-  const char* precision = NULL;
-  if (configured != NULL && configured("ODE_double_precision")) precision = "double";
-  if (configured != NULL && configured("ODE_single_precision")) precision = "single";
+  const char* precision = precision_of(ode);
   if (precision == NULL) {
-    say("this ODE does not tell its precision", "", "");
+    say("this ODE does not tell its precision", "");
     return;
   }
   char *directory = ode_ext_own_directory(), *path = NULL;
@@ -87,104 +57,116 @@ static void load_core(void) {
     path = NULL;
   void* library = path == NULL ? NULL : dlopen(path, RTLD_NOW | RTLD_LOCAL);
   if (library == NULL) {
-    say(path == NULL ? "memory is short" : dlerror(), "", "");
+    say(path == NULL ? "memory is short" : dlerror(), "");
   } else {
     const char* missing = NULL;
     dxPreloadCoreFn* start = (dxPreloadCoreFn*)dlsym(library, "ode_ext_preload_core");
     core = start(&find_function, &missing);
-    if (core == NULL) say("this ODE has no ", missing, "");
+    if (core == NULL) say("this ODE has no ", missing);
   }
   free(path);
   free(directory);
 }
 
+/* The library if it is loaded, for this ODE. */
+static const dxPreloadCore* core_of(const Ode* ode) { return ode == core_ode ? core : NULL; }
+
 /* The library, or NULL where it cannot be. */
-static const dxPreloadCore* loaded_core(void) {
-  static pthread_once_t once = PTHREAD_ONCE_INIT;
-  if (!core_is_tried) {
-    pthread_once(&once, &load_core);
-    core_is_tried = true;
+static const dxPreloadCore* loaded_core_of(Ode* ode) {
+  static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+  static atomic_bool is_tried, is_second_said;
+  if (!is_tried) {
+    pthread_mutex_lock(&one_at_a_time);
+    if (!is_tried) load_core_of(ode);
+    is_tried = true;
+    pthread_mutex_unlock(&one_at_a_time);
   }
-  return core;
+  if (ode != core_ode && core != NULL && !atomic_exchange(&is_second_said, true))
+    say("this process has another ODE, whose meshes ode_ext leaves alone: ", ode->found.path);
+  return core_of(ode);
 }
 
 static int may_meshes_meet(void) { return mesh_geoms >= 2; }
 
-static int is_mesh(dGeomID geom) {
-  return the_ode.class_of != NULL && the_ode.class_of(geom) == dTriMeshClass;
+static int is_mesh(const Ode* ode, dGeomID geom) {
+  return ode->class_of != NULL && ode->class_of(geom) == dTriMeshClass;
 }
+
+#define ODE_OF_CALLER() ode_of(__builtin_return_address(0))
 
 /* --- passes --------------------------------------------------------------------------------- */
 
-static int collide(dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
-  if (!may_meshes_meet() || callback == NULL || loaded_core() == NULL) return 0;
+static int collide(Ode* ode, dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
+  if (!may_meshes_meet() || callback == NULL || loaded_core_of(ode) == NULL) return 0;
   return core->collide(first, second, data, callback);
 }
 
-static void collide_space(const Ode* original_ode, dSpaceID space, void* data,
-                          dNearCallback* callback) {
+static void collide_space(Ode* ode, dSpaceID space, void* data, dNearCallback* callback) {
   PASS_TIMER;
-  if (space == NULL || !collide((dGeomID)space, NULL, data, callback))
-    original_ode->dSpaceCollide(space, data, callback);
+  if (space == NULL || !collide(ode, (dGeomID)space, NULL, data, callback))
+    ode->dSpaceCollide(space, data, callback);
 }
 
 EXPORTED void dSpaceCollide(dSpaceID space, void* data, dNearCallback* callback) {
-  collide_space(original(__builtin_return_address(0)), space, data, callback);
+  collide_space(ODE_OF_CALLER(), space, data, callback);
 }
 
 EXPORTED void dSpaceCollide2(dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
-  const Ode* original_ode = original(__builtin_return_address(0));
+  Ode* ode = ODE_OF_CALLER();
   PASS_TIMER;
-  if (first == NULL || second == NULL || !collide(first, second, data, callback))
-    original_ode->dSpaceCollide2(first, second, data, callback);
+  if (first == NULL || second == NULL || !collide(ode, first, second, data, callback))
+    ode->dSpaceCollide2(first, second, data, callback);
 }
 
 /* In a pass ODE asks the library by itself. What is met before any pass has to bring it in. */
 EXPORTED int dCollide(dGeomID first, dGeomID second, int flags, dContactGeom* contacts, int skip) {
   static atomic_bool have_met;
-  const Ode* original_ode = original(__builtin_return_address(0));
-  if (may_meshes_meet() && !have_met && first != NULL && second != NULL && is_mesh(first) &&
-      is_mesh(second)) {
-    if (loaded_core() != NULL) core->meet();
+  Ode* ode = ODE_OF_CALLER();
+  if (may_meshes_meet() && !have_met && first != NULL && second != NULL && is_mesh(ode, first) &&
+      is_mesh(ode, second)) {
+    if (loaded_core_of(ode) != NULL) core->meet();
     have_met = true;
   }
-  return original_ode->dCollide(first, second, flags, contacts, skip);
+  return ode->dCollide(first, second, flags, contacts, skip);
 }
 
 /* --- what lives ----------------------------------------------------------------------------- */
 
 EXPORTED void dInitODE(void) {
-  ORIGINAL(dInitODE)();
-  if (core != NULL) core->initialized();
+  const Ode* ode = ODE_OF_CALLER();
+  ode->dInitODE();
+  if (core_of(ode) != NULL) core->initialized();
 }
 
 EXPORTED int dInitODE2(unsigned flags) {
-  const int result = ORIGINAL(dInitODE2)(flags);
-  if (core != NULL) core->initialized();
+  const Ode* ode = ODE_OF_CALLER();
+  const int result = ode->dInitODE2(flags);
+  if (core_of(ode) != NULL) core->initialized();
   return result;
 }
 
 EXPORTED dGeomID dCreateTriMesh(dSpaceID space, dTriMeshDataID data, dTriCallback* callback,
                                 dTriArrayCallback* array_callback, dTriRayCallback* ray_callback) {
   ++mesh_geoms;
-  return ORIGINAL(dCreateTriMesh)(space, data, callback, array_callback, ray_callback);
+  return ODE_OF_CALLER()->dCreateTriMesh(space, data, callback, array_callback, ray_callback);
 }
 
 /* A space may destroy its geoms by itself, so there may be fewer than are counted. */
 EXPORTED void dGeomDestroy(dGeomID geom) {
-  const Ode* original_ode = original(__builtin_return_address(0));
-  if (mesh_geoms > 0 && geom != NULL && is_mesh(geom)) --mesh_geoms;
-  original_ode->dGeomDestroy(geom);
+  const Ode* ode = ODE_OF_CALLER();
+  if (mesh_geoms > 0 && geom != NULL && is_mesh(ode, geom)) --mesh_geoms;
+  ode->dGeomDestroy(geom);
 }
 
-static void changed(dTriMeshDataID data) {
-  if (core != NULL && data != NULL) core->mesh_changed(data);
+static void changed(const Ode* ode, dTriMeshDataID data) {
+  if (core_of(ode) != NULL && data != NULL) core->mesh_changed(data);
 }
 
 #define BUILD(name, parameters, arguments) \
   EXPORTED void name parameters {          \
-    ORIGINAL(name) arguments;              \
-    changed(data);                         \
+    const Ode* ode = ODE_OF_CALLER();      \
+    ode->name arguments;                   \
+    changed(ode, data);                    \
   }
 
 BUILD(dGeomTriMeshDataBuildSingle,
@@ -214,33 +196,37 @@ BUILD(dGeomTriMeshDataBuildSimple1,
 BUILD(dGeomTriMeshDataUpdate, (dTriMeshDataID data), (data))
 
 EXPORTED void dGeomTriMeshDataDestroy(dTriMeshDataID data) {
-  ORIGINAL(dGeomTriMeshDataDestroy)(data);
-  if (core != NULL && data != NULL) core->mesh_destroyed(data);
+  const Ode* ode = ODE_OF_CALLER();
+  ode->dGeomTriMeshDataDestroy(data);
+  if (core_of(ode) != NULL && data != NULL) core->mesh_destroyed(data);
 }
 
 /* --- an ODE within the program -------------------------------------------------------------- */
 
+static Ode* ode_of_program;
+
 /* A space with itself is its interior. */
 static void collide_interior(dSpaceID space, void* data, dNearCallback* callback) {
-  the_ode.dSpaceCollide2((dGeomID)space, (dGeomID)space, data, callback);
+  ode_of_program->dSpaceCollide2((dGeomID)space, (dGeomID)space, data, callback);
 }
 
 /* Not dSpaceCollide, which here is the program's. */
 static void collide_redirected(dSpaceID space, void* data, dNearCallback* callback) {
-  collide_space(&the_ode, space, data, callback);
+  collide_space(ode_of_program, space, data, callback);
 }
 
 /* Calls within a program do not go through the dynamic linker. Of an ODE that is linked into it and
    exported (-rdynamic) passes are redirected, and pass by pass the rest follows. */
 __attribute__((constructor)) static void redirect_program(void) {
-  if (!ode_ext_ode_is_in_program()) return;
-  find_ode(NULL);
-  void* pass = (void*)the_ode.dSpaceCollide;
-  if (the_ode.dSpaceCollide2 == NULL || !ode_ext_redirect(pass, (void*)&collide_redirected)) {
-    say("ODE is linked into the program itself, whose calls cannot be seen from outside", "", "");
+  ode_of_program = ode_ext_ode_of_program();
+  if (ode_of_program == NULL) return;
+  void* pass = (void*)ode_of_program->dSpaceCollide;
+  if (ode_of_program->dSpaceCollide2 == NULL ||
+      !ode_ext_redirect(pass, (void*)&collide_redirected)) {
+    say("ODE is linked into the program itself, whose calls cannot be seen from outside", "");
     return;
   }
-  the_ode.dSpaceCollide = &collide_interior;
+  ode_of_program->dSpaceCollide = &collide_interior;
   mesh_geoms = 2; /* they are not seen */
 }
 
@@ -249,8 +235,11 @@ __attribute__((constructor)) static void redirect_program(void) {
 void print_core_statistics(void) {
   if (core != NULL)
     core->print_statistics();
-  else if (!core_is_tried)
+  else if (core_ode == NULL)
     fputs("ode_ext: no two meshes were there to meet: nothing was loaded\n", stderr);
 }
 
-const char* found_ode_path(void) { return ode == NULL ? NULL : ode_path; }
+const char* found_ode_path(void) {
+  const Ode* ode = core_ode != NULL ? core_ode : ode_ext_first_ode();
+  return ode == NULL ? NULL : ode->found.path;
+}

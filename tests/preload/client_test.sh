@@ -6,11 +6,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: tests/preload/client_test.sh BUILD dart|dartpy|panda|late|static [argument of the client]...
+usage: tests/preload/client_test.sh BUILD dart|dartpy|panda|late|two|static [argument of the client]...
   BUILD  the build directory
   dart   a C++ program of DART's ODE detector     dartpy  the same from Python
   panda  panda3d, whose wheel has an ODE of its own in single precision; is installed by pip into
          BUILD/panda where it is not
+  two    dartpy and panda3d in one process
   late   ODE comes with a plugin                  static  ODE is linked statically and exported
 TEXT
 }
@@ -33,8 +34,9 @@ fail() {
 
 install_panda() {
   local python=$build/panda/bin/python
-  if ! "$python" -c "import panda3d.ode" 2> "$results/import"; then
-    /usr/bin/python3 -m venv --clear "$build/panda"
+  if ! "$python" -c "import panda3d.ode, dartpy" 2> "$results/import"; then
+    # With those of the system: dartpy is one.
+    /usr/bin/python3 -m venv --clear --system-site-packages "$build/panda"
     "$python" -m pip install --quiet --disable-pip-version-check panda3d==1.10.16
   fi
 }
@@ -48,6 +50,10 @@ case $client in
     program=("$build/panda/bin/python" "$sources/clients/panda_meshes.py" "$@")
     ;;
   late) program=("$build/bin/late_host" "$build/libidioms_plugin.so" "${1:-recorded}") ;;
+  two)
+    install_panda
+    program=("$build/panda/bin/python" "$sources/clients/two_odes.py")
+    ;;
   static) program=("$build/bin/idioms_static" "${1:-recorded}") ;;
   *) usage >&2; exit 2 ;;
 esac
@@ -67,7 +73,7 @@ diff <(same "$results/stock") <(same "$results/preload") || fail "the program di
 
 # Of the one cube on the other, 0.010 deep.
 case $client in
-  dart | dartpy | panda)
+  dart | dartpy | panda | two)
     grep -q "^figures: cube on cube.* the deepest 0.293" "$results/stock" ||
       fail "ODE alone is said to give 0.293"
     grep -q "^figures: cube on cube.* the deepest 0.010" "$results/preload" ||
@@ -78,6 +84,12 @@ asked=$(sed -n 's/.*two meshes \([0-9]*\) times.*/\1/p' "$results/statistics")
 by_ode=$(sed -n 's/.*contacts; \([0-9]*\) pairs answered by.*/\1/p' "$results/statistics")
 [[ ${asked:-0} -gt 0 && $by_ode -eq 0 ]] || fail "not all mesh pairs came to ode_ext"
 
+if [[ $client == two ]]; then
+  second() { sed -n '/^panda_meshes$/,/^figures.*hash/s/in [0-9.]* s//p' "$1"; }
+  cmp <(second "$results/stock") <(second "$results/preload") ||
+    fail "the second ODE does not go on as before"
+  grep -q "this process has another ODE" "$results/statistics" || fail "nothing is said of it"
+fi
 if [[ $client == panda ]]; then
   "$build/bin/ode_ext-run" "${program[@]}" > "$results/again"
   hash_of() { grep -o 'hash .*' "$1"; }
