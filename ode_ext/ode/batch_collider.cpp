@@ -2,7 +2,6 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include "ode/pose_of.h"
 #include "ode/program_callbacks.h"
 #include "ode/stock_collider.h"
+#include "ode/stopwatch.h"
 #include "ode/trace.h"
 
 namespace ode_ext {
@@ -38,19 +38,6 @@ bool is_a_pile_that_wakes(std::uint64_t questions, std::size_t pairs) {
 std::size_t most_temporal_bytes(const DeviceInfo& info) {
   return static_cast<std::size_t>(info.largest_buffer / 16);
 }
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
-        .count();
-  }
-
-  std::chrono::steady_clock::time_point start() const { return start_; }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 PlacedGeom placed(dGeomID geom) { return {geom, geom}; }
 
