@@ -14,6 +14,9 @@
 namespace ode_ext {
 namespace {
 
+// To find a collider that other threads leave free. Each has its own soon, so one is mostly enough.
+constexpr int kAttempts = 16;
+
 std::atomic<bool> cannot_create{false};
 std::atomic<double> seconds{0};
 
@@ -85,16 +88,20 @@ bool collide_by_a_free_collider(const PassRoot& root, void* data, dNearCallback*
     const int result = try_it(last);
     if (result >= 0) return result == 1;
   }
-  bool all_are_passing = true;
-  for (const auto& collider : live_colliders()) {
-    if (handle_of(collider) == last) continue;
-    const int result = try_it(handle_of(collider));
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    bool all_are_passing = true;
+    for (const auto& collider : live_colliders()) {
+      const int result = try_it(handle_of(collider));
+      if (result >= 0) return result == 1;
+      all_are_passing = all_are_passing && collider->is_passing();
+    }
+    if (!all_are_passing) continue;  // one came free meanwhile
+    const dBatchColliderID another = create();
+    if (another == nullptr) return false;
+    const int result = try_it(another);
     if (result >= 0) return result == 1;
-    all_are_passing = all_are_passing && collider->is_passing();
   }
-  if (!all_are_passing) return false;
-  const dBatchColliderID another = create();
-  return another != nullptr && try_it(another) == 1;
+  return false;
 }
 
 void have_a_collider() {
