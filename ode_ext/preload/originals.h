@@ -24,7 +24,7 @@ typedef struct {
 extern Caller ode_ext_callers[kMostCallers];
 extern atomic_int ode_ext_caller_count;
 
-Ode* ode_ext_ode_of_new_caller(const void* caller);
+__attribute__((cold)) Ode* ode_ext_ode_of_new_caller(const void* caller);
 /* Within the program itself, or NULL. */
 Ode* ode_ext_ode_of_program(void);
 /* The one that was called first, or NULL. */

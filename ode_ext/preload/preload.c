@@ -118,15 +118,19 @@ EXPORTED void dSpaceCollide2(dGeomID first, dGeomID second, void* data, dNearCal
     ode->dSpaceCollide2(first, second, data, callback);
 }
 
+static atomic_bool have_met;
+
+__attribute__((cold)) static void meet(Ode* ode, dGeomID first, dGeomID second) {
+  if (have_met || first == NULL || second == NULL || !is_mesh(ode, first) || !is_mesh(ode, second))
+    return;
+  if (loaded_core_of(ode) != NULL) core->meet();
+  have_met = true;
+}
+
 /* In a pass ODE asks the library by itself. What is met before any pass has to bring it in. */
 EXPORTED int dCollide(dGeomID first, dGeomID second, int flags, dContactGeom* contacts, int skip) {
-  static atomic_bool have_met;
   Ode* ode = ODE_OF_CALLER();
-  if (may_meshes_meet() && !have_met && first != NULL && second != NULL && is_mesh(ode, first) &&
-      is_mesh(ode, second)) {
-    if (loaded_core_of(ode) != NULL) core->meet();
-    have_met = true;
-  }
+  if (may_meshes_meet() && !have_met) meet(ode, first, second);
   return ode->dCollide(first, second, flags, contacts, skip);
 }
 
