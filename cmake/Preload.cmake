@@ -18,7 +18,7 @@ function(preload_library name exports)
   set_property(TARGET ${name} APPEND PROPERTY
                LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/${exports})
   if(PROJECT_IS_TOP_LEVEL)
-    install(TARGETS ${name} LIBRARY DESTINATION ${preload_dir})
+    install(TARGETS ${name} LIBRARY DESTINATION ${preload_dir} COMPONENT runtime)
   endif()
 endfunction()
 
@@ -65,5 +65,5 @@ target_compile_definitions(ode_ext_run PRIVATE
   ODE_EXT_BIN_TO_PRELOAD="${bin_to_preload}" ODE_EXT_VERSION="${PROJECT_VERSION}")
 add_dependencies(ode_ext_run ode_ext_preload)
 if(PROJECT_IS_TOP_LEVEL)
-  install(TARGETS ode_ext_run RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ode_ext_run RUNTIME COMPONENT tools)
 endif()

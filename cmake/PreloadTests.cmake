@@ -24,7 +24,8 @@ foreach(line IN LISTS idioms)
   set_tests_properties(preload_idiom_${idiom} PROPERTIES TIMEOUT 120)
 endforeach()
 
-add_test(NAME preload_run COMMAND ${preload_tests}/run_test.sh ${PROJECT_BINARY_DIR}/bin)
+add_test(NAME preload_run
+         COMMAND ${preload_tests}/run_test.sh ${PROJECT_BINARY_DIR}/bin ${preload_output})
 set_tests_properties(preload_run PROPERTIES TIMEOUT 120)
 
 # The same programs as a plugin that brings ODE late, and with ODE within themselves, exported.
@@ -65,3 +66,4 @@ foreach(client dart dartpy panda late two static)
            COMMAND ${preload_tests}/client_test.sh ${PROJECT_BINARY_DIR} ${client})
   set_tests_properties(preload_client_${client} PROPERTIES TIMEOUT 300)
 endforeach()
+set_tests_properties(preload_client_panda preload_client_two PROPERTIES RESOURCE_LOCK panda)

@@ -36,7 +36,8 @@ constexpr const char* kUsage =
     "\n"
     "Each option sets a variable of the environment, which may be set instead: ODE_EXT_STATS=1,\n"
     "ODE_EXT_DEVICE, ODE_EXT_MAX_CONTACTS, ODE_EXT_TRUST_MESHES=1, ODE_EXT_CONFIG, ODE_EXT_LOG,\n"
-    "ODE_EXT_TRACE. The program has to call ODE in a shared library, of its own or of the system.\n"
+    "ODE_EXT_TRACE. The program's ODE may be a shared library, of its own or of the system, or be\n"
+    "linked into it and exported.\n"
     "Exit status: that of the program; 2 wrong usage, 125 ode_ext is not installed completely,\n"
     "126 the program cannot be run like this, 127 it is not found.\n";
 

@@ -5,16 +5,17 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: tests/preload/run_test.sh BIN
-  BIN  the directory of idioms, idioms_by_api and ode_ext-run
+usage: tests/preload/run_test.sh BIN PRELOAD
+  BIN      the directory of idioms, idioms_by_api and ode_ext-run
+  PRELOAD  that of libode_ext_preload.so
 TEXT
 }
 
 case "${1:-}" in
   -h | --help) usage; exit 0 ;;
 esac
-[[ $# -eq 1 ]] || { usage >&2; exit 2; }
-bin=$1
+[[ $# -eq 2 ]] || { usage >&2; exit 2; }
+bin=$1 preload=$2
 results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 
@@ -63,4 +64,24 @@ same_as_stock ODE_EXT_DEVICE=nosuch:: "nosuch"
 same_as_stock ODE_EXT_MAX_CONTACTS=many "max_contacts"
 same_as_stock ODE_EXT_CONFIG=rays=none "rays"
 same_as_stock ODE_EXT_LOG=loud "ODE_EXT_LOG"
+# lacking <function> <sentence>: an ODE whose table of names has another one in its place.
+lacking() {
+  local other=${1//[a-z]/x} ode
+  ode=$(ldd "$bin/idioms" | awk '/libode/ { print $3 }')
+  mkdir -p "$results/ode"
+  sed "s/\\x00$1\\x00/\\x00$other\\x00/" "$ode" > "$results/ode/$(basename "$ode")"
+  same_as_stock LD_LIBRARY_PATH="$results/ode" "$2"
+}
+
+lacking dGeomTriMeshGetTriangleCount "this ODE has no dGeomTriMeshGetTriangleCount"
+lacking dCheckConfiguration "does not tell its precision"
+
+# Without the library behind it, which may want an OpenCL that is not there.
+cp "$preload/libode_ext_preload.so" "$results"
+"$bin/idioms" in_the_callback > "$results/stock"
+LD_PRELOAD=$results/libode_ext_preload.so "$bin/idioms" in_the_callback > "$results/preload" \
+  2> "$results/said"
+cmp "$results/stock" "$results/preload" || fail "alone: not as before"
+[[ $(grep -c "cannot open shared object file" "$results/said") -eq 1 ]] ||
+  fail "alone: says $(cat "$results/said")"
 exit "$failed"

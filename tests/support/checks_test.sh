@@ -21,6 +21,7 @@ plant_clean_tree() {
   cp "$formats" "$tree/"
   source_file include/ode_ext/ode_ext.h '#include <ode/ode.h>'
   source_file ode_ext/api/api.cpp '#include "ode/gather.h"' '#include "ode_ext/ode_ext.h"'
+  source_file ode_ext/preload/core.cpp '#include "api/api.h"' '#include "ode/gather.h"'
   source_file ode_ext/ode/gather.cpp '#include <ode/ode.h>' '' '#include "pipeline/collider.h"'
   source_file ode_ext/pipeline/collider.cpp '#include <CL/cl.h>' '' '#include "device/device.h"' \
     '#include "geometry/mesh.h"'
@@ -87,6 +88,7 @@ source_file kernels/cull.cl '#include "paper/types.h"'
 expect_fail check-house 'kernels/cull.cl'
 include_fails ode_ext/ode/gather.h '"api/handles.h"'
 include_fails ode_ext/ode/gather.h '<CL/cl.h>'
+include_fails ode_ext/api/api.cpp '"preload/core.h"'
 include_fails ode_ext/api/create.cpp '<CL/cl.h>'
 include_fails ode_ext/tools/replay/player.cpp '"ode/gather.h"'
 include_fails ode_ext/tools/replay/player.cpp '"ode/capture.h"'
