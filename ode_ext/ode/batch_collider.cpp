@@ -122,8 +122,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
   stats_.meshes = static_cast<std::int64_t>(meshes_.size());
   stats_.ms_pass = whole.milliseconds();
-  stats_.totals.pairs_batched += stats_.pairs_computed;
-  stats_.totals.ms_passes += stats_.ms_pass;
+  stats_.sum_up();
   trace_pass(whole.start(), stats_);
   return (stats_.status & dBatchStatusBacktracked) != 0;
 }
@@ -190,9 +189,7 @@ void BatchCollider::compute_unasked() {
   unasked_pairs_.clear();
   unasked_members_.clear();
   collide_scene(nullptr);
-  const auto computed = static_cast<long long>(collider_.report().pairs);
-  stats_.pairs_computed += computed;
-  stats_.totals.pairs_batched += computed;
+  stats_.count_more(static_cast<std::int64_t>(collider_.report().pairs));
 }
 
 // Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.

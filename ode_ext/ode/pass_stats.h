@@ -34,6 +34,17 @@ struct PassStats {
   std::int64_t passes = 0, pairs_alone = 0, pairs_stock = 0, meshes = 0;  // since creation
   Totals totals;
   double ms_gather = 0, ms_meshes = 0, ms_device = 0, ms_export = 0, ms_pass = 0;
+
+  // The end of the batch.
+  void sum_up() {
+    totals.pairs_batched += pairs_computed;
+    totals.ms_passes += ms_pass;
+  }
+  // Another batch within the pass, after its own.
+  void count_more(std::int64_t computed) {
+    pairs_computed += computed;
+    totals.pairs_batched += computed;
+  }
 };
 
 // Takes over what the pipeline reports.
