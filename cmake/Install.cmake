@@ -49,7 +49,7 @@ foreach(tool IN LISTS ODE_EXT_TOOLS)
   install(TARGETS ode_ext-${tool} RUNTIME COMPONENT tools)
   list(APPEND manual_pages ode_ext/tools/${tool}/ode_ext-${tool}.1)
 endforeach()
-if(EXISTS ${PROJECT_SOURCE_DIR}/ode_ext/tools/run.cpp)  # installs itself, with the preload
+if(TARGET ode_ext_run)  # installs itself, with the preload
   list(APPEND manual_pages ode_ext/tools/run/ode_ext-run.1)
 endif()
 if(NOT ODE_EXT_DEBIAN_PACKAGES)  # there they are compressed

@@ -18,7 +18,7 @@ function(preload_library name exports)
   set_property(TARGET ${name} APPEND PROPERTY
                LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/${exports})
   if(PROJECT_IS_TOP_LEVEL)
-    install(TARGETS ${name} LIBRARY DESTINATION ${preload_dir} COMPONENT runtime)
+    install(TARGETS ${name} LIBRARY DESTINATION ${preload_dir} COMPONENT tools)
   endif()
 endfunction()
 
@@ -57,7 +57,7 @@ endforeach()
 
 file(RELATIVE_PATH bin_to_preload
      ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/ode_ext)
-add_executable(ode_ext_run ode_ext/tools/run.cpp ode_ext/tools/elf_program.cpp)
+add_executable(ode_ext_run ode_ext/tools/run/main.cpp ode_ext/tools/run/elf_program.cpp)
 ode_ext_compile_options(ode_ext_run)
 set_target_properties(ode_ext_run PROPERTIES OUTPUT_NAME ode_ext-run)
 target_include_directories(ode_ext_run PRIVATE ode_ext)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/elf_program.h"
+#include "tools/run/elf_program.h"
 
 #include <elf.h>
 #include <link.h>

@@ -14,7 +14,7 @@
 #include <iterator>
 #include <string>
 
-#include "tools/elf_program.h"
+#include "tools/run/elf_program.h"
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr const char* kUsage =
     "Runs a program that uses the Open Dynamics Engine with its mesh pairs collided by ode_ext.\n"
     "\n"
     "  --stats             say at the end what was collided, and what it took\n"
-    "  --device DEVICE     platform:type:name, or a number from ode_ext_info\n"
+    "  --device DEVICE     platform:type:name, or a number from ode_ext-info\n"
     "  --max-contacts N    contacts kept per pair, 1 to 64 (16)\n"
     "  --trust-meshes      meshes change only through ODE's functions: saves comparing them\n"
     "  --config TEXT       as dBatchColliderParams.config\n"
