@@ -47,7 +47,10 @@ target_include_directories(idioms_static PRIVATE tests ${ode_includes})
 target_link_libraries(idioms_static PRIVATE ${ODE_ARCHIVE} ccd Threads::Threads)
 
 # Programs of others that come with an ODE or bind to Debian's.
+get_directory_property(definitions COMPILE_DEFINITIONS)
 find_package(DART CONFIG REQUIRED COMPONENTS collision-ode)
+# It adds some to all that is compiled here.
+set_directory_properties(PROPERTIES COMPILE_DEFINITIONS "${definitions}")
 add_executable(dart_pairs tests/preload/clients/dart_pairs.cpp)
 ode_ext_compile_options(dart_pairs)
 # DART's headers are not written for these warnings.
