@@ -119,7 +119,7 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
     auto collider = std::make_shared<BatchCollider>(
         to_options(complete_params), static_cast<float>(complete_params.open_thickness),
         complete_params.trust_meshes != 0, complete_params.triangle_callbacks != 0);
-    ode_ext::capture_collider(collider.get(), complete_params, collider->device_name());
+    ode_ext::capture_collider(collider->identity(), complete_params, collider->device_name());
     ode_ext::install_override();
     ode_ext::register_collider(collider);
     return reinterpret_cast<dBatchColliderID>(collider.get());

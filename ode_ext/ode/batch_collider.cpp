@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "device/error.h"
-#include "ode/capture.h"
 #include "ode/contact_export.h"
 #include "ode/contact_ids.h"
 #include "ode/messages.h"
@@ -253,13 +252,11 @@ AnswerCopy BatchCollider::copy_of(const Answer& answer) {
 }
 
 void BatchCollider::collide_scene(PassMemory* memory) {
-  const std::uint32_t captured = capture_pass(this, scene_.members(), scene_.pairs());
   const PairContacts& found = scene_.collide(collider_, meshes_, memory);
   if (collider_.report().backtracked) {  // nothing to keep
     scene_.drop();
     return;
   }
-  capture_contacts(captured, found);
   const Stopwatch storing;
   scene_.store(found);
   if (memory != nullptr) stats_.ms_export = storing.milliseconds();

@@ -62,6 +62,7 @@ class BatchCollider {
   void forget(dTriMeshDataID data);
   PassStats stats();
   const std::string& device_name() const { return device_name_; }
+  const void* identity() const { return &collider_; }  // by which a capture knows it
 
  private:
   // All of these under the lock.

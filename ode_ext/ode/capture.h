@@ -17,7 +17,7 @@ namespace ode_ext {
 // std::runtime_error with a sentence if it cannot be written.
 void open_capture_of_environment();
 
-// Introduces a collider, by its address.
+// Introduces a collider, by an address of its own.
 void capture_collider(const void* collider, const dBatchColliderParams& params,
                       const std::string& device);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/pair_scene.h"
 
+#include "ode/capture.h"
+
 namespace ode_ext {
 
 void PairScene::begin() {
@@ -45,7 +47,10 @@ const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, Pa
   for (const PairMember* member : members_)
     scene_.objects.push_back({member->pose, meshes.index_of(member->mesh.get()),
                               reinterpret_cast<std::uintptr_t>(member->geom)});
-  return collider.collide(scene_, memory);
+  const std::uint32_t captured = capture_pass(&collider, members_, scene_.pairs);
+  const PairContacts& found = collider.collide(scene_, memory);
+  capture_contacts(captured, found);
+  return found;
 }
 
 void PairScene::store(const PairContacts& found) {

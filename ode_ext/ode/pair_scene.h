@@ -2,9 +2,7 @@
 // A scene of the pairs that have no answer yet, and the answers that it will be.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "ode/answers.h"
@@ -28,9 +26,6 @@ class PairScene {
   void store(const PairContacts& found);
   // It will not be collided: its answers do not stand.
   void drop();
-  // What is to be collided, pairs as indices of members.
-  std::span<const PairMember* const> members() const { return members_; }
-  std::span<const std::array<std::uint32_t, 2>> pairs() const { return scene_.pairs; }
   // Answers with contacts, those that were there before among them.
   long long colliding() const { return colliding_; }
 
