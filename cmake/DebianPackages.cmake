@@ -67,8 +67,9 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION utils)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${library} (= ${CPACK_DEBIAN_VERSION})")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION
     "batched mesh-mesh collider for ODE - programs\n${about}\n
-This package has ode_ext-info, which lists the devices of a machine, and
-ode_ext-replay, which collides again what a program collided.")
+This package has ode_ext-info, which lists the devices of a machine,
+ode_ext-replay, which collides again what a program collided, and
+ode_ext-run, which runs programs that were not written for ode_ext.")
 
 # --- what Debian wants in each -----------------------------------------------------------------
 

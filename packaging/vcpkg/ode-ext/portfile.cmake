@@ -16,6 +16,8 @@ vcpkg_cmake_config_fixup(PACKAGE_NAME ode_ext CONFIG_PATH lib/cmake/ode_ext)
 vcpkg_fixup_pkgconfig()
 
 if("tools" IN_LIST FEATURES)
+  # It looks for its library beside itself, and vcpkg moves programs.
+  file(REMOVE "${CURRENT_PACKAGES_DIR}/bin/ode_ext-run" "${CURRENT_PACKAGES_DIR}/debug/bin/ode_ext-run")
   vcpkg_copy_tools(TOOL_NAMES ode_ext-info ode_ext-replay AUTO_CLEAN)
 endif()
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/debug/include" "${CURRENT_PACKAGES_DIR}/debug/share")
