@@ -113,6 +113,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.add_option("--snapshot", o.snapshot, "Write all meshes at the end to this OBJ file")
       ->group("Output");
   app.add_flag("--quiet", o.quiet, "No progress")->group("Output");
+  add_picture_options(app, o.pictures);
   try {
     app.parse(argc, argv);
     const bool deformable = o.scene == kDeformableScene;

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "falling_objects/picture_options.h"
+
 namespace falling_objects {
 
 enum class Collider { kBatch, kOde };
@@ -38,6 +40,7 @@ struct Options {
   bool check_rest = false;
   bool quiet = false;
   std::string snapshot;
+  PictureOptions pictures;
 
   bool has_sheets() const { return sheets > 0; }
   // The last 0.5 s, over which speeds are judged.

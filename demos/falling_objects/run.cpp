@@ -10,12 +10,13 @@
 #include <utility>
 
 #include "falling_objects/checks.h"
-#include "falling_objects/mesh_file.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
 #include "falling_objects/sheets.h"
 #include "falling_objects/simulation.h"
 #include "falling_objects/snapshot.h"
+#include "falling_objects/usage_error.h"
+#include "falling_objects/world.h"
 
 namespace falling_objects {
 namespace {
@@ -23,25 +24,10 @@ namespace {
 constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
 constexpr double kDrapeEvery = 1;      // [s] ... at the sheets, which takes it longer
 
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 struct OdeSession {
   OdeSession() { dInitODE2(0); }
   ~OdeSession() { dCloseODE(); }
 };
-
-std::vector<NamedMesh> load_meshes(const Options& options) {
-  if (options.meshes.empty()) return make_shapes();
-  std::vector<NamedMesh> meshes;
-  try {
-    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
-  } catch (const std::runtime_error& e) {
-    throw UsageError(e.what());
-  }
-  return meshes;
-}
 
 int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
@@ -55,27 +41,22 @@ int print_verdict(const Options& options, const Checks& checks) {
   return failures.empty() ? kExitOk : kExitCheckFailed;
 }
 
-int run_scene(const Options& options) {
+int run_scene(const Options& options, const MakeSpectator& watch) {
   std::ofstream csv;
   if (!options.csv.empty()) {
     csv.open(options.csv);
     if (!csv) throw UsageError("cannot write '" + options.csv + "'");
   }
   const OdeSession session;
-  std::vector<std::string> warnings;
-  Scene scene(load_meshes(options), options, warnings);
-  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
-
-  Collision collision(options, scene.space());
-  std::unique_ptr<Sheets> sheets;
+  World world(options);
+  const Scene& scene = world.scene();
+  for (const std::string& warning : world.warnings()) std::cerr << "warning: " << warning << '\n';
+  const Sheets* sheets = world.sheets();
   std::unique_ptr<DrapingMeter> draping_meter;
-  if (options.has_sheets()) {
-    sheets =
-        std::make_unique<Sheets>(static_cast<std::size_t>(options.sheets), options.seed, scene);
-    sheets->introduce(collision.batch());
-    draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
-  }
-  Simulation simulation(options, scene, collision, sheets.get());
+  if (sheets != nullptr) draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
+  const Simulation& simulation = world.simulation();
+  const Collision& collision = world.collision();
+  const std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
   Progress progress(options);
@@ -85,14 +66,15 @@ int run_scene(const Options& options) {
   const int drape_every = steps_in(kDrapeEvery, options.hz);
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   for (int step = 0; step < options.steps; ++step) {
-    StepRecord record = simulation.step();
+    StepRecord record = world.step();
     const bool finite = checks.after_step(record, simulation.contacts());
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
       record.deepest_penetration = measured.deepest;
     }
-    if (finite && sheets && ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
+    if (finite && sheets != nullptr &&
+        ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
       const Draping draping = draping_meter->measure();
       record.deepest_vertex = draping.deepest;
       record.crossing_share = draping.crossing_share();
@@ -102,6 +84,7 @@ int run_scene(const Options& options) {
     if (options.check_rest && step >= rest_from) checks.collect_speeds(record);
     records.push_back(record);
     progress.show(record);
+    if (spectator) spectator->after_step(record);
     if (!finite) break;
   }
   progress.finish();
@@ -111,6 +94,7 @@ int run_scene(const Options& options) {
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);
+  if (spectator) spectator->finish(std::cout);
   if (csv.is_open()) {
     write_csv(csv, records);
     csv.close();
@@ -119,7 +103,7 @@ int run_scene(const Options& options) {
   if (!options.snapshot.empty()) {
     std::ofstream file(options.snapshot);
     const std::vector<std::unique_ptr<Sheet>> none;
-    write_snapshot(file, scene, sheets ? sheets->all() : none);
+    write_snapshot(file, scene, sheets != nullptr ? sheets->all() : none);
     file.close();
     if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
   }
@@ -128,9 +112,9 @@ int run_scene(const Options& options) {
 
 }  // namespace
 
-int run(const Options& options) {
+int run(const Options& options, const MakeSpectator& watch) {
   try {
-    return run_scene(options);
+    return run_scene(options, watch);
   } catch (const NoDevice& e) {
     std::cerr << "no device: " << e.message << '\n';
     return kExitNoDevice;

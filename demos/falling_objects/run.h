@@ -3,9 +3,11 @@
 #pragma once
 
 #include "falling_objects/options.h"
+#include "falling_objects/spectator.h"
 
 namespace falling_objects {
 
-int run(const Options& options);
+// `watch` may be empty.
+int run(const Options& options, const MakeSpectator& watch = {});
 
 }  // namespace falling_objects

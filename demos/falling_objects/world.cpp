@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/world.h"
+
+#include "falling_objects/mesh_file.h"
+#include "falling_objects/usage_error.h"
+
+namespace falling_objects {
+namespace {
+
+std::vector<NamedMesh> load_meshes(const Options& options) {
+  if (options.meshes.empty()) return make_shapes();
+  std::vector<NamedMesh> meshes;
+  try {
+    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
+  } catch (const std::runtime_error& e) {
+    throw UsageError(e.what());
+  }
+  return meshes;
+}
+
+// ODE has one state of random numbers for all worlds.
+class OwnRandom {
+ public:
+  explicit OwnRandom(unsigned long& own) : own_(own), others_(dRandGetSeed()) { dRandSetSeed(own); }
+  ~OwnRandom() {
+    own_ = dRandGetSeed();
+    dRandSetSeed(others_);
+  }
+  OwnRandom(const OwnRandom&) = delete;
+  OwnRandom& operator=(const OwnRandom&) = delete;
+
+ private:
+  unsigned long& own_;
+  unsigned long others_;
+};
+
+}  // namespace
+
+World::World(const Options& options) : options_(options) {
+  const OwnRandom random(random_);
+  scene_ = std::make_unique<Scene>(load_meshes(options_), options_, warnings_);
+  collision_ = std::make_unique<Collision>(options_, scene_->space());
+  if (options_.has_sheets()) {
+    sheets_ =
+        std::make_unique<Sheets>(static_cast<std::size_t>(options_.sheets), options_.seed, *scene_);
+    sheets_->introduce(collision_->batch());
+  }
+  simulation_ = std::make_unique<Simulation>(options_, *scene_, *collision_, sheets_.get());
+}
+
+StepRecord World::step() {
+  const OwnRandom random(random_);
+  return simulation_->step();
+}
+
+}  // namespace falling_objects
