@@ -10,8 +10,11 @@
 namespace view {
 namespace {
 
-constexpr float kFieldOfView = glm::radians(35.0F);
-constexpr float kSteepest = glm::radians(89.0F);  // straight down no side would be up
+constexpr float kFieldOfView = glm::radians(35.0F);  // across the shorter side
+constexpr float kSteepest = glm::radians(89.0F);     // straight down no side would be up
+
+// Tangent of half the field of view from bottom to top.
+float half_height(float aspect) { return std::tan(kFieldOfView / 2) / std::min(aspect, 1.0F); }
 
 // "1,2,3" as numbers; empty where it is anything else.
 std::vector<float> numbers_of(const std::string& text) {
@@ -47,17 +50,18 @@ glm::vec3 Camera::eye() const {
 }
 
 glm::mat4 Camera::clip_from_world(float aspect) const {
-  return glm::perspective(kFieldOfView, aspect, distance / 50, distance * 20) *
+  return glm::perspective(2 * std::atan(half_height(aspect)), aspect, distance / 50,
+                          distance * 20) *
          glm::lookAt(eye(), target, glm::vec3(0, 0, 1));
 }
 
 glm::vec3 Camera::ray(glm::vec2 place, float aspect) const {
-  const float half = std::tan(kFieldOfView / 2);
+  const float half = half_height(aspect);
   const glm::vec3 ahead = glm::normalize(target - eye());
   return glm::normalize(ahead + right() * (place.x * half * aspect) + up() * (place.y * half));
 }
 
-float Camera::height_at(glm::vec3 place) const {
+float Camera::extent_at(glm::vec3 place) const {
   return 2 * glm::length(place - eye()) * std::tan(kFieldOfView / 2);
 }
 

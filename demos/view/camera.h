@@ -16,12 +16,12 @@ struct Camera {
   float elevation = 0.6F;  // [rad] of the eye above the target
 
   glm::vec3 eye() const;
-  // Field of view: 35 degrees from bottom to top.
+  // Field of view: 35 degrees across the shorter side.
   glm::mat4 clip_from_world(float aspect) const;
   // Unit, from the eye through a place of the picture: (-1, -1) bottom left to (1, 1) top right.
   glm::vec3 ray(glm::vec2 place, float aspect) const;
-  // What fits from bottom to top at the distance of a place [m].
-  float height_at(glm::vec3 place) const;
+  // What fits across the shorter side at the distance of a place [m].
+  float extent_at(glm::vec3 place) const;
   // Right and up as the picture has them, unit.
   glm::vec3 right() const;
   glm::vec3 up() const;

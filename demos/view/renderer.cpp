@@ -223,7 +223,8 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &canvas);
   instances_.clear();
   const Scale in_picture = [&](glm::vec3 place) {
-    return static_cast<float>(viewport.size.height) / camera.height_at(place);
+    return static_cast<float>(std::min(viewport.size.width, viewport.size.height)) /
+           camera.extent_at(place);
   };
   const Scale in_shadow = [&](glm::vec3) {
     return static_cast<float>(kShadowSize) / (2 * frame.radius);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <optional>
 
-#include "falling_objects/penetration.h"
+#include "falling_objects/measured_world.h"
 #include "falling_objects/show.h"
-#include "falling_objects/show/caption.h"
-#include "falling_objects/show/space_view.h"
+#include "falling_objects/show/world_view.h"
 #include "falling_objects/usage_error.h"
 #include "view/film.h"
 #include "view/studio.h"
@@ -18,29 +16,25 @@ view::Size size_of(const PictureOptions& options) { return {options.width, optio
 class FilmOfRun : public Spectator {
  public:
   explicit FilmOfRun(const World& world)
-      : world_(world),
+      : hz_(world.options().hz),
         options_(world.options().pictures),
         studio_(size_of(options_)),
-        view_(studio_.renderer()),
-        film_(options_.frames, options_.video, size_of(options_), options_.fps) {
-    const view::Frame start = frame_of(world_, {});
-    camera_ = overview(start);
-    if (!options_.camera.empty()) {
-      const auto camera = view::parse_camera(options_.camera, camera_);
-      if (!camera) {
-        throw UsageError("--camera wants x,y,z:x,y,z or azimuth,elevation[,distance], not '" +
-                         options_.camera + "'");
-      }
-      camera_ = *camera;
+        view_(world, studio_.renderer()),
+        film_(options_.frames, options_.video, size_of(options_), options_.fps),
+        camera_(camera_of(options_, view_.frame(options_))) {
+    if (options_.beside_ode) {
+      beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
+      beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());
     }
-    draw({});
+    draw();
   }
 
   void after_step(const StepRecord& record) override {
-    if (record.deepest_penetration >= 0) deepest_ = record.deepest_penetration;
+    view_.note(record);
+    if (beside_) beside_view_->note(beside_->step());
     // As many as should be there by the end of this step.
-    const double due = (record.step + 1) * options_.fps / world_.options().hz;
-    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) draw(record);
+    const double due = (record.step + 1) * options_.fps / hz_;
+    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) draw();
   }
 
   void finish(std::ostream& out) override {
@@ -50,33 +44,31 @@ class FilmOfRun : public Spectator {
   }
 
  private:
-  view::Frame frame_of(const World& world, const StepRecord& record) {
-    const Overlays overlays{options_.shows("contacts"), options_.shows("touched"),
-                            options_.shows("boxes")};
-    view::Frame frame =
-        view_.frame(world.scene().space(), world.sheets(), world.simulation().contacts(), overlays);
-    if (options_.shows("caption")) frame.caption = caption(world.options(), record, deepest_);
-    return frame;
+  void draw() {
+    std::vector<view::Frame> frames;
+    if (beside_) frames.push_back(beside_view_->frame(options_));
+    frames.push_back(view_.frame(options_));
+    film_.add(studio_.draw(frames, camera_));
   }
 
-  void draw(const StepRecord& record) {
-    view::Frame frame = frame_of(world_, record);
-    film_.add(studio_.draw({&frame, 1}, camera_));
-  }
-
-  const World& world_;
-  const PictureOptions& options_;
+  double hz_;
+  PictureOptions options_;
   view::Studio studio_;
-  SpaceView view_;
+  WorldView view_;
   view::Film film_;
   view::Camera camera_;
-  double deepest_ = 0;  // [m], as last measured
+  std::unique_ptr<MeasuredWorld> beside_;
+  std::unique_ptr<WorldView> beside_view_;
 };
 
 }  // namespace
 
 std::unique_ptr<Spectator> make_film(const World& world) {
-  if (!world.options().pictures.has_film()) return nullptr;
+  const PictureOptions& options = world.options().pictures;
+  if (!options.has_film()) {
+    if (options.beside_ode) throw UsageError("--beside wants --frames, --video or --window");
+    return nullptr;
+  }
   try {
     return std::make_unique<FilmOfRun>(world);
   } catch (const view::NoPictures& e) {

@@ -64,6 +64,12 @@ view::Box box_of(dGeomID geom) {
   return {to_glm(low.data()), to_glm(high.data()), kBox};
 }
 
+// It has a body that others push.
+bool moves(dGeomID geom) {
+  dBodyID body = dGeomGetBody(geom);
+  return body != nullptr && dBodyIsKinematic(body) == 0;
+}
+
 view::Box around(const std::vector<view::Box>& boxes) {
   if (boxes.empty()) return {glm::vec3(0), glm::vec3(0), kBox};
   view::Box all = boxes.front();
@@ -78,7 +84,7 @@ view::Box around(const std::vector<view::Box>& boxes) {
 bool is_ground(dGeomID geom, const view::Box& moving) {
   const view::Box box = box_of(geom);
   const glm::vec3 middle = (moving.low + moving.high) / 2.0F;
-  return dGeomGetBody(geom) == nullptr && box.low.x < moving.low.x && box.low.y < moving.low.y &&
+  return !moves(geom) && box.low.x < moving.low.x && box.low.y < moving.low.y &&
          box.high.x > moving.high.x && box.high.y > moving.high.y && box.low.z < middle.z;
 }
 
@@ -106,7 +112,7 @@ const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving)
   const bool ground = mesh.closed && is_ground(geom, moving);
   if (ground) keep_top(mesh);
   Kind kind{renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground};
-  if (dGeomGetBody(geom) != nullptr) {
+  if (moves(geom)) {
     kind.color = kShapes[moving_kinds_++ % kShapes.size()];
   } else if (!ground) {
     kind.color = kFixed;
@@ -132,7 +138,7 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
       continue;
     }
     geoms.push_back(geom);
-    if (dGeomGetBody(geom) != nullptr) moving.push_back(box_of(geom));
+    if (moves(geom)) moving.push_back(box_of(geom));
   }
   if (sheets != nullptr) {
     for (std::size_t i = 0; i < sheets->all().size(); ++i) {
