@@ -33,6 +33,7 @@ else()
   add_library(view STATIC EXCLUDE_FROM_ALL ${view_sources})
   ode_ext_compile_options(view)
   target_include_directories(view PUBLIC demos)
+  target_compile_definitions(view PUBLIC GLFW_INCLUDE_NONE)  # OpenGL's declarations are libepoxy's
   target_include_directories(view SYSTEM PRIVATE ${stb_include})
   target_link_libraries(view PUBLIC PkgConfig::epoxy PkgConfig::imgui glm::glm glfw
                         PRIVATE meshoptimizer::meshoptimizer ${CMAKE_DL_LIBS})

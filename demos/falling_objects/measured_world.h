@@ -9,7 +9,9 @@ namespace falling_objects {
 // A world of which it is measured every 0.1 s how deep its objects are in one another.
 class MeasuredWorld {
  public:
-  explicit MeasuredWorld(const Options& options) : world_(options), meter_(world_.scene()) {}
+  // As World.
+  explicit MeasuredWorld(const Options& options, bool both_colliders = false)
+      : world_(options, both_colliders), meter_(world_.scene()) {}
 
   StepRecord step();
   World& world() { return world_; }

@@ -13,9 +13,10 @@ namespace {
 constexpr const char* kDeformableScene = "rigid-deformable";
 
 constexpr const char* kDescription =
-    "Non-convex meshes fall into a bowl, without a window. Prints what each stage of the "
-    "collision\n"
-    "pass took, how deep meshes got into each other, and a hash of every contact.";
+    "Non-convex meshes fall into a bowl, in a window, in a film, or unseen: then it prints what "
+    "each\n"
+    "stage of the collision pass took, how deep meshes got into each other, and a hash of every\n"
+    "contact.";
 
 constexpr const char* kFooter = R"(
 Checks:
@@ -37,6 +38,8 @@ Examples:
   falling_objects --collider ode --csv ode.csv      ODE's own collider alone, a row per step
   falling_objects --scene rigid-deformable --check --check-rest --snapshot end.obj
   falling_objects --mesh chair.obj --mesh table.ply meshes of your own, scaled to 1 m
+  falling_objects --video out.mp4 --beside ode      ODE's own collider to the left, no screen needed
+  falling_objects --frames out/%04d.png --overlay caption,contacts --camera=-60,30,12
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage or unreadable file, 3 no device.)";
 

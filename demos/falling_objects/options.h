@@ -42,6 +42,12 @@ struct Options {
   std::string snapshot;
   PictureOptions pictures;
 
+  // The run is to be looked at, not to be measured.
+  bool wants_window(bool there_is_a_display) const {
+    const bool measures = check || check_rest || compare || !csv.empty() || !snapshot.empty();
+    return pictures.window || (there_is_a_display && !pictures.no_window && !quiet && !measures &&
+                               !pictures.has_film());
+  }
   bool has_sheets() const { return sheets > 0; }
   // The last 0.5 s, over which speeds are judged.
   std::size_t rest_steps() const {

@@ -60,7 +60,6 @@ void add_picture_options(CLI::App& app, PictureOptions& o) {
          "ode: a second world from the same start, driven by ODE's own collider, to the left")
       ->check(CLI::IsMember({"ode"}))
       ->group("Pictures");
-  add("--script", o.script, "")->group("");
 }
 
 }  // namespace falling_objects

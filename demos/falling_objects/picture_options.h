@@ -17,7 +17,6 @@ struct PictureOptions {
   std::set<std::string> overlays{"caption"};
   bool beside_ode = false;  // a second world, driven by ODE's own collider
   bool window = false, no_window = false;
-  std::string script;  // what is done with the window, for its test
 
   bool has_film() const { return !frames.empty() || !video.empty(); }
   bool shows(const char* overlay) const { return overlays.contains(overlay); }

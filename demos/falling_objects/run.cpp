@@ -47,7 +47,6 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     csv.open(options.csv);
     if (!csv) throw UsageError("cannot write '" + options.csv + "'");
   }
-  const OdeSession session;
   World world(options);
   const Scene& scene = world.scene();
   for (const std::string& warning : world.warnings()) std::cerr << "warning: " << warning << '\n';
@@ -110,11 +109,11 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   return print_verdict(options, checks);
 }
 
-}  // namespace
-
-int run(const Options& options, const MakeSpectator& watch) {
+template <class Work>
+int exit_code_of(Work work) {
   try {
-    return run_scene(options, watch);
+    const OdeSession session;
+    return work();
   } catch (const NoDevice& e) {
     std::cerr << "no device: " << e.message << '\n';
     return kExitNoDevice;
@@ -125,6 +124,16 @@ int run(const Options& options, const MakeSpectator& watch) {
     std::cerr << e.what() << '\n';
     return kExitCheckFailed;
   }
+}
+
+}  // namespace
+
+int run(const Options& options, const MakeSpectator& watch) {
+  return exit_code_of([&] { return run_scene(options, watch); });
+}
+
+int run_window(const Options& options, const std::function<int(const Options&)>& show) {
+  return exit_code_of([&] { return show(options); });
 }
 
 }  // namespace falling_objects

@@ -10,4 +10,7 @@ namespace falling_objects {
 // `watch` may be empty.
 int run(const Options& options, const MakeSpectator& watch = {});
 
+// The same for something else to do with ODE: `show` returns an exit code.
+int run_window(const Options& options, const std::function<int(const Options&)>& show);
+
 }  // namespace falling_objects

@@ -119,16 +119,34 @@ void Scene::add_objects(const Options& options) {
   Random random(options.seed);
   for (const Placement& placement :
        place_objects(static_cast<std::size_t>(options.objects), shapes_.size(), ground_, random)) {
-    const Shape& shape = shapes_[placement.shape];
-    Object object{placement.shape, dBodyCreate(world_), nullptr};
-    dBodySetMass(object.body, &shape.mass);
-    object.geom = add_geom(shape.data, shape.skin_data, object.body, objects_.size());
-    const auto& [x, y, z] = placement.position;
-    dBodySetPosition(object.body, x, y, z);
-    const dQuaternion q{placement.rotation[0], placement.rotation[1], placement.rotation[2],
-                        placement.rotation[3]};
-    dBodySetQuaternion(object.body, q);
-    objects_.push_back(object);
+    add_object(placement);
+  }
+}
+
+void Scene::add_object(const Placement& placement) {
+  const Shape& shape = shapes_[placement.shape];
+  Object object{placement.shape, dBodyCreate(world_), nullptr};
+  dBodySetMass(object.body, &shape.mass);
+  object.geom = add_geom(shape.data, shape.skin_data, object.body, objects_.size());
+  const auto& [x, y, z] = placement.position;
+  dBodySetPosition(object.body, x, y, z);
+  const dQuaternion q{placement.rotation[0], placement.rotation[1], placement.rotation[2],
+                      placement.rotation[3]};
+  dBodySetQuaternion(object.body, q);
+  objects_.push_back(object);
+}
+
+void Scene::drop(std::size_t count) {
+  Random random(objects_.size());
+  const std::size_t first = objects_.size();
+  for (Placement placement : place_objects(count, shapes_.size(), ground_, random)) {
+    placement.position[2] += 8;  // [m]
+    add_object(placement);
+  }
+  // The ground's index is the number of objects.
+  for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {
+    dGeomID geom = dSpaceGetGeom(space_, i);
+    if (dGeomGetBody(geom) == nullptr && index_of(geom) == first) set_index(geom, objects_.size());
   }
 }
 

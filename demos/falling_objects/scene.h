@@ -11,6 +11,7 @@
 #include "falling_objects/gravity.h"
 #include "falling_objects/ground.h"
 #include "falling_objects/options.h"
+#include "falling_objects/placement.h"
 #include "falling_objects/shapes.h"
 
 namespace falling_objects {
@@ -51,12 +52,15 @@ class Scene {
   const std::vector<Shape>& shapes() const { return shapes_; }
   const std::vector<Object>& objects() const { return objects_; }
   const Shape& shape_of(std::size_t object) const { return shapes_[objects_[object].shape]; }
+  // More of the same, above the middle. Without sheets only.
+  void drop(std::size_t count);
   // Sheets have the indices after that of the ground.
   bool touches_sheet(const dContactGeom& contact) const;
 
  private:
   void add_shapes(std::vector<NamedMesh> meshes, std::vector<std::string>& warnings);
   void add_objects(const Options& options);
+  void add_object(const Placement& placement);
   dGeomID add_geom(dTriMeshDataID data, dTriMeshDataID skin_data, dBodyID body, std::size_t index);
 
   bool skins_;

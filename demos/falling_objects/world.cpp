@@ -36,10 +36,13 @@ class OwnRandom {
 
 }  // namespace
 
-World::World(const Options& options) : options_(options) {
+World::World(const Options& options, bool both_colliders)
+    : options_(options), both_colliders_(both_colliders) {
   const OwnRandom random(random_);
   scene_ = std::make_unique<Scene>(load_meshes(options_), options_, warnings_);
-  collision_ = std::make_unique<Collision>(options_, scene_->space());
+  Options colliders = options_;
+  colliders.compare |= both_colliders;
+  collision_ = std::make_unique<Collision>(colliders, scene_->space());
   if (options_.has_sheets()) {
     sheets_ =
         std::make_unique<Sheets>(static_cast<std::size_t>(options_.sheets), options_.seed, *scene_);

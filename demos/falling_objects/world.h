@@ -17,7 +17,8 @@ namespace falling_objects {
 class World {
  public:
   // Throws UsageError or NoDevice.
-  explicit World(const Options& options);
+  // `both_colliders`: either may drive it.
+  explicit World(const Options& options, bool both_colliders = false);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
@@ -33,11 +34,13 @@ class World {
   const Sheets* sheets() const { return sheets_.get(); }
   const Simulation& simulation() const { return *simulation_; }
 
-  // From the next step on. Both colliders must be there (Options::compare).
+  bool has_both_colliders() const { return both_colliders_; }
+  // From the next step on.
   void drive_by(Collider collider) { options_.collider = collider; }
 
  private:
   Options options_;
+  bool both_colliders_;
   std::vector<std::string> warnings_;
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Collision> collision_;

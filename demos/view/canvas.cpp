@@ -7,8 +7,6 @@
 namespace view {
 namespace {
 
-constexpr GLsizei kSamples = 4;
-
 GlObject make_storage(GLenum format, GLsizei samples, Size size) {
   GlObject storage = make_renderbuffer();
   glBindRenderbuffer(GL_RENDERBUFFER, storage.id());
@@ -22,10 +20,10 @@ void attach(GLenum point, const GlObject& storage) {
 
 }  // namespace
 
-Canvas::Canvas(Size size)
+Canvas::Canvas(Size size, int samples)
     : size_(size),
-      color_(make_storage(GL_RGBA8, kSamples, size)),
-      depth_(make_storage(GL_DEPTH_COMPONENT24, kSamples, size)),
+      color_(make_storage(GL_RGBA8, samples > 1 ? samples : 0, size)),
+      depth_(make_storage(GL_DEPTH_COMPONENT24, samples > 1 ? samples : 0, size)),
       samples_(make_framebuffer()),
       resolved_color_(make_storage(GL_RGBA8, 0, size)),
       resolved_(make_framebuffer()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is drawn on: four samples a pixel, made one before the picture is read or shown.
+// What is drawn on: several samples a pixel, made one before the picture is read or shown.
 #pragma once
 
 #include "view/gl_object.h"
@@ -9,11 +9,11 @@ namespace view {
 
 class Canvas {
  public:
-  explicit Canvas(Size size);
+  Canvas(Size size, int samples);
 
   Size size() const { return size_; }
   void begin();  // what is drawn from here on is drawn here
-  // Makes one sample of four. What is drawn from here on is drawn over the picture, pixel by pixel.
+  // Makes one sample of several. What is drawn from here on is drawn over the picture.
   void resolve();
   Image read() const;
   // Copies the picture to the window of the current context.

@@ -91,6 +91,4 @@ HeadlessContext::~HeadlessContext() {
   eglTerminate(display_);
 }
 
-std::string renderer_name() { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
-
 }  // namespace view

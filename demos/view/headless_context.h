@@ -25,7 +25,4 @@ class HeadlessContext {
   void* context_ = nullptr;
 };
 
-// What draws, as the driver calls itself. Needs a current context.
-std::string renderer_name();
-
 }  // namespace view

@@ -14,7 +14,6 @@
 namespace view {
 namespace {
 
-constexpr GLsizei kShadowSize = 2048;  // [texels] along a side
 const glm::vec3 kToSun = glm::normalize(glm::vec3(0.62F, -0.25F, 0.85F));
 constexpr float kSmall = 56;     // [pixels] across, below which nobody sees a mesh's every triangle
 constexpr float kHidden = 0.3F;  // opacity of marks behind something
@@ -53,8 +52,9 @@ const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(byt
 
 }  // namespace
 
-Renderer::Renderer()
-    : mesh_program_(make_program(kMeshVertexShader, kMeshFragmentShader)),
+Renderer::Renderer(const Quality& quality)
+    : shadow_size_(quality.shadow_size),
+      mesh_program_(make_program(kMeshVertexShader, kMeshFragmentShader)),
       shadow_program_(make_program(kShadowVertexShader, kShadowFragmentShader)),
       sky_program_(make_program(kSkyVertexShader, kSkyFragmentShader)),
       shadow_map_(make_texture()),
@@ -65,7 +65,7 @@ Renderer::Renderer()
       box_(make_mesh(box_mesh(), false)),
       touched_(make_mesh({}, false)) {
   glBindTexture(GL_TEXTURE_2D, shadow_map_.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, kShadowSize, kShadowSize, 0,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadow_size_, shadow_size_, 0,
                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -199,7 +199,7 @@ void Renderer::draw_batches(const Batches& batches, GLenum primitive) const {
 void Renderer::draw_shadows(const std::vector<Batches>& all,
                             const glm::mat4& clip_from_world) const {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_buffer_.id());
-  glViewport(0, 0, kShadowSize, kShadowSize);
+  glViewport(0, 0, shadow_size_, shadow_size_);
   glClear(GL_DEPTH_BUFFER_BIT);
   glUseProgram(shadow_program_.id());
   set(shadow_program_, "clip_from_world", clip_from_world);
@@ -227,7 +227,7 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
            camera.extent_at(place);
   };
   const Scale in_shadow = [&](glm::vec3) {
-    return static_cast<float>(kShadowSize) / (2 * frame.radius);
+    return static_cast<float>(shadow_size_) / (2 * frame.radius);
   };
   const Batches grounds = queue(frame.grounds, in_picture);
   const Batches objects = queue(frame.objects, in_picture);

@@ -10,6 +10,7 @@
 #include "view/frame.h"
 #include "view/gl_object.h"
 #include "view/image.h"
+#include "view/quality.h"
 #include "view/shaded_mesh.h"
 
 namespace view {
@@ -24,7 +25,7 @@ struct Viewport {
 class Renderer {
  public:
   // Needs a current context of OpenGL 3.3, as all else here.
-  Renderer();
+  explicit Renderer(const Quality& quality);
 
   // `closed`: nobody sees its triangles from behind.
   MeshId add_mesh(std::span<const glm::vec3> positions, std::span<const unsigned> triangles,
@@ -68,6 +69,7 @@ class Renderer {
   void draw_shadows(const std::vector<Batches>& all, const glm::mat4& clip_from_world) const;
   void draw_sky() const;
 
+  GLsizei shadow_size_;
   GlObject mesh_program_, shadow_program_, sky_program_;
   GlObject shadow_map_, shadow_buffer_;
   GlObject instance_buffer_, empty_array_;

@@ -15,7 +15,11 @@ std::vector<Viewport> side_by_side(Size size, std::size_t count) {
   return parts;
 }
 
-Studio::Studio(Size size) : canvas_(size), gui_(size, nullptr) {}
+Studio::Studio(Size size)
+    : quality_(quality_of_driver(false)),
+      canvas_(size, quality_.samples),
+      renderer_(quality_),
+      gui_(size, nullptr) {}
 
 Image Studio::draw(std::span<const Frame> frames, const Camera& camera) {
   const auto parts = side_by_side(canvas_.size(), frames.size());

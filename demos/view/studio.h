@@ -29,6 +29,7 @@ class Studio {
 
  private:
   HeadlessContext context_;
+  Quality quality_;
   Canvas canvas_;
   Renderer renderer_;
   Gui gui_;
