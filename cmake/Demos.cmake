@@ -58,18 +58,20 @@ function(add_demo name source)
 endfunction()
 
 add_demo(hello demos/hello/hello.c)
+# What falling_objects shows, or that it shows nothing.
 include(View)
-add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_parts ode_ext_test_support)
-if(TARGET falling_objects)
+if(TARGET view)
   file(GLOB show_sources CONFIGURE_DEPENDS demos/falling_objects/show/*.cpp)
   list(FILTER show_sources EXCLUDE REGEX "/absent\\.cpp$")
-  if(TARGET view)
-    target_sources(falling_objects PRIVATE ${show_sources})
-    target_link_libraries(falling_objects PRIVATE view)
-  else()
-    target_sources(falling_objects PRIVATE demos/falling_objects/show/absent.cpp)
-  endif()
+else()
+  set(show_sources demos/falling_objects/show/absent.cpp)
 endif()
+add_library(falling_objects_show OBJECT EXCLUDE_FROM_ALL ${show_sources})
+ode_ext_compile_options(falling_objects_show)
+target_link_libraries(falling_objects_show PUBLIC
+  falling_objects_parts $<TARGET_NAME_IF_EXISTS:view>)
+add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_show falling_objects_parts
+         ode_ext_test_support)
 add_demo(paper demos/paper/main.cpp paper_parts falling_objects_parts ode_ext_test_support)
 
 file(GLOB contacts_sources CONFIGURE_DEPENDS demos/contacts/*.cpp)

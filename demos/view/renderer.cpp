@@ -244,7 +244,7 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   const glm::mat4 sun = sun_from_world(frame);
-  draw_shadows({grounds, shadows, cloths}, sun);
+  draw_shadows({shadows, cloths}, sun);
 
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(canvas));
   const auto [x, y, size] = viewport;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <stdexcept>
 
 #include "falling_objects/measured_world.h"
 #include "falling_objects/show.h"
@@ -71,7 +72,7 @@ std::unique_ptr<Spectator> make_film(const World& world) {
   }
   try {
     return std::make_unique<FilmOfRun>(world);
-  } catch (const view::NoPictures& e) {
+  } catch (const std::runtime_error& e) {  // no driver, no ffmpeg, no such name or camera
     throw UsageError(e.what());
   }
 }

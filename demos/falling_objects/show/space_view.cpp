@@ -70,14 +70,20 @@ bool moves(dGeomID geom) {
   return body != nullptr && dBodyIsKinematic(body) == 0;
 }
 
-view::Box around(const std::vector<view::Box>& boxes) {
-  if (boxes.empty()) return {glm::vec3(0), glm::vec3(0), kBox};
-  view::Box all = boxes.front();
-  for (const view::Box& box : boxes) {
-    all.low = glm::min(all.low, box.low);
-    all.high = glm::max(all.high, box.high);
+view::Box around(const std::vector<glm::vec3>& points) {
+  if (points.empty()) return {glm::vec3(0), glm::vec3(0), kBox};
+  view::Box all{points.front(), points.front(), kBox};
+  for (const glm::vec3& point : points) {
+    all.low = glm::min(all.low, point);
+    all.high = glm::max(all.high, point);
   }
   return all;
+}
+
+view::Box around(const std::vector<view::Box>& boxes) {
+  std::vector<glm::vec3> corners;
+  for (const view::Box& box : boxes) corners.insert(corners.end(), {box.low, box.high});
+  return around(corners);
 }
 
 // A ground: it reaches under everything that moves.
@@ -140,11 +146,14 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
     geoms.push_back(geom);
     if (moves(geom)) moving.push_back(box_of(geom));
   }
+  // Spaces list geoms in any order; a shape's color is not to depend on it.
+  std::stable_sort(geoms.begin(), geoms.end(),
+                   [](dGeomID a, dGeomID b) { return index_of(a) < index_of(b); });
   if (sheets != nullptr) {
     for (std::size_t i = 0; i < sheets->all().size(); ++i) {
       const Sheet& sheet = *sheets->all()[i];
       frame.cloths.push_back(cloth_of(sheet.cloth(), kCloths[i % kCloths.size()]));
-      moving.push_back(box_of(sheet.geom()));
+      moving.push_back(around(frame.cloths.back().vertices));
     }
   }
   const view::Box all = around(moving);
