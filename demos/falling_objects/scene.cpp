@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "falling_objects/inflate.h"
@@ -137,11 +138,28 @@ void Scene::add_object(const Placement& placement) {
 }
 
 void Scene::drop(std::size_t count) {
-  Random random(objects_.size());
   const std::size_t first = objects_.size();
-  for (Placement placement : place_objects(count, shapes_.size(), ground_, random)) {
-    placement.position[2] += 8;  // [m]
-    add_object(placement);
+  std::vector<Object> models;
+  for (const Object& object : objects_) {
+    if (dBodyIsKinematic(object.body) == 0) models.push_back(object);
+  }
+  if (models.empty()) return;
+  Point middle{};
+  double top = -std::numeric_limits<double>::infinity(), radius = 0;
+  for (const Object& model : models) {
+    const dReal* p = dBodyGetPosition(model.body);
+    for (int k = 0; k < 2; ++k) middle[k] += p[k] / static_cast<double>(models.size());
+    radius = std::max(radius, bounding_radius(shapes_[model.shape].mesh));
+    top = std::max(top, static_cast<double>(p[2]));
+  }
+  Random random(first);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Object& model = models[random.below(models.size())];
+    const dReal* q = dBodyGetQuaternion(model.body);
+    const auto aside = [&] { return random.between(-radius, radius); };
+    top += 2.1 * radius;
+    add_object(
+        {{middle[0] + aside(), middle[1] + aside(), top}, {q[0], q[1], q[2], q[3]}, model.shape});
   }
   // The ground's index is the number of objects.
   for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {

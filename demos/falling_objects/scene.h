@@ -52,7 +52,7 @@ class Scene {
   const std::vector<Shape>& shapes() const { return shapes_; }
   const std::vector<Object>& objects() const { return objects_; }
   const Shape& shape_of(std::size_t object) const { return shapes_[objects_[object].shape]; }
-  // More of the same, above the middle. Without sheets only.
+  // Copies of objects that can move, above all of them. Without sheets only.
   void drop(std::size_t count);
   // Sheets have the indices after that of the ground.
   bool touches_sheet(const dContactGeom& contact) const;
