@@ -31,16 +31,6 @@ std::vector<float> numbers_of(const std::string& text) {
   return {};
 }
 
-Camera from_eye(glm::vec3 eye, glm::vec3 target) {
-  Camera camera;
-  const glm::vec3 away = eye - target;
-  camera.target = target;
-  camera.distance = glm::length(away);
-  camera.azimuth = std::atan2(away.y, away.x);
-  camera.elevation = std::clamp(std::asin(away.z / camera.distance), -kSteepest, kSteepest);
-  return camera;
-}
-
 }  // namespace
 
 glm::vec3 Camera::eye() const {
@@ -90,13 +80,23 @@ Camera looking_at(glm::vec3 center, float radius) {
   return camera;
 }
 
+Camera camera_at(glm::vec3 eye, glm::vec3 target) {
+  Camera camera;
+  const glm::vec3 away = eye - target;
+  camera.target = target;
+  camera.distance = glm::length(away);
+  camera.azimuth = std::atan2(away.y, away.x);
+  camera.elevation = std::clamp(std::asin(away.z / camera.distance), -kSteepest, kSteepest);
+  return camera;
+}
+
 std::optional<Camera> parse_camera(const std::string& text, const Camera& start) {
   const std::size_t colon = text.find(':');
   if (colon != std::string::npos) {
     const auto eye = numbers_of(text.substr(0, colon));
     const auto target = numbers_of(text.substr(colon + 1));
     if (eye.size() != 3 || target.size() != 3 || eye == target) return {};
-    return from_eye({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
+    return camera_at({eye[0], eye[1], eye[2]}, {target[0], target[1], target[2]});
   }
   const auto angles = numbers_of(text);
   if (angles.size() < 2 || angles.size() > 3) return {};

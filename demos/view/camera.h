@@ -34,6 +34,9 @@ struct Camera {
 // A camera that sees a whole ball.
 Camera looking_at(glm::vec3 center, float radius);
 
+// `target` must be elsewhere than `eye`.
+Camera camera_at(glm::vec3 eye, glm::vec3 target);
+
 // Text of a command line: "x,y,z:tx,ty,tz", eye and target [m]; or "azimuth,elevation" [degrees]
 // or "azimuth,elevation,distance" [m] about the target of `start`. Nothing where it is neither.
 std::optional<Camera> parse_camera(const std::string& text, const Camera& start);
