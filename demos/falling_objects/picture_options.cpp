@@ -31,7 +31,7 @@ void add_picture_options(CLI::App& app, PictureOptions& o) {
       ->group("Pictures");
   app.add_flag("--no-window", o.no_window, "Never")->group("Pictures");
   add("--frames", o.frames,
-      "Write pictures to PNG files: out/%04d.png; without a number the last picture alone");
+      "Write pictures to PNG files: out/%04d.png; without a number one of the end");
   add("--video", o.video, "Make a film by ffmpeg: FILE.mp4, .webm, .webp or .gif");
   app.add_option_function<std::string>(
          "--size",

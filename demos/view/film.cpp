@@ -48,29 +48,29 @@ std::string numbered(const std::string& pattern, int number) {
   return pattern.substr(0, place->from) + digits + pattern.substr(place->to);
 }
 
-Film::Film(std::string pictures, const std::string& video, Size size, double fps)
-    : pictures_(std::move(pictures)), video_path_(video) {
+Film::Film(std::string pictures, std::string video, Size size, double fps)
+    : pictures_(std::move(pictures)), video_path_(std::move(video)) {
   if (!pictures_.empty()) make_folder_of(numbered(pictures_, 0));
-  if (video.empty()) return;
-  make_folder_of(video);
-  video_.emplace(video, size, fps);
+  if (video_path_.empty()) return;
+  make_folder_of(video_path_);
+  video_.emplace(video_path_, size, fps);
 }
 
-void Film::add(Image image) {
+void Film::add(const Image& image) {
   if (video_) video_->add(image);
-  if (!pictures_.empty() && has_number(pictures_)) write_png(numbered(pictures_, count_), image);
-  last_ = std::move(image);
+  if (has_number(pictures_)) write_png(numbered(pictures_, count_), image);
   ++count_;
 }
 
+void Film::add_end(const Image& image) { write_png(pictures_, image); }
+
 void Film::finish() {
   if (video_) video_->finish();
-  if (!pictures_.empty() && !has_number(pictures_) && count_ > 0) write_png(pictures_, last_);
 }
 
 std::string Film::made() const {
   std::string text = pictures_;
-  if (!pictures_.empty() && has_number(pictures_)) {
+  if (has_number(pictures_)) {
     text = numbered(pictures_, 0) + " to " + numbered(pictures_, count_ - 1);
   }
   if (!video_path_.empty()) text += (text.empty() ? "" : " and ") + video_path_;

@@ -17,20 +17,23 @@ bool has_number(const std::string& pattern);
 
 class Film {
  public:
-  // Empty: none. `pictures` with a number in its name gets all of them, without one the last.
-  Film(std::string pictures, const std::string& video, Size size, double fps);
+  // Empty: none. `pictures` with a number in its name gets all of them, without one the end alone.
+  Film(std::string pictures, std::string video, Size size, double fps);
 
-  void add(Image image);
+  bool wants_all() const { return video_ || has_number(pictures_); }
+  bool wants_end() const { return !pictures_.empty() && !has_number(pictures_); }
+
+  void add(const Image& image);
+  void add_end(const Image& image);
   void finish();
 
-  int count() const { return count_; }
-  // What was made, for a user to read: "out.png and out.mp4".
+  int count() const { return count_; }  // without that of the end
+  // What was made, for a user to read: "end.png and out.mp4".
   std::string made() const;
 
  private:
   std::string pictures_, video_path_;
   std::optional<Video> video_;
-  Image last_;
   int count_ = 0;
 };
 

@@ -47,14 +47,18 @@ TEST(Film, NumbersPicturesWhereTheirNameSaysSo) {
   }
 }
 
-TEST(Film, WritesAllPicturesOrTheLast) {
+TEST(Film, WritesAllPicturesOrThatOfTheEnd) {
   const std::string out = folder("film_pictures");
-  for (const char* name : {"/%02d.png", "/last.png"}) {
-    view::Film film(out + name, "", {32, 32}, 30);
-    film.add(grey({32, 32}));
-    film.add(grey({32, 32}));
-    film.finish();
-  }
+  view::Film all(out + "/%02d.png", "", {32, 32}, 30);
+  EXPECT_TRUE(all.wants_all());
+  EXPECT_FALSE(all.wants_end());
+  for (int i = 0; i < 2; ++i) all.add(grey({32, 32}));
+  all.finish();
+  view::Film end(out + "/last.png", "", {32, 32}, 30);
+  EXPECT_FALSE(end.wants_all());
+  EXPECT_TRUE(end.wants_end());
+  end.add_end(grey({32, 32}));
+  end.finish();
   for (const char* name : {"/00.png", "/01.png", "/last.png"}) {
     EXPECT_TRUE(std::filesystem::exists(out + name)) << name;
   }

@@ -30,7 +30,7 @@ draw --beside ode --video "$out/a.mp4" --frames "$out/last.png" > "$out/log"
 frames=$(ffprobe -v error -count_frames -select_streams v -show_entries stream=nb_read_frames \
   -of csv=p=0 "$out/a.mp4")
 [[ ${frames%,} == 16 ]] || fail "the film has $frames pictures, not 16"
-[[ -s $out/last.png ]] || fail "there is no last picture"
+[[ -s $out/last.png ]] || fail "there is no picture of the end"
 
 refused() { # WORDS OPTIONS...
   local words=$1 code=0

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
 #include <cmath>
+#include <iomanip>
 #include <stdexcept>
 
 #include "falling_objects/measured_world.h"
@@ -27,29 +29,35 @@ class FilmOfRun : public Spectator {
       beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
       beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());
     }
-    draw();
+    if (film_.wants_all()) film_.add(draw());
   }
 
   void after_step(const StepRecord& record) override {
     view_.note(record);
     if (beside_) beside_view_->note(beside_->step());
+    if (!film_.wants_all()) return;
     // As many as should be there by the end of this step.
     const double due = (record.step + 1) * options_.fps / hz_;
-    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) draw();
+    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) film_.add(draw());
   }
 
   void finish(std::ostream& out) override {
+    if (film_.wants_end()) film_.add_end(draw());
     film_.finish();
-    out << "\npictures: " << film_.made() << " (" << film_.count() << " pictures, drawn by "
-        << view::renderer_name() << ")\n";
+    out << std::setprecision(1) << "\npictures: " << film_.made() << " ("
+        << film_.count() + film_.wants_end() << " pictures in " << drawing_.count()
+        << " s, drawn by " << view::renderer_name() << ")\n";
   }
 
  private:
-  void draw() {
+  view::Image draw() {
+    const auto start = std::chrono::steady_clock::now();
     std::vector<view::Frame> frames;
     if (beside_) frames.push_back(beside_view_->frame(options_));
     frames.push_back(view_.frame(options_));
-    film_.add(studio_.draw(frames, camera_));
+    view::Image image = studio_.draw(frames, camera_);
+    drawing_ += std::chrono::steady_clock::now() - start;
+    return image;
   }
 
   double hz_;
@@ -58,6 +66,7 @@ class FilmOfRun : public Spectator {
   WorldView view_;
   view::Film film_;
   view::Camera camera_;
+  std::chrono::duration<double> drawing_{0};
   std::unique_ptr<MeasuredWorld> beside_;
   std::unique_ptr<WorldView> beside_view_;
 };

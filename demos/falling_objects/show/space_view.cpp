@@ -126,6 +126,18 @@ const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving)
   return kinds_.emplace(data, kind).first->second;
 }
 
+// A little lighter or darker than its neighbour of the same shape; where all have one shape, the
+// colors of shapes in turn.
+void SpaceView::tell_apart(view::Frame& frame) const {
+  std::size_t i = 0;
+  for (view::Instance& object : frame.objects) {
+    if (object.color == kFixed) continue;
+    if (moving_kinds_ == 1) object.color = kShapes[i % kShapes.size()];
+    object.color *= 0.92F + 0.04F * static_cast<float>(i % 5);
+    ++i;
+  }
+}
+
 void SpaceView::add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame) {
   const Kind& kind = kind_of(geom, moving);
   auto& list = kind.ground ? frame.grounds : frame.objects;
@@ -158,6 +170,7 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
   }
   const view::Box all = around(moving);
   for (dGeomID geom : geoms) add_geom(geom, all, frame);
+  tell_apart(frame);
   if (!(radius_ > 0)) {
     center_ = (all.low + all.high) / 2.0F;
     radius_ = std::max(0.1F, 0.55F * glm::length(all.high - all.low));

@@ -33,6 +33,7 @@ class SpaceView {
     bool ground;
   };
   const Kind& kind_of(dGeomID geom, const view::Box& moving);
+  void tell_apart(view::Frame& frame) const;
   void add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame);
 
   view::Renderer& renderer_;
