@@ -16,7 +16,7 @@ namespace {
 
 const glm::vec3 kToSun = glm::normalize(glm::vec3(0.62F, -0.25F, 0.85F));
 constexpr float kSmall = 56;     // [pixels] across, below which nobody sees a mesh's every triangle
-constexpr float kHidden = 0.3F;  // opacity of marks behind something
+constexpr float kHidden = 0.5F;  // opacity of marks behind something
 constexpr Color kTouched{1.0F, 0.85F, 0.1F};
 
 void set(const GlObject& program, const char* name, const glm::mat4& value) {
