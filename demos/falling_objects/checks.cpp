@@ -3,20 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "falling_objects/format.h"
 #include "falling_objects/speeds.h"
 
 namespace falling_objects {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::string text(256, '\0');
-  const int length = std::snprintf(text.data(), text.size(), pattern, values...);
-  text.resize(std::min(text.size() - 1, static_cast<std::size_t>(std::max(length, 0))));
-  return text;
-}
 
 std::string name_of(std::size_t index, const Scene& scene) {
   if (index >= scene.objects().size()) return "the ground";
@@ -56,7 +48,9 @@ bool Checks::after_step(const StepRecord& record, std::span<const dContactGeom> 
     // The ground is always the larger.
     double diameter = INFINITY;
     for (const dGeomID geom : {contact.g1, contact.g2}) {
-      if (dGeomGetBody(geom) != nullptr) diameter = std::min(diameter, 2 * kShapeRadius);
+      const std::size_t index = index_of(geom);
+      if (index < scene_.objects().size())
+        diameter = std::min(diameter, 2 * scene_.shape_of(index).radius);
     }
     // That of a sheet's vertex is the way along its normal, however far the surface is there.
     if (scene_.touches_sheet(contact)) continue;
@@ -77,7 +71,7 @@ bool Checks::after_step(const StepRecord& record, std::span<const dContactGeom> 
     const dReal* p = dBodyGetPosition(body);
     const double below = ground.height(p[0], p[1]) - p[2];
     const double beyond = std::max(std::abs(p[0]), std::abs(p[1])) - ground.half_size();
-    if ((below > kShapeRadius || beyond > 0) && lost_.emplace(i, record.step).second) {
+    if ((below > scene_.shape_of(i).radius || beyond > 0) && lost_.emplace(i, record.step).second) {
       fell_out_.add(std::max(below, beyond),
                     at(record.step) + name_of(i, scene_) +
                         format(" at (%.2f, %.2f, %.2f)", static_cast<double>(p[0]),

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "falling_objects/scene_description.h"
+
 namespace falling_objects {
 
 enum class Collider { kBatch, kOde };
@@ -19,12 +21,13 @@ enum ExitCode { kExitOk = 0, kExitCheckFailed = 1, kExitUsage = 2, kExitNoDevice
 
 struct Options {
   std::string scene = "rigid";
+  SceneDescription description;  // what the file of that name says, with the options applied
   int objects = 1000;
   int sheets = 0;
   int steps = 600;  // GRAPP section 6: 10 s at 60 Hz
   double hz = 60;
   std::uint64_t seed = 1;
-  std::vector<std::string> meshes;  // files; none: the four shapes
+  std::vector<std::string> meshes;  // files, or NAME=FILE; none: those of the scene
 
   Collider collider = Collider::kBatch;  // the one whose contacts drive the simulation
   bool compare = false;

@@ -10,12 +10,13 @@
 #include <utility>
 
 #include "falling_objects/checks.h"
-#include "falling_objects/mesh_file.h"
+#include "falling_objects/expectations.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
 #include "falling_objects/sheets.h"
 #include "falling_objects/simulation.h"
 #include "falling_objects/snapshot.h"
+#include "falling_objects/user_meshes.h"
 
 namespace falling_objects {
 namespace {
@@ -32,24 +33,30 @@ struct OdeSession {
   ~OdeSession() { dCloseODE(); }
 };
 
-std::vector<NamedMesh> load_meshes(const Options& options) {
-  if (options.meshes.empty()) return make_shapes();
-  std::vector<NamedMesh> meshes;
+SceneDescription with_meshes(const Options& options) {
+  SceneDescription description = options.description;
   try {
-    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
+    use_meshes(description, options.meshes);
   } catch (const std::runtime_error& e) {
     throw UsageError(e.what());
   }
-  return meshes;
+  return description;
 }
 
 int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
 }
 
-int print_verdict(const Options& options, const Checks& checks) {
+int print_verdict(const Options& options, const Checks& checks,
+                  const std::vector<Outcome>& outcomes) {
+  for (const Outcome& outcome : outcomes) {
+    std::cout << (outcome.holds ? "holds: " : "does not hold: ") << outcome.words << '\n';
+  }
   if (!options.check && !options.check_rest) return kExitOk;
-  const std::vector<std::string> failures = checks.failures();
+  std::vector<std::string> failures = checks.failures();
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.holds) failures.push_back(outcome.words);
+  }
   for (const std::string& failure : failures) std::cout << "check: failed: " << failure << '\n';
   if (failures.empty()) std::cout << "check: passed\n";
   return failures.empty() ? kExitOk : kExitCheckFailed;
@@ -63,7 +70,7 @@ int run_scene(const Options& options) {
   }
   const OdeSession session;
   std::vector<std::string> warnings;
-  Scene scene(load_meshes(options), options, warnings);
+  Scene scene(with_meshes(options), options.seed, warnings);
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 
   Collision collision(options, scene.space());
@@ -78,6 +85,7 @@ int run_scene(const Options& options) {
   Simulation simulation(options, scene, collision, sheets.get());
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
+  Expectations expectations(scene, options.hz);
   Progress progress(options);
   std::vector<StepRecord> records;
   Summary summary;
@@ -87,6 +95,7 @@ int run_scene(const Options& options) {
   for (int step = 0; step < options.steps; ++step) {
     StepRecord record = simulation.step();
     const bool finite = checks.after_step(record, simulation.contacts());
+    expectations.after_step();
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
@@ -123,7 +132,7 @@ int run_scene(const Options& options) {
     file.close();
     if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
   }
-  return print_verdict(options, checks);
+  return print_verdict(options, checks, expectations.outcomes());
 }
 
 }  // namespace
