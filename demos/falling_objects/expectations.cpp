@@ -23,8 +23,10 @@ Point position_of(const Object& object) {
   return {p[0], p[1], p[2]};
 }
 
+// Of what is not a number it is none either: std::hypot takes some of that for 0.
 double distance(const Point& a, const Point& b) {
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return std::sqrt(x * x + y * y + z * z);
 }
 
 }  // namespace

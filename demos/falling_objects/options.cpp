@@ -122,6 +122,12 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->group("Output");
   app.add_option("--snapshot", o.snapshot, "Write all meshes at the end to this OBJ file")
       ->group("Output");
+  app.add_option("--record", o.record,
+                 "Write the run to this .glb file (glTF), 30 poses a second, for Blender and other "
+                 "viewers; without sheets")
+      ->check(
+          [](const std::string& path) { return path.ends_with(".glb") ? "" : "must end in .glb"; })
+      ->group("Output");
   app.add_flag("--quiet", o.quiet, "No progress")->group("Output");
   try {
     app.parse(argc, argv);

@@ -41,6 +41,7 @@ struct Options {
   bool check_rest = false;
   bool quiet = false;
   std::string snapshot;
+  std::string record;
 
   bool has_sheets() const { return sheets > 0; }
   // The last 0.5 s, over which speeds are judged.

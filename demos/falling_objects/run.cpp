@@ -17,12 +17,14 @@
 #include "falling_objects/simulation.h"
 #include "falling_objects/snapshot.h"
 #include "falling_objects/user_meshes.h"
+#include "record/gltf_recorder.h"
 
 namespace falling_objects {
 namespace {
 
-constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
-constexpr double kDrapeEvery = 1;      // [s] ... at the sheets, which takes it longer
+constexpr double kMeasureEvery = 0.1;      // [s] between two looks of the oracle
+constexpr double kRecordEvery = 1.0 / 30;  // [s] between two poses of a recording
+constexpr double kDrapeEvery = 1;          // [s] ... at the sheets, which takes it longer
 
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -87,15 +89,25 @@ int run_scene(const Options& options) {
   Checks checks(scene, options.hz);
   Expectations expectations(scene, options.hz);
   Progress progress(options);
+  std::unique_ptr<GltfRecorder> recorder;
+  if (!options.record.empty()) {
+    if (!std::ofstream(options.record)) throw UsageError("cannot write '" + options.record + "'");
+    recorder = std::make_unique<GltfRecorder>(scene);
+    recorder->record(0);
+  }
   std::vector<StepRecord> records;
   Summary summary;
   const int measure_every = steps_in(kMeasureEvery, options.hz);
   const int drape_every = steps_in(kDrapeEvery, options.hz);
+  const int record_every = steps_in(kRecordEvery, options.hz);
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   for (int step = 0; step < options.steps; ++step) {
     StepRecord record = simulation.step();
     const bool finite = checks.after_step(record, simulation.contacts());
     expectations.after_step();
+    if (finite && recorder && (step + 1) % record_every == 0) {
+      recorder->record((step + 1) / options.hz);
+    }
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
@@ -125,6 +137,7 @@ int run_scene(const Options& options) {
     csv.close();
     if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
   }
+  if (recorder) recorder->write(options.record);
   if (!options.snapshot.empty()) {
     std::ofstream file(options.snapshot);
     const std::vector<std::unique_ptr<Sheet>> none;

@@ -195,6 +195,12 @@ void Scene::add_joint(const JointDescription& joint) {
   }
 }
 
+std::string Scene::name_of(std::size_t index) const {
+  if (index >= objects_.size()) return "the ground";
+  if (index < description_.bodies.size()) return description_.bodies[index].name;
+  return "object " + std::to_string(index) + " (" + shape_of(index).name + ")";
+}
+
 bool Scene::touches_sheet(const dContactGeom& contact) const {
   return std::max(index_of(contact.g1), index_of(contact.g2)) > objects_.size();
 }

@@ -57,6 +57,8 @@ class Scene {
   const std::vector<Shape>& shapes() const { return shapes_; }
   const std::vector<Object>& objects() const { return objects_; }
   const Shape& shape_of(std::size_t object) const { return shapes_[objects_[object].shape]; }
+  // As the file calls it, or "object 3 (jack)"; past the objects "the ground".
+  std::string name_of(std::size_t index) const;
   // Sheets have the indices after that of the ground.
   bool touches_sheet(const dContactGeom& contact) const;
   // Of friction where these two touch.
