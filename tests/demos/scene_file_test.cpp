@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <numbers>
 
 namespace falling_objects {
@@ -121,6 +123,25 @@ TEST(SceneFile, DropsMeshesInTheOrderInWhichTheyAreNamed) {
   ASSERT_EQ(scene.meshes.size(), 2u);
   EXPECT_EQ(scene.meshes[0].name, "jack");
   EXPECT_EQ(scene.meshes[1].name, "b");
+}
+
+TEST(SceneFile, FindsFilesOfMeshesBesideItself) {
+  const std::string folder = testing::TempDir(), mesh = folder + "scene_file_test.obj";
+  std::ofstream(mesh) << "v 1 0 0\nv 5 0 0\nv 1 4 0\nv 1 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const auto radius = [&](const std::string& size) {
+    const SceneDescription scene =
+        read_scene("[mesh.part]\nfile = \"scene_file_test.obj\"\n" + size +
+                       "\n[[body]]\nmesh = \"part\"\nat = [0, 0, 7]\n",
+                   folder + "my.toml");
+    EXPECT_EQ(scene.meshes[0].mesh.triangle_count(), 4u);
+    EXPECT_EQ(scene.bodies[0].position[2], 7);  // a file's mesh is placed by its middle
+    return bounding_radius(scene.meshes[0].mesh);
+  };
+  const double as_it_is = std::sqrt(9.0 + 1 + 1);
+  EXPECT_NEAR(radius(""), as_it_is, 1e-6);
+  EXPECT_NEAR(radius("scale = 0.01"), 0.01 * as_it_is, 1e-6);
+  EXPECT_NEAR(radius("radius = 0.4"), 0.4, 1e-6);
+  std::remove(mesh.c_str());
 }
 
 struct Wrong {
