@@ -61,8 +61,7 @@ constexpr const char* kRatio =
 TEST_F(Expecting, ARatioHoldsFromTheSecondOnForWhichItIsExpected) {
   expect(kRatio);
   move(5, 1, 0, 1);
-  EXPECT_FALSE(holds());  // not a second yet
-  move(2.02, 1, 0, 3);    // b's hinge points down
+  move(2.02, 1, 0, 3);  // b's hinge points down
   EXPECT_TRUE(holds()) << words();
 }
 
@@ -121,6 +120,17 @@ TEST_F(Expecting, StaysLooksAtEveryStepAfterItsTime) {
   move(0, 0, 0.6, 1);
   move(0, 0, -0.6, 1);  // back again
   EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, NothingHoldsOfARunThatIsTooShortToTell) {
+  for (const char* what : {kRatio, "kind = \"stays\"\ndistance = 0.5\nafter = 2\n"}) {
+    expect(what);
+    move(2, 1, 0, 1.9);
+    EXPECT_FALSE(holds());
+    EXPECT_THAT(words(), testing::HasSubstr("a run of 1.9 s is too short to tell, 2 s"));
+    move(2, 1, 0, 0.1);
+    EXPECT_TRUE(holds()) << words();
+  }
 }
 
 TEST_F(Expecting, NothingHoldsOfWhatIsNotANumber) {
