@@ -20,6 +20,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
+constexpr const char* kTetrahedron =
+    "v 1 0 0\nv 5 0 0\nv 1 4 0\nv 1 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
 SceneDescription read(const std::string& text) { return read_scene(text, "my.toml"); }
 
 TEST(SceneFile, SaysWhereBodiesAreAndHowTheyMove) {
@@ -127,7 +130,7 @@ TEST(SceneFile, DropsMeshesInTheOrderInWhichTheyAreNamed) {
 
 TEST(SceneFile, FindsFilesOfMeshesBesideItself) {
   const std::string folder = testing::TempDir(), mesh = folder + "scene_file_test.obj";
-  std::ofstream(mesh) << "v 1 0 0\nv 5 0 0\nv 1 4 0\nv 1 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(mesh) << kTetrahedron;
   const auto radius = [&](const std::string& size) {
     const SceneDescription scene =
         read_scene("[mesh.part]\nfile = \"scene_file_test.obj\"\n" + size +
@@ -141,6 +144,19 @@ TEST(SceneFile, FindsFilesOfMeshesBesideItself) {
   EXPECT_NEAR(radius(""), as_it_is, 1e-6);
   EXPECT_NEAR(radius("scale = 0.01"), 0.01 * as_it_is, 1e-6);
   EXPECT_NEAR(radius("radius = 0.4"), 0.4, 1e-6);
+  std::remove(mesh.c_str());
+}
+
+TEST(SceneFile, IsReadAsTheDocumentationShowsIt) {
+  std::ifstream file(ODE_EXT_SOURCE_DIR "/docs/scenes.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}}, opening = "```toml\n";
+  const std::size_t start = page.find(opening) + opening.size();
+  const std::string mesh = testing::TempDir() + "part.obj";
+  std::ofstream(mesh) << kTetrahedron;
+  const SceneDescription scene = read_scene(page.substr(start, page.find("```", start) - start),
+                                            testing::TempDir() + "my.toml");
+  EXPECT_EQ(scene.bodies.size(), 3u);
+  EXPECT_EQ(scene.meshes[scene.bodies[1].mesh].name, "die");
   std::remove(mesh.c_str());
 }
 
