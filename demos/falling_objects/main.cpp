@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Meshes fall into a bowl: the two scenes of GRAPP section 6, and any other meshes. Try
-// --help.
+// Runs a scene, in a window, in a film or unseen: the two of GRAPP section 6, others in
+// demos/scenes, and files and meshes of the user's own. Try --help.
 #include <cstdlib>
 #include <iostream>
 

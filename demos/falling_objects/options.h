@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "falling_objects/picture_options.h"
+#include "falling_objects/scene_description.h"
 
 namespace falling_objects {
 
@@ -21,12 +22,13 @@ enum ExitCode { kExitOk = 0, kExitCheckFailed = 1, kExitUsage = 2, kExitNoDevice
 
 struct Options {
   std::string scene = "rigid";
+  SceneDescription description;  // what the file of that name says, with the options applied
   int objects = 1000;
   int sheets = 0;
   int steps = 600;  // GRAPP section 6: 10 s at 60 Hz
   double hz = 60;
   std::uint64_t seed = 1;
-  std::vector<std::string> meshes;  // files; none: the four shapes
+  std::vector<std::string> meshes;  // files, or NAME=FILE; none: those of the scene
 
   Collider collider = Collider::kBatch;  // the one whose contacts drive the simulation
   bool compare = false;
@@ -41,10 +43,12 @@ struct Options {
   bool quiet = false;
   std::string snapshot;
   PictureOptions pictures;
+  std::string record;
 
   // The run is to be looked at, not to be measured.
   bool wants_window(bool there_is_a_display) const {
-    const bool measures = check || check_rest || compare || !csv.empty() || !snapshot.empty();
+    const bool measures =
+        check || check_rest || compare || !csv.empty() || !snapshot.empty() || !record.empty();
     return pictures.window || (there_is_a_display && !pictures.no_window && !quiet && !measures &&
                                !pictures.has_film());
   }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "falling_objects/checks.h"
+#include "falling_objects/expectations.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
 #include "falling_objects/sheets.h"
@@ -17,12 +18,14 @@
 #include "falling_objects/snapshot.h"
 #include "falling_objects/usage_error.h"
 #include "falling_objects/world.h"
+#include "record/gltf_recorder.h"
 
 namespace falling_objects {
 namespace {
 
-constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
-constexpr double kDrapeEvery = 1;      // [s] ... at the sheets, which takes it longer
+constexpr double kMeasureEvery = 0.1;      // [s] between two looks of the oracle
+constexpr double kRecordEvery = 1.0 / 30;  // [s] between two poses of a recording
+constexpr double kDrapeEvery = 1;          // [s] ... at the sheets, which takes it longer
 
 struct OdeSession {
   OdeSession() { dInitODE2(0); }
@@ -33,9 +36,16 @@ int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
 }
 
-int print_verdict(const Options& options, const Checks& checks) {
+int print_verdict(const Options& options, const Checks& checks,
+                  const std::vector<Outcome>& outcomes) {
+  for (const Outcome& outcome : outcomes) {
+    std::cout << (outcome.holds ? "holds: " : "does not hold: ") << outcome.words << '\n';
+  }
   if (!options.check && !options.check_rest) return kExitOk;
-  const std::vector<std::string> failures = checks.failures();
+  std::vector<std::string> failures = checks.failures();
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.holds) failures.push_back(outcome.words);
+  }
   for (const std::string& failure : failures) std::cout << "check: failed: " << failure << '\n';
   if (failures.empty()) std::cout << "check: passed\n";
   return failures.empty() ? kExitOk : kExitCheckFailed;
@@ -58,15 +68,27 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   const std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
+  Expectations expectations(scene, options.hz);
   Progress progress(options);
+  std::unique_ptr<GltfRecorder> recorder;
+  if (!options.record.empty()) {
+    if (!std::ofstream(options.record)) throw UsageError("cannot write '" + options.record + "'");
+    recorder = std::make_unique<GltfRecorder>(scene);
+    recorder->record(0);
+  }
   std::vector<StepRecord> records;
   Summary summary;
   const int measure_every = steps_in(kMeasureEvery, options.hz);
   const int drape_every = steps_in(kDrapeEvery, options.hz);
+  const int record_every = steps_in(kRecordEvery, options.hz);
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   for (int step = 0; step < options.steps; ++step) {
     StepRecord record = world.step();
     const bool finite = checks.after_step(record, simulation.contacts());
+    expectations.after_step();
+    if (finite && recorder && (step + 1) % record_every == 0) {
+      recorder->record((step + 1) / options.hz);
+    }
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
@@ -99,6 +121,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     csv.close();
     if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
   }
+  if (recorder) recorder->write(options.record);
   if (!options.snapshot.empty()) {
     std::ofstream file(options.snapshot);
     const std::vector<std::unique_ptr<Sheet>> none;
@@ -106,7 +129,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     file.close();
     if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
   }
-  return print_verdict(options, checks);
+  return print_verdict(options, checks, expectations.outcomes());
 }
 
 template <class Work>

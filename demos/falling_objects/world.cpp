@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/world.h"
 
-#include "falling_objects/mesh_file.h"
 #include "falling_objects/usage_error.h"
+#include "falling_objects/user_meshes.h"
 
 namespace falling_objects {
 namespace {
 
-std::vector<NamedMesh> load_meshes(const Options& options) {
-  if (options.meshes.empty()) return make_shapes();
-  std::vector<NamedMesh> meshes;
+SceneDescription with_meshes(const Options& options) {
+  SceneDescription description = options.description;
   try {
-    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
+    use_meshes(description, options.meshes);
   } catch (const std::runtime_error& e) {
     throw UsageError(e.what());
   }
-  return meshes;
+  return description;
 }
 
 // ODE has one state of random numbers for all worlds.
@@ -39,7 +38,7 @@ class OwnRandom {
 World::World(const Options& options, bool both_colliders)
     : options_(options), both_colliders_(both_colliders) {
   const OwnRandom random(random_);
-  scene_ = std::make_unique<Scene>(load_meshes(options_), options_, warnings_);
+  scene_ = std::make_unique<Scene>(with_meshes(options_), options_.seed, warnings_);
   Options colliders = options_;
   colliders.compare |= both_colliders;
   collision_ = std::make_unique<Collision>(colliders, scene_->space());

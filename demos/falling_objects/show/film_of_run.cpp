@@ -24,7 +24,7 @@ class FilmOfRun : public Spectator {
         studio_(size_of(options_)),
         view_(world, studio_.renderer()),
         film_(options_.frames, options_.video, size_of(options_), options_.fps),
-        camera_(camera_of(options_, view_.frame(options_))) {
+        camera_(camera_of(world.options(), view_.frame(options_))) {
     if (options_.beside_ode) {
       beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
       beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());

@@ -88,7 +88,7 @@ class Live {
     panes_.push_back(std::make_unique<Pane>(options_, both, *renderer_));
   }
 
-  void home() { camera_ = camera_of(pictures_, pane().view.frame(pictures_)); }
+  void home() { camera_ = camera_of(options_, pane().view.frame(pictures_)); }
 
   void take_keys() {
     if (ImGui::GetIO().WantTextInput) return;

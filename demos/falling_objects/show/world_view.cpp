@@ -20,13 +20,18 @@ view::Frame WorldView::frame(const PictureOptions& options) {
   return frame;
 }
 
-view::Camera camera_of(const PictureOptions& options, const view::Frame& frame) {
-  const view::Camera all = overview(frame);
-  if (options.camera.empty()) return all;
-  const auto camera = view::parse_camera(options.camera, all);
+view::Camera camera_of(const Options& options, const view::Frame& frame) {
+  view::Camera start = overview(frame);
+  if (const auto& hint = options.description.camera) {
+    const auto place = [](const Point& p) { return glm::vec3(glm::dvec3(p[0], p[1], p[2])); };
+    start = view::camera_at(place(hint->eye), place(hint->target));
+  }
+  const std::string& text = options.pictures.camera;
+  if (text.empty()) return start;
+  const auto camera = view::parse_camera(text, start);
   if (!camera) {
-    throw UsageError("--camera wants x,y,z:x,y,z or azimuth,elevation[,distance], not '" +
-                     options.camera + "'");
+    throw UsageError("--camera wants x,y,z:x,y,z or azimuth,elevation[,distance], not '" + text +
+                     "'");
   }
   return *camera;
 }

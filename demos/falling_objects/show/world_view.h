@@ -25,7 +25,8 @@ class WorldView {
   double deepest_ = 0;
 };
 
-// Throws UsageError where the options' text is none.
-view::Camera camera_of(const PictureOptions& options, const view::Frame& frame);
+// As the options say, else as the scene does, else so that all is seen. Throws UsageError where the
+// options' text is none.
+view::Camera camera_of(const Options& options, const view::Frame& frame);
 
 }  // namespace falling_objects
