@@ -4,6 +4,9 @@
 find_package(CLI11 REQUIRED)
 find_package(assimp REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 
 # The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
@@ -19,7 +22,8 @@ target_compile_options(ode_ext_test_support PUBLIC ${public_options})
 target_link_libraries(ode_ext_test_support PUBLIC ODE::ODE Threads::Threads)
 
 # All of falling_objects but main, once for the program and once for its tests.
-file(GLOB falling_objects_sources CONFIGURE_DEPENDS demos/falling_objects/*.cpp)
+file(GLOB falling_objects_sources CONFIGURE_DEPENDS
+     demos/falling_objects/*.cpp demos/makers/*.cpp demos/record/*.cpp)
 list(FILTER falling_objects_sources EXCLUDE REGEX "/main\\.cpp$")
 if(falling_objects_sources)
   add_library(falling_objects_parts OBJECT EXCLUDE_FROM_ALL ${falling_objects_sources})
@@ -27,7 +31,9 @@ if(falling_objects_sources)
   target_include_directories(falling_objects_parts PUBLIC demos tests ${public_includes})
   target_compile_options(falling_objects_parts PUBLIC ${public_options})
   target_link_libraries(falling_objects_parts PUBLIC
-    CLI11::CLI11 assimp::assimp ODE::ODE Threads::Threads)
+    CLI11::CLI11 assimp::assimp PkgConfig::tomlplusplus TinyGLTF::TinyGLTF ODE::ODE Threads::Threads)
+  set_property(SOURCE demos/falling_objects/scene_file.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+               FALLING_OBJECTS_SCENES="${PROJECT_SOURCE_DIR}/demos/scenes")
 endif()
 
 # All of paper but main, in the same way. What it measured is to say which commit it was.
@@ -58,7 +64,20 @@ function(add_demo name source)
 endfunction()
 
 add_demo(hello demos/hello/hello.c)
-add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_parts ode_ext_test_support)
+# What falling_objects shows, or that it shows nothing.
+include(View)
+if(TARGET view)
+  file(GLOB show_sources CONFIGURE_DEPENDS demos/falling_objects/show/*.cpp)
+  list(FILTER show_sources EXCLUDE REGEX "/absent\\.cpp$")
+else()
+  set(show_sources demos/falling_objects/show/absent.cpp)
+endif()
+add_library(falling_objects_show OBJECT EXCLUDE_FROM_ALL ${show_sources})
+ode_ext_compile_options(falling_objects_show)
+target_link_libraries(falling_objects_show PUBLIC
+  falling_objects_parts $<TARGET_NAME_IF_EXISTS:view>)
+add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_show falling_objects_parts
+         ode_ext_test_support)
 add_demo(paper demos/paper/main.cpp paper_parts falling_objects_parts ode_ext_test_support)
 
 file(GLOB contacts_sources CONFIGURE_DEPENDS demos/contacts/*.cpp)

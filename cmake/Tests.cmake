@@ -33,6 +33,7 @@ file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test
      tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
      tests/bench/stability/report.cpp tests/bench/stability/shape.cpp
      tests/bench/stability/stack.cpp tests/pipeline/*_comparison.cpp)
+list(FILTER test_sources EXCLUDE REGEX "/tests/view/")
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
   ode_ext_compile_options(ode_ext_tests)
@@ -158,6 +159,24 @@ if(ODE_EXT_TOOLS)
     list(APPEND tools $<TARGET_FILE:ode_ext_run>)
   endif()
   add_test(NAME manual_pages COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/man_test.sh ${tools})
+endif()
+
+# Pictures are drawn and looked at; a window is opened on a screen of no machine's and used.
+if(TARGET view)
+  file(GLOB view_test_sources CONFIGURE_DEPENDS tests/view/*.cpp)
+  add_executable(view_tests ${view_test_sources})
+  ode_ext_compile_options(view_tests)
+  target_link_libraries(view_tests PRIVATE falling_objects_show falling_objects_parts
+    ode_ext_test_support ode_ext::ode_ext GTest::gtest_main GTest::gmock)
+  gtest_discover_tests(view_tests NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 120)
+  if(TARGET falling_objects)
+    foreach(shown pictures window)
+      add_test(NAME ${shown}_of_falling_objects
+               COMMAND ${PROJECT_SOURCE_DIR}/tests/view/${shown}_test.sh
+                       $<TARGET_FILE:falling_objects>)
+      set_tests_properties(${shown}_of_falling_objects PROPERTIES TIMEOUT 180)
+    endforeach()
+  endif()
 endif()
 
 if(TARGET paper)

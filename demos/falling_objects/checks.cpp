@@ -3,25 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "falling_objects/format.h"
 #include "falling_objects/speeds.h"
 
 namespace falling_objects {
 namespace {
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::string text(256, '\0');
-  const int length = std::snprintf(text.data(), text.size(), pattern, values...);
-  text.resize(std::min(text.size() - 1, static_cast<std::size_t>(std::max(length, 0))));
-  return text;
-}
-
-std::string name_of(std::size_t index, const Scene& scene) {
-  if (index >= scene.objects().size()) return "the ground";
-  return format("object %zu (%s)", index, scene.shape_of(index).name.c_str());
-}
 
 bool is_finite(dBodyID body) {
   const auto all_finite = [](const dReal* values, int count) {
@@ -56,30 +43,32 @@ bool Checks::after_step(const StepRecord& record, std::span<const dContactGeom> 
     // The ground is always the larger.
     double diameter = INFINITY;
     for (const dGeomID geom : {contact.g1, contact.g2}) {
-      if (dGeomGetBody(geom) != nullptr) diameter = std::min(diameter, 2 * kShapeRadius);
+      const std::size_t index = index_of(geom);
+      if (index < scene_.objects().size())
+        diameter = std::min(diameter, 2 * scene_.shape_of(index).radius);
     }
     // That of a sheet's vertex is the way along its normal, however far the surface is there.
     if (scene_.touches_sheet(contact)) continue;
     const double depth = contact.depth;
     if (!(depth <= diameter)) {
       impossible_.add(depth, at(record.step) + format("%.3f m: ", depth) +
-                                 name_of(index_of(contact.g1), scene_) + " and " +
-                                 name_of(index_of(contact.g2), scene_));
+                                 scene_.name_of(index_of(contact.g1)) + " and " +
+                                 scene_.name_of(index_of(contact.g2)));
     }
   }
   const Ground& ground = scene_.ground();
   for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
     const dBodyID body = scene_.objects()[i].body;
     if (!is_finite(body)) {
-      not_finite_.add(0, at(record.step) + name_of(i, scene_));
+      not_finite_.add(0, at(record.step) + scene_.name_of(i));
       continue;
     }
     const dReal* p = dBodyGetPosition(body);
     const double below = ground.height(p[0], p[1]) - p[2];
     const double beyond = std::max(std::abs(p[0]), std::abs(p[1])) - ground.half_size();
-    if ((below > kShapeRadius || beyond > 0) && lost_.emplace(i, record.step).second) {
+    if ((below > scene_.shape_of(i).radius || beyond > 0) && lost_.emplace(i, record.step).second) {
       fell_out_.add(std::max(below, beyond),
-                    at(record.step) + name_of(i, scene_) +
+                    at(record.step) + scene_.name_of(i) +
                         format(" at (%.2f, %.2f, %.2f)", static_cast<double>(p[0]),
                                static_cast<double>(p[1]), static_cast<double>(p[2])));
     }
@@ -98,7 +87,7 @@ void Checks::after_measurement(int step, const std::vector<Penetration>& too_dee
       stuck_.add(p.depth, at(step) +
                               format("%.3f m (allowed %.3f m) for %.1f s: ", p.depth, p.allowed,
                                      (step - since) / hz_) +
-                              name_of(p.object, scene_) + " and " + name_of(p.other, scene_));
+                              scene_.name_of(p.object) + " and " + scene_.name_of(p.other));
     }
   }
   too_deep_since_ = std::move(now);

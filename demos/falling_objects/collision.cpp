@@ -33,9 +33,11 @@ void near_stock(void* contacts, dGeomID g1, dGeomID g2) {
 
 }  // namespace
 
+bool ode_exports_its_collider() { return ode_trimesh_trimesh != nullptr; }
+
 Collision::Collision(const Options& options, dSpaceID space) : space_(space) {
   if (options.collider == Collider::kOde && !options.compare) return;
-  if (options.compare && ode_trimesh_trimesh == nullptr) {
+  if (options.compare && !ode_exports_its_collider()) {
     throw std::runtime_error("--compare: this ODE does not export its own trimesh collider");
   }
   dBatchColliderParams params;

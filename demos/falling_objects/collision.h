@@ -36,6 +36,9 @@ class Collision {
   dBatchColliderID batch_ = nullptr;
 };
 
+// Else dCollide is all there is to call, which a batch collider answers.
+bool ode_exports_its_collider();
+
 struct NoDevice {
   std::string message;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "falling_objects/random.h"
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double kCell = 0.375;   // [m]: 64 cells on the 24 m of the full scene
 constexpr double kBottom = -3.0;  // [m]: deep enough that nothing finds the bottom the nearer side
-constexpr double kSteepness = 0.6;  // height of the rim over half the size
 constexpr int kWaves = 24;
 
 struct Wave {
@@ -36,7 +36,7 @@ std::vector<Wave> make_waves(std::uint64_t seed) {
 
 }  // namespace
 
-Ground::Ground(double half_size, std::uint64_t seed)
+Ground::Ground(double half_size, std::uint64_t seed, double steepness)
     : half_size_(half_size),
       cells_(static_cast<std::size_t>(std::ceil(2 * half_size / kCell))),
       cell_(2 * half_size / static_cast<double>(cells_)) {
@@ -45,7 +45,7 @@ Ground::Ground(double half_size, std::uint64_t seed)
     for (std::size_t i = 0; i <= cells_; ++i) {
       const double x = static_cast<double>(i) * cell_ - half_size_;
       const double y = static_cast<double>(j) * cell_ - half_size_;
-      double z = kSteepness * (x * x + y * y) / half_size_;
+      double z = steepness * (x * x + y * y) / half_size_;
       for (const Wave& wave : waves) {
         z += wave.amplitude * std::sin(wave.kx * x + wave.ky * y + wave.phase);
       }
@@ -57,6 +57,7 @@ Ground::Ground(double half_size, std::uint64_t seed)
 
 // Triangles split each cell from (0, 0) to (1, 1), as make_mesh does.
 double Ground::height(double x, double y) const {
+  if (empty()) return -std::numeric_limits<double>::infinity();
   const auto along = [&](double at, double& rest) {
     const double last = static_cast<double>(cells_);
     const double in_cells = std::clamp((at + half_size_) / cell_, 0.0, last);

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The irregular ground (GRAPP section 6): a bowl in a closed slab, so that it has an inside.
+// The irregular ground (GRAPP section 6), or none: a bowl in a closed slab, which has an inside.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "falling_objects/triangle_mesh.h"
 
 namespace falling_objects {
 
+inline constexpr double kBowl = 0.6;  // height of the rim over half the size
+
 class Ground {
  public:
-  // A square of 2 * `half_size` [m] around the origin; what lands in it slides to the middle.
-  Ground(double half_size, std::uint64_t seed);
+  // None: its mesh is empty, nothing is below it, and nothing beyond its border.
+  Ground() = default;
+  // A square of 2 * `half_size` [m] around the origin; what lands in a bowl slides to the middle.
+  Ground(double half_size, std::uint64_t seed, double steepness = kBowl);
+
+  bool empty() const { return cells_ == 0; }
 
   const TriangleMesh& mesh() const { return mesh_; }
   double half_size() const { return half_size_; }
@@ -28,9 +35,9 @@ class Ground {
   }
   void make_mesh();
 
-  double half_size_;
-  std::size_t cells_;  // along a side
-  double cell_;        // edge of a cell [m]
+  double half_size_ = std::numeric_limits<double>::infinity();
+  std::size_t cells_ = 0;  // along a side
+  double cell_ = 0;        // edge of a cell [m]
   std::vector<double> heights_;
   TriangleMesh mesh_;
 };

@@ -13,7 +13,7 @@
 
 namespace falling_objects {
 
-TriangleMesh load_mesh(const std::string& path) {
+TriangleMesh read_mesh_file(const std::string& path) {
   Assimp::Importer importer;
   // Normals and texture coordinates keep vertices apart that are one vertex to a collider.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
@@ -52,6 +52,11 @@ TriangleMesh load_mesh(const std::string& path) {
     throw std::runtime_error("the mesh '" + path + "' holds no triangle");
   }
   if (is_closed(mesh) && signed_volume(mesh) < 0) turn_inside_out(mesh);
+  return mesh;
+}
+
+TriangleMesh load_mesh(const std::string& path) {
+  TriangleMesh mesh = read_mesh_file(path);
   normalise(mesh, kShapeRadius);
   return mesh;
 }

@@ -7,24 +7,30 @@
 #include <limits>
 #include <map>
 
+#include "falling_objects/scene_file.h"
+#include "falling_objects/scene_list.h"
+
 namespace falling_objects {
 namespace {
 
-constexpr const char* kDeformableScene = "rigid-deformable";
-
 constexpr const char* kDescription =
-    "Non-convex meshes fall into a bowl, without a window. Prints what each stage of the "
-    "collision\n"
-    "pass took, how deep meshes got into each other, and a hash of every contact.";
+    "Meshes fall, stand, roll and turn each other, in a window, in a film, or unseen: then it\n"
+    "prints what each stage of the collision pass took, how deep meshes got into each other, and "
+    "a\n"
+    "hash of every contact.";
 
 constexpr const char* kFooter = R"(
+Scenes:
+  A name, or a TOML file of your own: docs/scenes.md says what is in one, --list what there is.
+
 Checks:
-  --check fails on: a state that is not finite; an object below the ground by more than its radius
-  or out of the bowl; a contact deeper than the smaller object's bounding diameter; two objects
-  inside each other by more than half the thinnest part of either for more than 0.5 s, as measured
-  on the meshes every 0.1 s, independently of the collider; a device that failed. With sheets, at
-  the end: a vertex of a sheet more than 1 cm inside an object or under the ground; more than 0.1 %
-  of the sheets' triangles crossing the surface of an object or the ground.
+  --check fails on: what the scene expects ([[expect]] in its file) and does not come to pass; a
+  state that is not finite; an object below the ground by more than its radius or out of the bowl; a
+  contact deeper than the smaller object's bounding diameter; two objects inside each other by more
+  than half the thinnest part of either for more than 0.5 s, as measured on the meshes every 0.1 s,
+  independently of the collider; a device that failed. With sheets, at the end: a vertex of a sheet
+  more than 1 cm inside an object or under the ground; more than 0.1 % of the sheets' triangles
+  crossing the surface of an object or the ground.
   --check-rest fails if, over the last 0.5 s, the mean speed is above g/(2 hz) or more than 5 % of
   the speeds are above g/hz (0.08 and 0.16 m/s at 60 Hz). g/hz is what one step of free fall adds:
   what is slower is held by its contacts. With sheets, also if in any step of the last 0.5 s any
@@ -37,6 +43,10 @@ Examples:
   falling_objects --collider ode --csv ode.csv      ODE's own collider alone, a row per step
   falling_objects --scene rigid-deformable --check --check-rest --snapshot end.obj
   falling_objects --mesh chair.obj --mesh table.ply meshes of your own, scaled to 1 m
+  falling_objects --video out.mp4 --beside ode      ODE's own collider to the left, no screen needed
+  falling_objects --frames out/%04d.png --overlay caption,contacts --camera=-60,30,12
+  falling_objects --scene nut-on-bolt --check       what ought to hold, and does it?
+  falling_objects --scene my.toml --mesh part.glb   a scene and a mesh of your own
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage or unreadable file, 3 no device.)";
 
@@ -51,33 +61,35 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.get_formatter()->column_width(36);
 
   const auto positive = CLI::Range(1e-6, 1e6);
-  app.add_option("--scene", o.scene,
-                 "Of GRAPP section 6. rigid (default): 1,000 objects of four shapes; "
-                 "rigid-deformable: 216 of them, and 36 sheets of cloth that fall on them")
-      ->check(CLI::IsMember({"rigid", kDeformableScene}))
-      ->option_text("rigid|rigid-deformable")
+  app.add_option("--scene", o.scene, "The name of a scene, or a TOML file (default: rigid)")
+      ->option_text("NAME|FILE.toml")
+      ->group("Scene");
+  bool list_all = false;
+  app.add_flag("--list", list_all, "List the scenes, and the shapes that files can name")
       ->group("Scene");
   const CLI::Option* objects =
-      app.add_option("--objects", o.objects, "How many objects (default: 1000, under sheets 216)")
+      app.add_option("--objects", o.objects,
+                     "How many objects, in a scene that drops some (default: what its file says)")
           ->check(CLI::Range(1, 1000000))
           ->group("Scene");
   const CLI::Option* sheets =
-      app.add_option("--sheets", o.sheets, "How many sheets (default: 36 in rigid-deformable)")
+      app.add_option("--sheets", o.sheets, "How many sheets, in a scene that has some")
           ->check(CLI::Range(1, 1000))
           ->group("Scene");
-  app.add_option("--steps", o.steps, "How many steps")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
-      ->capture_default_str()
-      ->group("Scene");
-  app.add_option("--hz", o.hz, "Steps per simulated second")
-      ->check(positive)
-      ->capture_default_str()
-      ->group("Scene");
+  const CLI::Option* steps =
+      app.add_option("--steps", o.steps, "How many steps (default: what the scene says)")
+          ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+          ->group("Scene");
+  const CLI::Option* hz =
+      app.add_option("--hz", o.hz, "Steps per simulated second (default: what the scene says)")
+          ->check(positive)
+          ->group("Scene");
   app.add_option("--seed", o.seed, "Of the placement and the ground")
       ->capture_default_str()
       ->group("Scene");
   app.add_option("--mesh", o.meshes,
-                 "Drop this mesh instead of the four shapes (OBJ, STL, PLY, glTF); repeatable")
+                 "Drop this mesh (OBJ, STL, PLY, glTF) instead of the scene's, or NAME=FILE for a "
+                 "mesh of a scene that drops none; repeatable")
       ->allow_extra_args(false)
       ->group("Scene");
 
@@ -90,10 +102,11 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.add_flag("--compare", o.compare,
                "Collide every step with both colliders and compare their times")
       ->group("Collision");
-  app.add_option("--max-contacts", o.max_contacts, "Contacts per pair at most")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str()
-      ->group("Collision");
+  const CLI::Option* max_contacts =
+      app.add_option("--max-contacts", o.max_contacts,
+                     "Contacts per pair at most (default: what the scene says, or 16)")
+          ->check(CLI::Range(1, 64))
+          ->group("Collision");
   app.add_option("--device", o.device, "OpenCL device, as in ODE_EXT_DEVICE")->group("Collision");
   app.add_option("--config", o.config,
                  "Settings of the batch collider, such as rays=iterative,workload=exact; "
@@ -112,21 +125,48 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->group("Output");
   app.add_option("--snapshot", o.snapshot, "Write all meshes at the end to this OBJ file")
       ->group("Output");
+  app.add_option("--record", o.record,
+                 "Write the run to this .glb file (glTF), 30 poses a second, for Blender and other "
+                 "viewers; without sheets")
+      ->check(
+          [](const std::string& path) { return path.ends_with(".glb") ? "" : "must end in .glb"; })
+      ->group("Output");
   app.add_flag("--quiet", o.quiet, "No progress")->group("Output");
+  add_picture_options(app, o.pictures);
   try {
     app.parse(argc, argv);
-    const bool deformable = o.scene == kDeformableScene;
-    if (deformable && objects->empty()) o.objects = 216;
-    if (deformable && sheets->empty()) o.sheets = 36;
-    if (!deformable && o.sheets > 0) {
-      throw CLI::ValidationError("--sheets", "only with --scene rigid-deformable");
+    if (list_all) {
+      print_scenes(out);
+      parsed.exit_code = kExitOk;
+      return parsed;
     }
+    o.description = read_scene_file(find_scene_file(o.scene));
+    SceneDescription& scene = o.description;
+    if (!scene.drop && !objects->empty()) {
+      throw CLI::ValidationError("--objects", "scene " + o.scene + " drops none");
+    }
+    if (!sheets->empty() && (!scene.drop || scene.drop->sheets == 0)) {
+      throw CLI::ValidationError("--sheets", "scene " + o.scene + " has none");
+    }
+    if (scene.drop) {
+      if (objects->empty()) o.objects = scene.drop->objects;
+      if (sheets->empty()) o.sheets = scene.drop->sheets;
+      scene.drop = Drop{o.objects, o.sheets};
+    } else {
+      o.objects = static_cast<int>(scene.bodies.size());
+    }
+    if (steps->empty()) o.steps = scene.steps;
+    if (hz->empty()) o.hz = scene.hz;
+    if (max_contacts->empty()) o.max_contacts = scene.contact.per_pair;
     // ODE's own collider knows no open meshes with two sides.
-    if (deformable && (o.compare || o.collider == Collider::kOde)) {
-      throw CLI::ValidationError("--scene", "rigid-deformable needs the batch collider alone");
+    if (o.has_sheets() && (o.compare || o.collider == Collider::kOde)) {
+      throw CLI::ValidationError("--scene", "sheets need the batch collider alone");
     }
   } catch (const CLI::ParseError& e) {
     parsed.exit_code = app.exit(e, out, err) == 0 ? kExitOk : kExitUsage;
+  } catch (const SceneFileError& e) {
+    err << e.what() << '\n';
+    parsed.exit_code = kExitUsage;
   }
   return parsed;
 }

@@ -16,8 +16,8 @@ Mesh oracle_mesh(const TriangleMesh& mesh) { return Mesh(mesh.vertices, mesh.ind
 
 }  // namespace
 
-PenetrationMeter::PenetrationMeter(const Scene& scene)
-    : scene_(scene), ground_(oracle_mesh(scene.ground().mesh())) {
+PenetrationMeter::PenetrationMeter(const Scene& scene) : scene_(scene) {
+  if (!scene.ground().empty()) ground_.emplace(oracle_mesh(scene.ground().mesh()));
   for (const Shape& shape : scene.shapes()) {
     shapes_.push_back(oracle_mesh(shape.mesh));
     half_thinnest_.push_back(shapes_.back().thinnest_part() / 2);
@@ -37,12 +37,13 @@ void PenetrationMeter::for_each_pair(const std::vector<Pose>& poses, Visit visit
     const std::size_t shape_i = scene_.objects()[i].shape;
     const Mesh& mesh = shapes_[shape_i];
     if (!mesh.closed()) continue;
-    visit(i, count, ground_, Pose{}, half_thinnest_[shape_i]);
+    if (ground_) visit(i, count, *ground_, Pose{}, half_thinnest_[shape_i]);
     for (std::size_t j = i + 1; j < count; ++j) {
       const std::size_t shape_j = scene_.objects()[j].shape;
       const Mesh& other = shapes_[shape_j];
       const Vector apart = poses[i].position - poses[j].position;
       const double reach = mesh.radius() + other.radius();
+      if (!can_move(scene_.objects()[i]) && !can_move(scene_.objects()[j])) continue;
       if (!other.closed() || dot(apart, apart) > reach * reach) continue;
       visit(i, j, other, poses[j], std::min(half_thinnest_[shape_i], half_thinnest_[shape_j]));
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "falling_objects/scene.h"
@@ -41,7 +42,7 @@ class PenetrationMeter {
   const Scene& scene_;
   std::vector<ode_ext::oracle::Mesh> shapes_;
   std::vector<double> half_thinnest_;  // of the shapes [m]
-  ode_ext::oracle::Mesh ground_;
+  std::optional<ode_ext::oracle::Mesh> ground_;
 };
 
 }  // namespace falling_objects

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "falling_objects/rotation.h"
 #include "falling_objects/shapes.h"
 
 namespace falling_objects {
@@ -30,15 +31,6 @@ std::vector<std::pair<double, double>> make_sites(std::size_t count) {
   });
   sites.resize(count);
   return sites;
-}
-
-// Uniform over all rotations (Shoemake 1992).
-std::array<double, 4> random_rotation(Random& random) {
-  const double u = random.unit();
-  const double a = 2 * std::numbers::pi * random.unit();
-  const double b = 2 * std::numbers::pi * random.unit();
-  const double r = std::sqrt(1 - u), s = std::sqrt(u);
-  return {r * std::sin(a), r * std::cos(a), s * std::sin(b), s * std::cos(b)};
 }
 
 }  // namespace

@@ -7,12 +7,13 @@
 
 #include "falling_objects/ground.h"
 #include "falling_objects/random.h"
+#include "falling_objects/scene_description.h"
 
 namespace falling_objects {
 
 struct Placement {
-  Point position;                  // [m]
-  std::array<double, 4> rotation;  // unit quaternion w, x, y, z
+  Point position;  // [m]
+  Quaternion rotation;
   std::size_t shape;
 };
 

@@ -10,89 +10,92 @@
 #include <utility>
 
 #include "falling_objects/checks.h"
-#include "falling_objects/mesh_file.h"
+#include "falling_objects/expectations.h"
 #include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
 #include "falling_objects/sheets.h"
 #include "falling_objects/simulation.h"
 #include "falling_objects/snapshot.h"
+#include "falling_objects/usage_error.h"
+#include "falling_objects/world.h"
+#include "record/gltf_recorder.h"
 
 namespace falling_objects {
 namespace {
 
-constexpr double kMeasureEvery = 0.1;  // [s] between two looks of the oracle
-constexpr double kDrapeEvery = 1;      // [s] ... at the sheets, which takes it longer
-
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+constexpr double kMeasureEvery = 0.1;      // [s] between two looks of the oracle
+constexpr double kRecordEvery = 1.0 / 30;  // [s] between two poses of a recording
+constexpr double kDrapeEvery = 1;          // [s] ... at the sheets, which takes it longer
 
 struct OdeSession {
   OdeSession() { dInitODE2(0); }
   ~OdeSession() { dCloseODE(); }
 };
 
-std::vector<NamedMesh> load_meshes(const Options& options) {
-  if (options.meshes.empty()) return make_shapes();
-  std::vector<NamedMesh> meshes;
-  try {
-    for (const std::string& path : options.meshes) meshes.push_back({path, load_mesh(path)});
-  } catch (const std::runtime_error& e) {
-    throw UsageError(e.what());
-  }
-  return meshes;
-}
-
 int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
 }
 
-int print_verdict(const Options& options, const Checks& checks) {
+int print_verdict(const Options& options, const Checks& checks,
+                  const std::vector<Outcome>& outcomes) {
+  for (const Outcome& outcome : outcomes) {
+    std::cout << (outcome.holds ? "holds: " : "does not hold: ") << outcome.words << '\n';
+  }
   if (!options.check && !options.check_rest) return kExitOk;
-  const std::vector<std::string> failures = checks.failures();
+  std::vector<std::string> failures = checks.failures();
+  for (const Outcome& outcome : outcomes) {
+    if (!outcome.holds) failures.push_back(outcome.words);
+  }
   for (const std::string& failure : failures) std::cout << "check: failed: " << failure << '\n';
   if (failures.empty()) std::cout << "check: passed\n";
   return failures.empty() ? kExitOk : kExitCheckFailed;
 }
 
-int run_scene(const Options& options) {
+int run_scene(const Options& options, const MakeSpectator& watch) {
   std::ofstream csv;
   if (!options.csv.empty()) {
     csv.open(options.csv);
     if (!csv) throw UsageError("cannot write '" + options.csv + "'");
   }
-  const OdeSession session;
-  std::vector<std::string> warnings;
-  Scene scene(load_meshes(options), options, warnings);
-  for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
-
-  Collision collision(options, scene.space());
-  std::unique_ptr<Sheets> sheets;
+  World world(options);
+  const Scene& scene = world.scene();
+  for (const std::string& warning : world.warnings()) std::cerr << "warning: " << warning << '\n';
+  const Sheets* sheets = world.sheets();
   std::unique_ptr<DrapingMeter> draping_meter;
-  if (options.has_sheets()) {
-    sheets =
-        std::make_unique<Sheets>(static_cast<std::size_t>(options.sheets), options.seed, scene);
-    sheets->introduce(collision.batch());
-    draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
-  }
-  Simulation simulation(options, scene, collision, sheets.get());
+  if (sheets != nullptr) draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
+  const Simulation& simulation = world.simulation();
+  const Collision& collision = world.collision();
+  const std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
+  Expectations expectations(scene, options.hz);
   Progress progress(options);
+  std::unique_ptr<GltfRecorder> recorder;
+  if (!options.record.empty()) {
+    if (!std::ofstream(options.record)) throw UsageError("cannot write '" + options.record + "'");
+    recorder = std::make_unique<GltfRecorder>(scene);
+    recorder->record(0);
+  }
   std::vector<StepRecord> records;
   Summary summary;
   const int measure_every = steps_in(kMeasureEvery, options.hz);
   const int drape_every = steps_in(kDrapeEvery, options.hz);
+  const int record_every = steps_in(kRecordEvery, options.hz);
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   for (int step = 0; step < options.steps; ++step) {
-    StepRecord record = simulation.step();
+    StepRecord record = world.step();
     const bool finite = checks.after_step(record, simulation.contacts());
+    expectations.after_step();
+    if (finite && recorder && (step + 1) % record_every == 0) {
+      recorder->record((step + 1) / options.hz);
+    }
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
       record.deepest_penetration = measured.deepest;
     }
-    if (finite && sheets && ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
+    if (finite && sheets != nullptr &&
+        ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
       const Draping draping = draping_meter->measure();
       record.deepest_vertex = draping.deepest;
       record.crossing_share = draping.crossing_share();
@@ -102,6 +105,7 @@ int run_scene(const Options& options) {
     if (options.check_rest && step >= rest_from) checks.collect_speeds(record);
     records.push_back(record);
     progress.show(record);
+    if (spectator) spectator->after_step(record);
     if (!finite) break;
   }
   progress.finish();
@@ -111,26 +115,28 @@ int run_scene(const Options& options) {
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);
+  if (spectator) spectator->finish(std::cout);
   if (csv.is_open()) {
     write_csv(csv, records);
     csv.close();
     if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
   }
+  if (recorder) recorder->write(options.record);
   if (!options.snapshot.empty()) {
     std::ofstream file(options.snapshot);
     const std::vector<std::unique_ptr<Sheet>> none;
-    write_snapshot(file, scene, sheets ? sheets->all() : none);
+    write_snapshot(file, scene, sheets != nullptr ? sheets->all() : none);
     file.close();
     if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
   }
-  return print_verdict(options, checks);
+  return print_verdict(options, checks, expectations.outcomes());
 }
 
-}  // namespace
-
-int run(const Options& options) {
+template <class Work>
+int exit_code_of(Work work) {
   try {
-    return run_scene(options);
+    const OdeSession session;
+    return work();
   } catch (const NoDevice& e) {
     std::cerr << "no device: " << e.message << '\n';
     return kExitNoDevice;
@@ -141,6 +147,16 @@ int run(const Options& options) {
     std::cerr << e.what() << '\n';
     return kExitCheckFailed;
   }
+}
+
+}  // namespace
+
+int run(const Options& options, const MakeSpectator& watch) {
+  return exit_code_of([&] { return run_scene(options, watch); });
+}
+
+int run_window(const Options& options, const std::function<int(const Options&)>& show) {
+  return exit_code_of([&] { return show(options); });
 }
 
 }  // namespace falling_objects

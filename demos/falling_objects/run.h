@@ -3,9 +3,14 @@
 #pragma once
 
 #include "falling_objects/options.h"
+#include "falling_objects/spectator.h"
 
 namespace falling_objects {
 
-int run(const Options& options);
+// `watch` may be empty.
+int run(const Options& options, const MakeSpectator& watch = {});
+
+// The same for something else to do with ODE: `show` returns an exit code.
+int run_window(const Options& options, const std::function<int(const Options&)>& show);
 
 }  // namespace falling_objects

@@ -5,31 +5,12 @@
 #include <map>
 #include <numbers>
 
+#include "makers/bands.h"
+
 namespace falling_objects {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// Joins two rings of equally many vertices, numbered consecutively, by a band of quads. Going round
-// a ring is counter-clockwise seen from the side of `upper`.
-void add_band(TriangleMesh& mesh, unsigned lower, unsigned upper, unsigned count) {
-  for (unsigned i = 0; i < count; ++i) {
-    const unsigned j = (i + 1) % count;
-    mesh.add_quad(lower + i, lower + j, upper + j, upper + i);
-  }
-}
-
-// Closes a ring by a fan. `outward_up`: seen from outside the ring goes counter-clockwise.
-void add_fan(TriangleMesh& mesh, unsigned ring, unsigned apex, unsigned count, bool outward_up) {
-  for (unsigned i = 0; i < count; ++i) {
-    const unsigned j = (i + 1) % count;
-    if (outward_up) {
-      mesh.add_triangle(ring + i, ring + j, apex);
-    } else {
-      mesh.add_triangle(ring + j, ring + i, apex);
-    }
-  }
-}
 
 }  // namespace
 

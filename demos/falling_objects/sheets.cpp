@@ -118,7 +118,9 @@ void Sheets::push_bodies(double dt) {
   });
   for (std::size_t i = 0; i < impulses.size(); ++i) {
     const dBodyID body = scene_.objects()[i].body;
-    const double change = length(impulses[i]) / scene_.shape_of(i).mass.mass;
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    const double change = length(impulses[i]) / mass.mass;
     if (change > dBodyGetAutoDisableLinearThreshold(body)) dBodyEnable(body);
   }
   for_each([&](const ClothContact& plane) {

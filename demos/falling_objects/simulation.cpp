@@ -14,6 +14,26 @@ double ms_since(std::chrono::steady_clock::time_point start) {
   return took.count();
 }
 
+// All but mu, which depends on what touches.
+dSurfaceParameters surface_of(const ContactSettings& settings) {
+  dSurfaceParameters surface{};
+  surface.mode = dContactApprox1;
+  if (settings.bounce > 0) {
+    surface.mode |= dContactBounce;
+    surface.bounce = settings.bounce;
+    surface.bounce_vel = settings.bounce_speed;
+  }
+  if (settings.soft_erp) {
+    surface.mode |= dContactSoftERP;
+    surface.soft_erp = *settings.soft_erp;
+  }
+  if (settings.soft_cfm) {
+    surface.mode |= dContactSoftCFM;
+    surface.soft_cfm = *settings.soft_cfm;
+  }
+  return surface;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Options& options, Scene& scene, Collision& collision, Sheets* sheets)
@@ -98,17 +118,21 @@ void Simulation::advance(StepRecord& record) {
 
 double advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactGeom> contacts,
                      double hz) {
+  dContact contact{};
+  contact.surface = surface_of(scene.description().contact);
   for (const dContactGeom& geom : contacts) {
     if (scene.touches_sheet(geom)) continue;  // Sheets::step's business
-    dContact contact{};
     contact.geom = geom;
-    contact.surface.mode = dContactApprox1;
-    contact.surface.mu = 0.5;
+    contact.surface.mu = scene.mu_between(index_of(geom.g1), index_of(geom.g2));
     dJointID joint = dJointCreateContact(scene.world(), joints, &contact);
     dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
   }
   const auto start = std::chrono::steady_clock::now();
-  dWorldQuickStep(scene.world(), 1 / hz);
+  if (scene.description().world.solver == Solver::kQuick) {
+    dWorldQuickStep(scene.world(), 1 / hz);
+  } else {
+    dWorldStep(scene.world(), 1 / hz);
+  }
   const double solver_ms = ms_since(start);
   dJointGroupEmpty(joints);
   return solver_ms;

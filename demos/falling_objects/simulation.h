@@ -13,7 +13,7 @@
 
 namespace falling_objects {
 
-// Makes contact joints of these contacts, and a step of the world. Returns what dWorldQuickStep
+// Makes contact joints of these contacts, and a step of the world. Returns what the solver
 // alone took [ms].
 double advance_world(Scene& scene, dJointGroupID joints, std::span<const dContactGeom> contacts,
                      double hz);

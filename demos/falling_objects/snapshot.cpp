@@ -43,7 +43,7 @@ void write_snapshot(std::ostream& out, const Scene& scene,
     }
     writer.write(name, vertices, mesh.indices);
   };
-  write("ground", scene.ground().mesh(), nullptr);
+  if (!scene.ground().empty()) write("ground", scene.ground().mesh(), nullptr);
   for (std::size_t i = 0; i < scene.objects().size(); ++i) {
     write("object_" + std::to_string(i), scene.shape_of(i).mesh, scene.objects()[i].body);
   }

@@ -10,6 +10,7 @@ namespace falling_objects {
 std::vector<double> speeds(const Scene& scene) {
   std::vector<double> result;
   for (const Object& object : scene.objects()) {
+    if (!can_move(object)) continue;
     const dReal* v = dBodyGetLinearVel(object.body);
     result.push_back(std::hypot(v[0], v[1], v[2]));
   }

@@ -8,7 +8,7 @@
 
 namespace falling_objects {
 
-// Of the bodies' centres of mass [m/s].
+// Of the centres of mass of what can move [m/s].
 std::vector<double> speeds(const Scene& scene);
 
 // 0 of nothing.

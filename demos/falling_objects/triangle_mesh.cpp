@@ -127,13 +127,25 @@ void turn_inside_out(TriangleMesh& mesh) {
   }
 }
 
+void scale_mesh(TriangleMesh& mesh, double factor) {
+  for (float& x : mesh.vertices) x = static_cast<float>(x * factor);
+}
+
+Point center_on_mass(TriangleMesh& mesh) {
+  const Point middle = centre(mesh, is_closed(mesh));
+  if (std::sqrt(dot(middle, middle)) < 1e-6 * bounding_radius(mesh)) return {0, 0, 0};
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    mesh.vertices[i] = static_cast<float>(mesh.vertices[i] - middle[i % 3]);
+  }
+  return middle;
+}
+
 void normalise(TriangleMesh& mesh, double radius) {
   const Point middle = centre(mesh, is_closed(mesh));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     mesh.vertices[i] = static_cast<float>(mesh.vertices[i] - middle[i % 3]);
   }
-  const double scale = radius / bounding_radius(mesh);
-  for (float& x : mesh.vertices) x = static_cast<float>(x * scale);
+  scale_mesh(mesh, radius / bounding_radius(mesh));
 }
 
 }  // namespace falling_objects

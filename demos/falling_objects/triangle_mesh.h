@@ -46,6 +46,12 @@ void weld(TriangleMesh& mesh);
 
 void turn_inside_out(TriangleMesh& mesh);
 
+void scale_mesh(TriangleMesh& mesh, double factor);
+
+// Moves the centre to the origin and returns where it was [m]. What is centred but for rounding
+// stays as it is.
+Point center_on_mass(TriangleMesh& mesh);
+
 // Moves the centre to the origin, then scales the bounding radius about it to `radius` [m].
 void normalise(TriangleMesh& mesh, double radius);
 

@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = [ROOT / 'README.md', ROOT / 'CHANGELOG.md', ROOT / 'CONTRIBUTING.md',
          ROOT / 'packaging/README.md', *sorted((ROOT / 'docs').glob('*.md'))]
-AS_IT_IS = {'.md', '.svg', '.png'}
+AS_IT_IS = {'.md', '.svg', '.png', '.webp'}
 LINK = re.compile(r'\[([^\]]*)\]\(([^)\s#]*)(#[^)\s]*)?\)')
 ITEM = re.compile(r'^(?:[-*]|\d+\.) ')
 

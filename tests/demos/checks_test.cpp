@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "falling_objects/contact_list.h"
@@ -69,7 +70,7 @@ TEST_F(DemoChecks, FindsAContactDeeperThanAnObjectIsLarge) {
   dContactGeom contact{};
   contact.g1 = scene_.objects()[0].geom;
   contact.g2 = scene_.objects()[1].geom;
-  contact.depth = 2 * kShapeRadius;
+  contact.depth = 2 * std::min(scene_.shape_of(0).radius, scene_.shape_of(1).radius);
   checks_.after_step({}, {&contact, 1});
   EXPECT_THAT(checks_.failures(), IsEmpty());
   contact.depth = std::nextafter(contact.depth, 2);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "falling_objects/options.h"
+#include "falling_objects/step_record.h"
+
+namespace falling_objects {
+
+// What a picture says of a world: which collider drives it, how deep its bodies are in one another
+// as measured on the meshes [m], how fast they are, what colliding them took.
+std::vector<std::string> caption(const Options& options, const StepRecord& record, double deepest);
+
+// "6.2 mm", "0.71 m"
+std::string length_text(double meters);
+
+}  // namespace falling_objects

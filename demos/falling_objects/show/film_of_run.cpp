@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <stdexcept>
+
+#include "falling_objects/measured_world.h"
+#include "falling_objects/show.h"
+#include "falling_objects/show/world_view.h"
+#include "falling_objects/usage_error.h"
+#include "view/film.h"
+#include "view/studio.h"
+
+namespace falling_objects {
+namespace {
+
+view::Size size_of(const PictureOptions& options) { return {options.width, options.height}; }
+
+class FilmOfRun : public Spectator {
+ public:
+  explicit FilmOfRun(const World& world)
+      : hz_(world.options().hz),
+        options_(world.options().pictures),
+        studio_(size_of(options_)),
+        view_(world, studio_.renderer()),
+        film_(options_.frames, options_.video, size_of(options_), options_.fps),
+        camera_(camera_of(world.options(), view_.frame(options_))) {
+    if (options_.beside_ode) {
+      beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
+      beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());
+    }
+    if (film_.wants_all()) film_.add(draw());
+  }
+
+  void after_step(const StepRecord& record) override {
+    view_.note(record);
+    if (beside_) beside_view_->note(beside_->step());
+    if (!film_.wants_all()) return;
+    // As many as should be there by the end of this step.
+    const double due = (record.step + 1) * options_.fps / hz_;
+    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) film_.add(draw());
+  }
+
+  void finish(std::ostream& out) override {
+    if (film_.wants_end()) film_.add_end(draw());
+    film_.finish();
+    out << std::setprecision(1) << "\npictures: " << film_.made() << " ("
+        << film_.count() + film_.wants_end() << " pictures in " << drawing_.count()
+        << " s, drawn by " << view::renderer_name() << ")\n";
+  }
+
+ private:
+  view::Image draw() {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<view::Frame> frames;
+    if (beside_) frames.push_back(beside_view_->frame(options_));
+    frames.push_back(view_.frame(options_));
+    view::Image image = studio_.draw(frames, camera_);
+    drawing_ += std::chrono::steady_clock::now() - start;
+    return image;
+  }
+
+  double hz_;
+  PictureOptions options_;
+  view::Studio studio_;
+  WorldView view_;
+  view::Film film_;
+  view::Camera camera_;
+  std::chrono::duration<double> drawing_{0};
+  std::unique_ptr<MeasuredWorld> beside_;
+  std::unique_ptr<WorldView> beside_view_;
+};
+
+}  // namespace
+
+std::unique_ptr<Spectator> make_film(const World& world) {
+  const PictureOptions& options = world.options().pictures;
+  if (!options.has_film()) {
+    if (options.beside_ode) throw UsageError("--beside wants --frames, --video or --window");
+    return nullptr;
+  }
+  try {
+    return std::make_unique<FilmOfRun>(world);
+  } catch (const std::runtime_error& e) {  // no driver, no ffmpeg, no such name or camera
+    throw UsageError(e.what());
+  }
+}
+
+}  // namespace falling_objects

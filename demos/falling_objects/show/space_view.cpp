@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/show/space_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "falling_objects/show/mesh_of_geom.h"
+
+namespace falling_objects {
+namespace {
+
+constexpr view::Color kGround{0.74F, 0.72F, 0.68F}, kFixed{0.45F, 0.47F, 0.50F};
+// Far apart in hue and not far in lightness.
+constexpr std::array<view::Color, 8> kShapes{{{0.86F, 0.33F, 0.25F},
+                                              {0.22F, 0.47F, 0.75F},
+                                              {0.93F, 0.68F, 0.20F},
+                                              {0.25F, 0.60F, 0.42F},
+                                              {0.58F, 0.39F, 0.70F},
+                                              {0.16F, 0.64F, 0.69F},
+                                              {0.88F, 0.50F, 0.60F},
+                                              {0.55F, 0.55F, 0.30F}}};
+constexpr std::array<view::Color, 3> kCloths{
+    {{0.90F, 0.86F, 0.76F}, {0.78F, 0.34F, 0.36F}, {0.38F, 0.55F, 0.68F}}};
+constexpr view::Color kShallow{0.05F, 0.05F, 0.09F}, kDeep{0.95F, 0.03F, 0.12F};
+constexpr view::Color kBox{0.25F, 0.28F, 0.35F};
+
+// A contact of no depth is an arrow nevertheless.
+constexpr float kPerDepth = 50;
+constexpr float kShortest = 0.015F, kLongest = 0.25F;  // of the radius of the scene
+constexpr float kRed = 0.03F;  // [m] of depth from which on an arrow is all red
+
+view::Arrow arrow_of(const dContactGeom& contact, float radius) {
+  const auto depth = static_cast<float>(contact.depth);
+  const float length = std::min(kShortest * radius + kPerDepth * depth, kLongest * radius);
+  const glm::vec3 at = to_glm(contact.pos);
+  return {at, at + length * to_glm(contact.normal),
+          glm::mix(kShallow, kDeep, std::clamp(depth / kRed, 0.0F, 1.0F))};
+}
+
+void add_touched(dGeomID geom, int side, std::vector<glm::vec3>& corners) {
+  if (dGeomGetClass(geom) != dTriMeshClass || side < 0 ||
+      side >= dGeomTriMeshGetTriangleCount(geom)) {
+    return;
+  }
+  std::array<dVector3, 3> corner{};
+  dGeomTriMeshGetTriangle(geom, side, &corner[0], &corner[1], &corner[2]);
+  for (const auto& c : corner) corners.push_back(to_glm(c));
+}
+
+view::Cloth cloth_of(const Cloth& cloth, view::Color color) {
+  view::Cloth seen{{}, cloth.triangles(), color};
+  for (const Vector& p : cloth.positions()) {
+    seen.vertices.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y),
+                               static_cast<float>(p.z));
+  }
+  return seen;
+}
+
+view::Box box_of(dGeomID geom) {
+  std::array<dReal, 6> b{};
+  dGeomGetAABB(geom, b.data());
+  const std::array<dReal, 3> low{b[0], b[2], b[4]}, high{b[1], b[3], b[5]};
+  return {to_glm(low.data()), to_glm(high.data()), kBox};
+}
+
+// It has a body that others push.
+bool moves(dGeomID geom) {
+  dBodyID body = dGeomGetBody(geom);
+  return body != nullptr && dBodyIsKinematic(body) == 0;
+}
+
+view::Box around(const std::vector<glm::vec3>& points) {
+  if (points.empty()) return {glm::vec3(0), glm::vec3(0), kBox};
+  view::Box all{points.front(), points.front(), kBox};
+  for (const glm::vec3& point : points) {
+    all.low = glm::min(all.low, point);
+    all.high = glm::max(all.high, point);
+  }
+  return all;
+}
+
+view::Box around(const std::vector<view::Box>& boxes) {
+  std::vector<glm::vec3> corners;
+  for (const view::Box& box : boxes) corners.insert(corners.end(), {box.low, box.high});
+  return around(corners);
+}
+
+// A ground: it reaches under everything that moves.
+bool is_ground(dGeomID geom, const view::Box& moving) {
+  const view::Box box = box_of(geom);
+  const glm::vec3 middle = (moving.low + moving.high) / 2.0F;
+  return !moves(geom) && box.low.x < moving.low.x && box.low.y < moving.low.y &&
+         box.high.x > moving.high.x && box.high.y > moving.high.y && box.low.z < middle.z;
+}
+
+// Seen from beside, its walls and its underside would hide what lies on it.
+void keep_top(IndexedMesh& mesh) {
+  std::vector<unsigned> top;
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const glm::vec3 a = mesh.positions[mesh.triangles[i]];
+    const glm::vec3 b = mesh.positions[mesh.triangles[i + 1]];
+    const glm::vec3 c = mesh.positions[mesh.triangles[i + 2]];
+    const glm::vec3 normal = glm::cross(b - a, c - a);
+    if (normal.z <= 0.02F * glm::length(normal)) continue;
+    for (std::size_t k = 0; k < 3; ++k) top.push_back(mesh.triangles[i + k]);
+  }
+  mesh.triangles = top;
+}
+
+}  // namespace
+
+const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving) {
+  dTriMeshDataID data = dGeomTriMeshGetTriMeshDataID(geom);
+  const auto known = kinds_.find(data);
+  if (known != kinds_.end()) return known->second;
+  IndexedMesh mesh = mesh_of(data);
+  const bool ground = mesh.closed && is_ground(geom, moving);
+  if (ground) keep_top(mesh);
+  Kind kind{renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground};
+  if (moves(geom)) {
+    kind.color = kShapes[moving_kinds_++ % kShapes.size()];
+  } else if (!ground) {
+    kind.color = kFixed;
+  }
+  return kinds_.emplace(data, kind).first->second;
+}
+
+// A little lighter or darker than its neighbour of the same shape; where all have one shape, the
+// colors of shapes in turn.
+void SpaceView::tell_apart(view::Frame& frame) const {
+  std::size_t i = 0;
+  for (view::Instance& object : frame.objects) {
+    if (object.color == kFixed) continue;
+    if (moving_kinds_ == 1) object.color = kShapes[i % kShapes.size()];
+    object.color *= 0.92F + 0.04F * static_cast<float>(i % 5);
+    ++i;
+  }
+}
+
+void SpaceView::add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame) {
+  const Kind& kind = kind_of(geom, moving);
+  auto& list = kind.ground ? frame.grounds : frame.objects;
+  list.push_back({kind.mesh, pose_of(geom), kind.color});
+}
+
+view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
+                             std::span<const dContactGeom> contacts, const Overlays& overlays) {
+  view::Frame frame;
+  std::vector<dGeomID> geoms;
+  std::vector<view::Box> moving;
+  const int count = dSpaceGetNumGeoms(space);
+  for (int i = 0; i < count; ++i) {
+    dGeomID geom = dSpaceGetGeom(space, i);
+    if (dGeomGetClass(geom) != dTriMeshClass || (dGeomGetCategoryBits(geom) & kMeshBit) == 0) {
+      continue;
+    }
+    geoms.push_back(geom);
+    if (moves(geom)) moving.push_back(box_of(geom));
+  }
+  // Spaces list geoms in any order; a shape's color is not to depend on it.
+  std::stable_sort(geoms.begin(), geoms.end(),
+                   [](dGeomID a, dGeomID b) { return index_of(a) < index_of(b); });
+  if (sheets != nullptr) {
+    for (std::size_t i = 0; i < sheets->all().size(); ++i) {
+      const Sheet& sheet = *sheets->all()[i];
+      frame.cloths.push_back(cloth_of(sheet.cloth(), kCloths[i % kCloths.size()]));
+      moving.push_back(around(frame.cloths.back().vertices));
+    }
+  }
+  const view::Box all = around(moving);
+  for (dGeomID geom : geoms) add_geom(geom, all, frame);
+  tell_apart(frame);
+  if (!(radius_ > 0)) {
+    center_ = (all.low + all.high) / 2.0F;
+    radius_ = std::max(0.1F, 0.55F * glm::length(all.high - all.low));
+  }
+  frame.center = center_;
+  frame.radius = radius_;
+  for (const dContactGeom& contact : contacts) {
+    if (overlays.contacts) frame.arrows.push_back(arrow_of(contact, radius_));
+    if (overlays.touched) {
+      add_touched(contact.g1, contact.side1, frame.touched);
+      add_touched(contact.g2, contact.side2, frame.touched);
+    }
+  }
+  if (overlays.boxes) frame.boxes = std::move(moving);
+  return frame;
+}
+
+view::Camera overview(const view::Frame& frame) {
+  // Lower than the middle: things fall.
+  const glm::vec3 target = frame.center - glm::vec3(0, 0, 0.12F * frame.radius);
+  view::Camera camera = view::looking_at(target, 0.9F * frame.radius);
+  camera.azimuth = glm::radians(-60.0F);
+  camera.elevation = glm::radians(36.0F);
+  return camera;
+}
+
+}  // namespace falling_objects

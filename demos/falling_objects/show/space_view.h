@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an ODE space holds, as a picture: any meshes at any poses, whoever put them there.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <map>
+#include <span>
+
+#include "falling_objects/sheets.h"
+#include "view/camera.h"
+#include "view/frame.h"
+#include "view/renderer.h"
+
+namespace falling_objects {
+
+struct Overlays {
+  bool contacts = false, touched = false, boxes = false;
+};
+
+class SpaceView {
+ public:
+  explicit SpaceView(view::Renderer& renderer) : renderer_(renderer) {}
+
+  // The meshes (kMeshBit) and sheets of a space, without a caption. `sheets` may be null.
+  view::Frame frame(dSpaceID space, const Sheets* sheets, std::span<const dContactGeom> contacts,
+                    const Overlays& overlays);
+
+ private:
+  struct Kind {
+    view::MeshId mesh;
+    view::Color color;
+    bool ground;
+  };
+  const Kind& kind_of(dGeomID geom, const view::Box& moving);
+  void tell_apart(view::Frame& frame) const;
+  void add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame);
+
+  view::Renderer& renderer_;
+  std::map<dTriMeshDataID, Kind> kinds_;
+  std::size_t moving_kinds_ = 0;
+  glm::vec3 center_{0};  // of where things were in the first picture [m]
+  float radius_ = 0;
+};
+
+// Sees all that can move, and where it falls to.
+view::Camera overview(const view::Frame& frame);
+
+}  // namespace falling_objects

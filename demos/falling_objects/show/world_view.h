@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "falling_objects/show/space_view.h"
+#include "falling_objects/world.h"
+
+namespace falling_objects {
+
+// A world as it is seen: where all is, what the last step said, how deep things were when last
+// measured.
+class WorldView {
+ public:
+  WorldView(const World& world, view::Renderer& renderer) : world_(world), view_(renderer) {}
+
+  void note(const StepRecord& record);
+  const StepRecord& record() const { return record_; }
+  double deepest() const { return deepest_; }  // [m]
+
+  view::Frame frame(const PictureOptions& options);
+
+ private:
+  const World& world_;
+  SpaceView view_;
+  StepRecord record_;
+  double deepest_ = 0;
+};
+
+// As the options say, else as the scene does, else so that all is seen. Throws UsageError where the
+// options' text is none.
+view::Camera camera_of(const Options& options, const view::Frame& frame);
+
+}  // namespace falling_objects

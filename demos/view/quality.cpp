@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "view/quality.h"
+
+#include <epoxy/gl.h>
+
+namespace view {
+
+std::string renderer_name() { return reinterpret_cast<const char*>(glGetString(GL_RENDERER)); }
+
+Quality quality_of_driver(bool for_window) {
+  const std::string name = renderer_name();
+  for (const char* on_processor : {"llvmpipe", "softpipe", "swrast", "SWR"}) {
+    if (name.find(on_processor) == std::string::npos) continue;
+    return {for_window ? 1 : 4, 1024};
+  }
+  return {};
+}
+
+}  // namespace view

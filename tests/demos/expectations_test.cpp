@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each expectation is shown a motion that it is meant for, and one that it is not.
+#include "falling_objects/expectations.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "falling_objects/scene_file.h"
+
+namespace falling_objects {
+namespace {
+
+constexpr double kHz = 50;
+constexpr double kTurn = 2 * std::numbers::pi;
+
+class Expecting : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { dInitODE2(0); }
+  static void TearDownTestSuite() { dCloseODE(); }
+
+  // Two bodies, hinged about opposite axes, and what is expected of them.
+  void expect(const std::string& what) {
+    expectations_.reset();
+    scene_ = std::make_unique<Scene>(
+        read_scene("[[body]]\nname = \"a\"\nmesh = \"cube\"\n"
+                   "[[body]]\nname = \"b\"\nmesh = \"cube\"\nat = [5, 0, 0]\n"
+                   "[[joint]]\nbody = \"b\"\naxis = [0, 0, -2]\n"
+                   "[[expect]]\n" +
+                       what,
+                   "test.toml"),
+        1, warnings_);
+    expectations_ = std::make_unique<Expectations>(*scene_, kHz);
+  }
+  dBodyID body(std::size_t i) const { return scene_->objects()[i].body; }
+  // Turns [turns/s] about z, and a rise [m/s] of the first, for a while [s].
+  void move(double a, double b, double rise, double seconds) {
+    for (int i = 0; i < std::lround(seconds * kHz); ++i) {
+      dBodySetAngularVel(body(0), 0, 0, kTurn * a);
+      dBodySetAngularVel(body(1), 0, 0, kTurn * b);
+      dBodySetLinearVel(body(0), 0, 0, rise);
+      const dReal* p = dBodyGetPosition(body(0));
+      dBodySetPosition(body(0), p[0], p[1], p[2] + rise / kHz);
+      expectations_->after_step();
+    }
+  }
+  bool holds() const { return expectations_->outcomes().at(0).holds; }
+  std::string words() const { return expectations_->outcomes().at(0).words; }
+
+  std::vector<std::string> warnings_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<Expectations> expectations_;
+};
+
+constexpr const char* kRatio =
+    "kind = \"ratio\"\nbody = \"a\"\nother = \"b\"\nratio = -2\nwithin = 0.02\nafter = 1\n";
+
+TEST_F(Expecting, ARatioHoldsFromTheSecondOnForWhichItIsExpected) {
+  expect(kRatio);
+  move(5, 1, 0, 1);
+  move(2.02, 1, 0, 3);  // b's hinge points down
+  EXPECT_TRUE(holds()) << words();
+}
+
+TEST_F(Expecting, ARatioFailsWithOneSecondThatIsOff) {
+  expect(kRatio);
+  move(2, 1, 0, 2);
+  move(2.06, 1, 0, 1);
+  move(2, 1, 0, 2);
+  EXPECT_FALSE(holds());
+  EXPECT_THAT(words(), testing::HasSubstr("off by at most 3.00 %"));
+}
+
+TEST_F(Expecting, ARatioFailsWhereNothingTurns) {
+  expect(kRatio);
+  move(0, 0, 0, 3);
+  EXPECT_FALSE(holds());
+}
+
+constexpr const char* kScrew =
+    "kind = \"screw\"\nbody = \"a\"\npitch = 0.1\nturns = 2\nwithin = 0.25\n";
+
+TEST_F(Expecting, AScrewHoldsWhileItTurnsAlongItsThread) {
+  expect(kScrew);
+  move(-0.5, 0, -0.05, 3);
+  EXPECT_FALSE(holds());  // too few turns yet
+  move(-0.5, 0, -0.05, 2);
+  EXPECT_TRUE(holds()) << words();
+}
+
+TEST_F(Expecting, AScrewFailsThatSlipsThrough) {
+  expect(kScrew);
+  move(-0.5, 0, -0.05, 5);
+  move(0.1, 0, -0.3, 0.1);  // 0.4 pitches
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, AScrewFailsThatJams) {
+  expect(kScrew);
+  move(-1, 0, -0.1, 3);
+  move(-0.01, 0, -0.001, 1);
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, StillLooksAtTheLastSecondOnly) {
+  expect("kind = \"still\"\nspeed = 0.1\n");
+  move(0, 0, 2, 3);
+  EXPECT_FALSE(holds());
+  move(0, 0, 0.09, 1);
+  EXPECT_TRUE(holds()) << words();
+}
+
+TEST_F(Expecting, StaysLooksAtEveryStepAfterItsTime) {
+  expect("kind = \"stays\"\ndistance = 0.5\nafter = 1\n");
+  move(0, 0, 3, 1);
+  EXPECT_TRUE(holds()) << words();
+  move(0, 0, 0.6, 1);
+  move(0, 0, -0.6, 1);  // back again
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, NothingHoldsOfARunThatIsTooShortToTell) {
+  for (const char* what : {kRatio, "kind = \"stays\"\ndistance = 0.5\nafter = 2\n"}) {
+    expect(what);
+    move(2, 1, 0, 1.9);
+    EXPECT_FALSE(holds());
+    EXPECT_THAT(words(), testing::HasSubstr("a run of 1.9 s is too short to tell, 2 s"));
+    move(2, 1, 0, 0.1);
+    EXPECT_TRUE(holds()) << words();
+  }
+}
+
+TEST_F(Expecting, NothingHoldsOfWhatIsNotANumber) {
+  expect("kind = \"stays\"\ndistance = 0.5\n");
+  dBodySetPosition(body(0), 0, std::nan(""), 0);
+  move(0, 0, 0, 0.1);
+  EXPECT_FALSE(holds());
+}
+
+}  // namespace
+}  // namespace falling_objects
