@@ -103,6 +103,12 @@ std::vector<Outcome> Expectations::outcomes() const {
 }
 
 Outcome Expectations::judge(const Watch& watch) const {
+  const double needed = std::ceil(watch.what.after) + (watch.turnings.empty() ? 0 : 1);
+  if (steps_ < needed * hz_) {
+    return {format("%s: a run of %.1f s is too short to tell, %.0f s are needed",
+                   name_of(watch).c_str(), steps_ / hz_, needed),
+            false};
+  }
   switch (watch.what.kind) {
     case Kind::kRatio:
       return judge_ratio(watch);

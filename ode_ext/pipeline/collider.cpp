@@ -95,9 +95,10 @@ void Collider::launch_steps(Step& step) {
     if (!step.floods_all) steps_.choose_vertices(workload.settle_launch(List::kChunks), data_);
     steps_.cast(workload.settle_launch(List::kRays), data_);
   }
-  const Launch per_feature =
-      std::max(workload.settle_launch(List::kCrossings), workload.launch(List::kHits));
-  steps_.assemble(workload.launch(pairs), per_feature, workload.launch_queue(pairs), data_);
+  workload.settle_launches();
+  steps_.assemble(workload.launch(pairs),
+                  std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
+                  workload.launch_queue(pairs), data_);
   steps_.reduce(workload.launch_queue(pairs), data_);
 }
 
@@ -111,8 +112,7 @@ void Collider::deliver(Step& step) {
                   read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
 }
 
-// Of what is uploaded only where it changed.
-void Collider::forget_uploads() {
+void Collider::forget_uploads() {  // of what is uploaded only where it changed
   data_.lists.forget();
   if (paper_) paper_->forget();
 }
