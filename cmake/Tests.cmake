@@ -150,7 +150,7 @@ if(TARGET falling_objects AND TARGET ode_ext-replay)
            COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/replay_test.sh $<TARGET_FILE:ode_ext-replay>
                    $<TARGET_FILE:falling_objects> $<TARGET_FILE:ode_ext_tests>
                    $<TARGET_FILE:pair_times>)
-  set_tests_properties(captures_replay PROPERTIES TIMEOUT 120)
+  set_tests_properties(captures_replay PROPERTIES TIMEOUT 300)
 endif()
 
 if(ODE_EXT_TOOLS)

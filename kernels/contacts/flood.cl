@@ -10,7 +10,7 @@
 // those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
-//       vertices, edges, rings, components, triangles, meshlets, meshlet_nodes
+//       vertices, edges, rings, components, facets, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (shared/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together

@@ -67,7 +67,7 @@ class CaptureFile {
     for (std::size_t i = 0; i < by_handle.size(); ++i)
       place[by_handle[i]] = static_cast<std::uint32_t>(i);
 
-    const capture::Pass record{next_pass_++, colliders_[collider],
+    const capture::Pass record{next_pass_++, colliders_.at(collider),
                                static_cast<std::uint32_t>(members.size()),
                                static_cast<std::uint32_t>(pairs.size())};
     put(record);
@@ -150,19 +150,26 @@ class CaptureFile {
 
 std::mutex mutex;
 std::unique_ptr<CaptureFile> file;
+bool is_opened = false;  // and is not again, whatever became of it: that would erase what it has
 std::atomic<bool> capturing{false};
 
-// Calls write(file). A file that cannot be written any more, of a full disk for instance, is left.
+// Calls write(file). A file that cannot be written any more, of a full disk for instance, is left;
+// so it is where memory is short, which is no reason to lose contacts.
 template <class Write>
 void write_record(Write write) {
   if (!capturing.load(std::memory_order_relaxed)) return;
   const std::lock_guard lock(mutex);
   if (file == nullptr) return;
-  write(*file);
-  if (!file->failed()) return;
-  log(LogLevel::kError,
-      std::string("the file that ODE_EXT_CAPTURE names cannot be written any more: ") +
-          std::strerror(errno) + "; the capture ends here");
+  std::string reason;
+  try {
+    write(*file);
+    if (!file->failed()) return;
+    reason = std::strerror(errno);
+  } catch (const std::bad_alloc&) {
+    reason = "memory is short";
+  }
+  log(LogLevel::kError, "the file that ODE_EXT_CAPTURE names cannot be written any more: " +
+                            reason + "; the capture ends here");
   capturing = false;
   file.reset();
 }
@@ -173,13 +180,13 @@ void open_capture_of_environment() {
   const char* path = std::getenv("ODE_EXT_CAPTURE");
   if (path == nullptr || *path == '\0') return;
   const std::lock_guard lock(mutex);
-  if (file != nullptr) return;
+  if (is_opened) return;
   std::FILE* opened = std::fopen(path, "wb");
   if (opened == nullptr)
     throw std::runtime_error("ODE_EXT_CAPTURE names '" + std::string(path) +
                              "', which cannot be written: " + std::strerror(errno));
   file = std::make_unique<CaptureFile>(opened);
-  capturing = true;
+  is_opened = capturing = true;
 }
 
 void capture_collider(const void* collider, const dBatchColliderParams& params,

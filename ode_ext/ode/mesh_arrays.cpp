@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/mesh_arrays.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 #include <vector>
+
+#include "ode/messages.h"
 
 namespace ode_ext {
 namespace {
@@ -28,27 +25,41 @@ struct Layout {
   std::size_t is_single;
 };
 
-using Bytes = std::vector<unsigned char>;
+// How far they are looked for: ODE 0.16 has them in the first 40 bytes, and every ODE's data are
+// larger than this.
+constexpr std::size_t kSearched = 48;  // [bytes]
+
+MeshArrays arrays_at(const Layout& layout, const unsigned char* object) {
+  const auto number = [&](std::size_t place) {
+    return static_cast<std::size_t>(load<std::uint32_t>(object + place));
+  };
+  return {load<const unsigned char*>(object + layout.vertices),
+          number(layout.vertex_stride),
+          number(layout.vertex_count),
+          load<const unsigned char*>(object + layout.indices),
+          number(layout.index_stride),
+          number(layout.triangle_count),
+          object[layout.is_single] != 0};
+}
 
 // A mesh of which every number is its own.
 class Probe {
  public:
   Probe(std::size_t vertex_count, std::size_t triangle_count, bool is_single)
-      : vertex_stride_(static_cast<int>(sizeof(double) * (3 + vertex_count))),
-        index_stride_(static_cast<int>(sizeof(dTriIndex) * (3 + triangle_count))),
-        vertex_count_(static_cast<int>(vertex_count)),
-        triangle_count_(static_cast<int>(triangle_count)),
-        is_single_(is_single),
-        vertices_(vertex_count * static_cast<std::size_t>(vertex_stride_)),
-        indices_(triangle_count * static_cast<std::size_t>(index_stride_)),
+      : vertices_(vertex_count * sizeof(double) * (3 + vertex_count)),
+        indices_(triangle_count * sizeof(dTriIndex) * (3 + triangle_count)),
+        arrays_{vertices_.data(), vertices_.size() / vertex_count,  vertex_count,
+                indices_.data(),  indices_.size() / triangle_count, triangle_count,
+                is_single},
         data_(dGeomTriMeshDataCreate()) {
     for (std::size_t v = 0; v < vertex_count; ++v)
       for (std::size_t axis = 0; axis < 3; ++axis) put_coordinate(v, axis);
     for (std::size_t t = 0; t < triangle_count; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto index = static_cast<dTriIndex>((t + k) % vertex_count);
-        std::memcpy(&indices_[t * static_cast<std::size_t>(index_stride_) + k * sizeof(index)],
-                    &index, sizeof(index));
+        std::memcpy(&indices_[t * arrays_.index_stride + k * sizeof(index)], &index, sizeof(index));
+        soup_.push_back(
+            {coordinate_of(index, 0), coordinate_of(index, 1), coordinate_of(index, 2)});
       }
   }
   ~Probe() { dGeomTriMeshDataDestroy(data_); }
@@ -56,105 +67,111 @@ class Probe {
   Probe& operator=(const Probe&) = delete;
 
   // What was built of `before` and then of this: what keeps the first arrays is not to be found.
-  void build_after(const Probe& before) {
+  void build_after(const Probe& before) const {
     before.build(data_);
     build(data_);
   }
 
-  bool is_single() const { return is_single_; }
+  bool has_vertices(std::size_t place) const { return at<const void*>(place) == arrays_.vertices; }
+  bool has_indices(std::size_t place) const { return at<const void*>(place) == arrays_.indices; }
+  bool has_vertex_stride(std::size_t place) const { return is(place, arrays_.vertex_stride); }
+  bool has_index_stride(std::size_t place) const { return is(place, arrays_.index_stride); }
+  bool has_vertex_count(std::size_t place) const { return is(place, arrays_.vertex_count); }
+  bool has_triangle_count(std::size_t place) const { return is(place, arrays_.triangle_count); }
+  bool has_kind(std::size_t place) const {
+    return at<unsigned char>(place) == (arrays_.is_single ? 1 : 0);
+  }
 
-#ifdef __GLIBC__
-  Bytes object() const {
-    const auto* first = reinterpret_cast<const unsigned char*>(data_);
-    return {first, first + malloc_usable_size(data_)};
+  bool is_read_by(const Layout& layout) const {
+    const MeshArrays found = arrays_at(layout, object());
+    return found.is_single == arrays_.is_single && found.vertices == arrays_.vertices &&
+           found.give(soup_);
   }
-#endif
-
-  bool has_vertices(const unsigned char* at) const {
-    return load<const void*>(at) == vertices_.data();
-  }
-  bool has_indices(const unsigned char* at) const {
-    return load<const void*>(at) == indices_.data();
-  }
-  bool has_vertex_stride(const unsigned char* at) const { return load<int>(at) == vertex_stride_; }
-  bool has_index_stride(const unsigned char* at) const { return load<int>(at) == index_stride_; }
-  bool has_vertex_count(const unsigned char* at) const { return load<int>(at) == vertex_count_; }
-  bool has_triangle_count(const unsigned char* at) const {
-    return load<int>(at) == triangle_count_;
-  }
-  bool has_kind(const unsigned char* at) const { return *at == (is_single_ ? 1 : 0); }
 
  private:
+  const unsigned char* object() const { return reinterpret_cast<const unsigned char*>(data_); }
+  template <class T>
+  T at(std::size_t place) const {
+    return load<T>(object() + place);
+  }
+  bool is(std::size_t place, std::size_t number) const {
+    return at<std::uint32_t>(place) == number;
+  }
+
+  // No float and no half of a double is like another.
+  static float coordinate_of(std::size_t v, std::size_t axis) {
+    return static_cast<float>(v * v + (axis + 1) * v) + 0.25f;
+  }
   void put_coordinate(std::size_t v, std::size_t axis) {
-    unsigned char* to = &vertices_[v * static_cast<std::size_t>(vertex_stride_)];
-    const double value = static_cast<double>(v * v + (axis + 1) * v);
-    if (is_single_) {
-      const auto rounded = static_cast<float>(value);
-      std::memcpy(to + axis * sizeof(float), &rounded, sizeof(float));
-    } else {
-      std::memcpy(to + axis * sizeof(double), &value, sizeof(double));
-    }
+    unsigned char* to = &vertices_[v * arrays_.vertex_stride];
+    const float rounded = coordinate_of(v, axis);
+    const double value = rounded;
+    if (arrays_.is_single)
+      std::memcpy(to + axis * sizeof(rounded), &rounded, sizeof(rounded));
+    else
+      std::memcpy(to + axis * sizeof(value), &value, sizeof(value));
   }
 
   void build(dTriMeshDataID data) const {
-    const auto build_of = is_single_ ? dGeomTriMeshDataBuildSingle : dGeomTriMeshDataBuildDouble;
-    build_of(data, vertices_.data(), vertex_stride_, vertex_count_, indices_.data(),
-             3 * triangle_count_, index_stride_);
+    const auto build_of =
+        arrays_.is_single ? dGeomTriMeshDataBuildSingle : dGeomTriMeshDataBuildDouble;
+    build_of(data, arrays_.vertices, static_cast<int>(arrays_.vertex_stride),
+             static_cast<int>(arrays_.vertex_count), arrays_.indices,
+             static_cast<int>(3 * arrays_.triangle_count), static_cast<int>(arrays_.index_stride));
   }
 
-  int vertex_stride_, index_stride_, vertex_count_, triangle_count_;
-  bool is_single_;
-  Bytes vertices_, indices_;
+  std::vector<unsigned char> vertices_, indices_;
+  MeshArrays arrays_;
+  TriangleSoup soup_;
   dTriMeshDataID data_;
 };
 
-#ifdef __GLIBC__
-// The first place, of those on boundaries of `step`, where `has` holds in every object.
+using Probes = std::array<const Probe*, 4>;
+
+// The first place, of those on boundaries of `size`, where `has` holds in every probe.
 template <class Has>
-std::optional<std::size_t> place_of(const std::array<const Probe*, 4>& probes,
-                                    const std::array<Bytes, 4>& objects, std::size_t size,
-                                    Has has) {
-  for (std::size_t place = 0;; place += size) {
+std::optional<std::size_t> place_of(const Probes& probes, std::size_t size, Has has) {
+  for (std::size_t place = 0; place + size <= kSearched; place += size) {
     bool is_there = true;
-    for (std::size_t i = 0; i < probes.size() && is_there; ++i) {
-      if (place + size > objects[i].size()) return std::nullopt;
-      is_there = (probes[i]->*has)(&objects[i][place]);
-    }
+    for (const Probe* probe : probes) is_there = is_there && (probe->*has)(place);
     if (is_there) return place;
   }
+  return std::nullopt;
 }
 
 std::optional<Layout> find_layout() {
-  // What a program allocates for ODE need not know its size.
-  if (dGetAllocHandler() != nullptr) return std::nullopt;
-  Probe single(37, 41, true), other_single(43, 47, true);
-  Probe plain(53, 59, false), other_plain(61, 67, false);
+  const Probe single(37, 41, true), other_single(43, 47, true);
+  const Probe plain(53, 59, false), other_plain(61, 67, false);
   single.build_after(other_plain);
   other_single.build_after(single);
   plain.build_after(other_single);
   other_plain.build_after(plain);
-  const std::array<const Probe*, 4> probes = {&single, &other_single, &plain, &other_plain};
-  std::array<Bytes, 4> objects;
-  for (std::size_t i = 0; i < probes.size(); ++i) objects[i] = probes[i]->object();
-  const auto place = [&](std::size_t size, auto has) {
-    return place_of(probes, objects, size, has);
-  };
-  const auto vertices = place(sizeof(void*), &Probe::has_vertices);
-  const auto vertex_stride = place(sizeof(int), &Probe::has_vertex_stride);
-  const auto vertex_count = place(sizeof(int), &Probe::has_vertex_count);
-  const auto indices = place(sizeof(void*), &Probe::has_indices);
-  const auto index_stride = place(sizeof(int), &Probe::has_index_stride);
-  const auto triangle_count = place(sizeof(int), &Probe::has_triangle_count);
-  const auto is_single = place(1, &Probe::has_kind);
+  const Probes probes = {&single, &other_single, &plain, &other_plain};
+  const auto vertices = place_of(probes, sizeof(void*), &Probe::has_vertices);
+  const auto vertex_stride = place_of(probes, sizeof(int), &Probe::has_vertex_stride);
+  const auto vertex_count = place_of(probes, sizeof(int), &Probe::has_vertex_count);
+  const auto indices = place_of(probes, sizeof(void*), &Probe::has_indices);
+  const auto index_stride = place_of(probes, sizeof(int), &Probe::has_index_stride);
+  const auto triangle_count = place_of(probes, sizeof(int), &Probe::has_triangle_count);
+  const auto is_single = place_of(probes, 1, &Probe::has_kind);
   if (!vertices || !vertex_stride || !vertex_count || !indices || !index_stride ||
       !triangle_count || !is_single)
     return std::nullopt;
-  return Layout{*vertices,     *vertex_stride,  *vertex_count, *indices,
-                *index_stride, *triangle_count, *is_single};
+  const Layout layout{*vertices,     *vertex_stride,  *vertex_count, *indices,
+                      *index_stride, *triangle_count, *is_single};
+  for (const Probe* probe : probes)
+    if (!probe->is_read_by(layout)) return std::nullopt;
+  return layout;
 }
-#else
-std::optional<Layout> find_layout() { return std::nullopt; }
-#endif
+
+std::optional<Layout> find_layout_and_say() {
+  const std::optional<Layout> layout = find_layout();
+  if (!layout)
+    log(LogLevel::kInfo,
+        "this ODE does not show where it keeps the arrays of meshes; to compare meshes with what "
+        "they were takes longer");
+  return layout;
+}
 
 // As ODE turns a corner by its geom's pose, here the identity: -0 becomes 0.
 float coordinate(const unsigned char* at, std::size_t axis, bool is_single) {
@@ -188,19 +205,9 @@ bool MeshArrays::give(const TriangleSoup& soup) const {
 }
 
 std::optional<MeshArrays> arrays_of(dTriMeshDataID data) {
-  static const std::optional<Layout> layout = find_layout();
+  static const std::optional<Layout> layout = find_layout_and_say();
   if (!layout) return std::nullopt;
-  const auto* object = reinterpret_cast<const unsigned char*>(data);
-  const auto number = [&](std::size_t place) {
-    return static_cast<std::size_t>(load<std::uint32_t>(object + place));
-  };
-  const MeshArrays arrays{load<const unsigned char*>(object + layout->vertices),
-                          number(layout->vertex_stride),
-                          number(layout->vertex_count),
-                          load<const unsigned char*>(object + layout->indices),
-                          number(layout->index_stride),
-                          number(layout->triangle_count),
-                          object[layout->is_single] != 0};
+  const MeshArrays arrays = arrays_at(*layout, reinterpret_cast<const unsigned char*>(data));
   if (arrays.vertices == nullptr || arrays.indices == nullptr) return std::nullopt;
   return arrays;
 }

@@ -57,7 +57,7 @@ void Collider::collide_tile(Step& step) {
   deliver(step);
 }
 
-// Between the first launch and the read-back nobody waits, unless for exact workloads.
+// Between launches nobody waits, unless pairs are left to the kernels, or for exact workloads.
 void Collider::run(Step& step) {
   Workload& workload = step.workload;
   workload.begin_run();

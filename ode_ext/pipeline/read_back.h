@@ -17,7 +17,7 @@ class ReadBack {
   // Before the first launch of a run: host memory for all that it may give.
   void reserve(const StepData& data);
   // After the last: the contacts of each pair, as many in all as are expected, and what was
-  // counted. The one wait of a run.
+  // counted. Waits.
   void read(StepData& data, std::uint64_t expected);
   // Those that were not expected, if there are any.
   void read_rest(const StepData& data);

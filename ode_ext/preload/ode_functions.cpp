@@ -33,6 +33,10 @@
 namespace ode_ext {
 namespace {
 
+// Of an ODE that does not show these: where it keeps the arrays of meshes is not found then
+// (ode/mesh_arrays.h).
+void build_nothing(dTriMeshDataID, const void*, int, int, const void*, int, int) {}
+
 // Of an ODE without merge callbacks.
 dTriTriMergeCallback* no_merge_callback(dGeomID) { return nullptr; }
 

@@ -66,9 +66,10 @@ TEST(RigFlooded, HitsWhatRaysOfAllVerticesHit) {
       const Mesh& source = scene.built_mesh_of(h.pair_side >> 1, h.pair_side & 1);
       const Mesh& target = scene.built_mesh_of(h.pair_side >> 1, 1 - (h.pair_side & 1));
       const std::uint32_t mesh = InsideOracles::mesh_of(scene.scene, h.pair_side);
-      if (!bounding ||
-          bounding_vertices(source, target)[Rig::shared().local_vertex(mesh, h.vertex)])
-        found[{h.pair_side, h.vertex}] = {h.triangle, h.depth};
+      if (bounding &&
+          !bounding_vertices(source, target)[Rig::shared().local_vertex(mesh, h.vertex)])
+        continue;
+      EXPECT_TRUE(found.try_emplace({h.pair_side, h.vertex}, h.triangle, h.depth).second);
     }
     return found;
   };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 #include <string>
@@ -97,6 +98,22 @@ TEST_F(Flood, RunsAcrossFlatFaces) {
   MovingScene moving(meshes, 60, 0.02, 3);
   for (int i = 0; i < 10; ++i, moving.advance()) find(moving.scene());
   EXPECT_GT(hits_, 3000u);
+}
+
+// A table with two legs in a block: each leg is a flood of its own, and all of it names one of its
+// vertices, which has a hit itself.
+TEST_F(Flood, NamesOneVertexOfAllThatHangsTogether) {
+  const TestMesh table = merged(make_icosphere(0.3, 2), moved(make_icosphere(0.3, 2), {1, 0, 0}));
+  const TestScene scene = one_pair(table, at(0, 0, 0.6), make_box({4, 4, 1}), at(0.5, 0, 0));
+  find(scene.scene);
+  std::map<ox_u32, std::set<ox_u32>> named;
+  for (const ox_hit& h : records_.hits)
+    if ((h.pair_side & 1) == 0) named[h.from].insert(h.vertex);
+  ASSERT_EQ(named.size(), 2u);
+  for (const auto& [from, vertices] : named) {
+    EXPECT_TRUE(vertices.contains(from));
+    EXPECT_GT(vertices.size(), 20u);
+  }
 }
 
 TEST_F(Flood, FindsMeshesThatAreWhollyInside) {
