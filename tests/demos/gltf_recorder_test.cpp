@@ -8,10 +8,10 @@
 
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "falling_objects/scene_file.h"
+#include "support/temporary_folder.h"
 
 namespace falling_objects {
 namespace {
@@ -22,7 +22,6 @@ class GltfRecording : public testing::Test {
  protected:
   static void SetUpTestSuite() { dInitODE2(0); }
   static void TearDownTestSuite() { dCloseODE(); }
-  ~GltfRecording() override { std::remove(path_.c_str()); }
 
   static void put(dBodyID body, const std::array<double, 3>& p, const dQuaternion q) {
     dBodySetPosition(body, p[0], p[1], p[2]);
@@ -58,7 +57,8 @@ class GltfRecording : public testing::Test {
     at = [3, 0, 1])",
                           "test.toml"),
                1, warnings_};
-  std::string path_ = testing::TempDir() + "gltf_recorder_test.glb";
+  ode_ext::TemporaryFolder folder_{"gltf_recorder_test"};
+  std::string path_ = folder_ / "a.glb";
   Assimp::Importer importer_;
 };
 

@@ -10,31 +10,36 @@
 #include <utility>
 
 #include "falling_objects/shapes.h"
+#include "support/temporary_folder.h"
 
 namespace falling_objects {
 namespace {
 
-std::string write_file(const std::string& name, const std::string& text) {
-  const std::string path = testing::TempDir() + name;
-  std::ofstream(path) << text;
-  return path;
-}
-
-std::string message_of(const std::string& path) {
-  try {
-    load_mesh(path);
-  } catch (const std::runtime_error& e) {
-    return e.what();
+class MeshFile : public testing::Test {
+ protected:
+  std::string write_file(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
   }
-  return "";
-}
+  static std::string message_of(const std::string& path) {
+    try {
+      load_mesh(path);
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+ private:
+  ode_ext::TemporaryFolder folder_{"mesh_file_test"};
+};
 
 // A unit cube of quads, as a modeller writes it, far from the origin.
 constexpr const char* kCube =
     "v 10 0 0\nv 11 0 0\nv 11 1 0\nv 10 1 0\nv 10 0 1\nv 11 0 1\nv 11 1 1\nv 10 1 1\n"
     "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
-TEST(MeshFile, ReadsAnObjAsAClosedCentredMeshOfTheRightSize) {
+TEST_F(MeshFile, ReadsAnObjAsAClosedCentredMeshOfTheRightSize) {
   const TriangleMesh cube = load_mesh(write_file("cube.obj", kCube));
   EXPECT_EQ(cube.vertex_count(), 8u);
   EXPECT_EQ(cube.triangle_count(), 12u);
@@ -45,7 +50,7 @@ TEST(MeshFile, ReadsAnObjAsAClosedCentredMeshOfTheRightSize) {
   EXPECT_NEAR(bounding_radius(cube), kShapeRadius, 1e-6);
 }
 
-TEST(MeshFile, TurnsAClosedMeshThatIsInsideOut) {
+TEST_F(MeshFile, TurnsAClosedMeshThatIsInsideOut) {
   std::string inverted = kCube;
   for (const auto& [from, to] : {std::pair{"f 4 3 2 1", "f 1 2 3 4"},
                                  {"f 5 6 7 8", "f 8 7 6 5"},
@@ -58,7 +63,7 @@ TEST(MeshFile, TurnsAClosedMeshThatIsInsideOut) {
   EXPECT_GT(signed_volume(load_mesh(write_file("inverted.obj", inverted))), 0.1);
 }
 
-TEST(MeshFile, WeldsTheLooseTrianglesOfAnStl) {
+TEST_F(MeshFile, WeldsTheLooseTrianglesOfAnStl) {
   const std::string stl =
       "solid t\n"
       "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 "
@@ -75,7 +80,7 @@ TEST(MeshFile, WeldsTheLooseTrianglesOfAnStl) {
   EXPECT_TRUE(is_closed(mesh));
 }
 
-TEST(MeshFile, ReadsAPly) {
+TEST_F(MeshFile, ReadsAPly) {
   const TriangleMesh mesh = load_mesh(write_file(
       "triangle.ply",
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -85,14 +90,14 @@ TEST(MeshFile, ReadsAPly) {
   EXPECT_FALSE(is_closed(mesh));
 }
 
-TEST(MeshFile, NamesAFileThatCannotBeRead) {
+TEST_F(MeshFile, NamesAFileThatCannotBeRead) {
   const std::string message = message_of("no_such_file.obj");
   EXPECT_NE(message.find("no_such_file.obj"), std::string::npos) << message;
   const std::string garbage = write_file("garbage.obj", "\x01\x02 nothing\n");
   EXPECT_NE(message_of(garbage).find("garbage.obj"), std::string::npos);
 }
 
-TEST(MeshFile, RefusesAMeshWithoutTriangles) {
+TEST_F(MeshFile, RefusesAMeshWithoutTriangles) {
   for (const char* text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n"}) {
     const std::string path = write_file("empty.obj", text);
     EXPECT_NE(message_of(path).find("empty.obj"), std::string::npos) << text;

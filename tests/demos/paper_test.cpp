@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -16,6 +15,7 @@
 #include "paper/run.h"
 #include "paper/schedule.h"
 #include "paper/summary.h"
+#include "support/temporary_folder.h"
 
 namespace paper {
 namespace {
@@ -268,9 +268,6 @@ TEST_P(WrongPaperOptions, AreRefusedWithAMessageAndCode2) {
 
 class PaperRun : public testing::Test {
  protected:
-  PaperRun() { std::filesystem::remove_all(folder_); }
-  ~PaperRun() override { std::filesystem::remove_all(folder_); }
-
   nlohmann::json read(const char* name) const {
     return nlohmann::json::parse(std::ifstream(folder_ + "/" + name));
   }
@@ -281,9 +278,8 @@ class PaperRun : public testing::Test {
     return lines;
   }
 
-  // One for each test: they may run at the same time.
-  std::string folder_ = testing::TempDir() + "/paper_run_" +
-                        testing::UnitTest::GetInstance()->current_test_info()->name();
+  ode_ext::TemporaryFolder temporary_{"paper_test"};
+  std::string folder_ = temporary_ / "run";
 };
 
 TEST_F(PaperRun, EndsWithTheSameContactsInAllConfigurations) {

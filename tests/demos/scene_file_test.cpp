@@ -6,9 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <numbers>
+
+#include "support/temporary_folder.h"
 
 namespace falling_objects {
 namespace {
@@ -129,13 +130,12 @@ TEST(SceneFile, DropsMeshesInTheOrderInWhichTheyAreNamed) {
 }
 
 TEST(SceneFile, FindsFilesOfMeshesBesideItself) {
-  const std::string folder = testing::TempDir(), mesh = folder + "scene_file_test.obj";
-  std::ofstream(mesh) << kTetrahedron;
+  const ode_ext::TemporaryFolder folder("scene_file_test");
+  std::ofstream(folder / "a.obj") << kTetrahedron;
   const auto radius = [&](const std::string& size) {
-    const SceneDescription scene =
-        read_scene("[mesh.part]\nfile = \"scene_file_test.obj\"\n" + size +
-                       "\n[[body]]\nmesh = \"part\"\nat = [0, 0, 7]\n",
-                   folder + "my.toml");
+    const SceneDescription scene = read_scene(
+        "[mesh.part]\nfile = \"a.obj\"\n" + size + "\n[[body]]\nmesh = \"part\"\nat = [0, 0, 7]\n",
+        folder / "my.toml");
     EXPECT_EQ(scene.meshes[0].mesh.triangle_count(), 4u);
     EXPECT_EQ(scene.bodies[0].position[2], 7);  // a file's mesh is placed by its middle
     return bounding_radius(scene.meshes[0].mesh);
@@ -144,20 +144,18 @@ TEST(SceneFile, FindsFilesOfMeshesBesideItself) {
   EXPECT_NEAR(radius(""), as_it_is, 1e-6);
   EXPECT_NEAR(radius("scale = 0.01"), 0.01 * as_it_is, 1e-6);
   EXPECT_NEAR(radius("radius = 0.4"), 0.4, 1e-6);
-  std::remove(mesh.c_str());
 }
 
 TEST(SceneFile, IsReadAsTheDocumentationShowsIt) {
   std::ifstream file(ODE_EXT_SOURCE_DIR "/docs/scenes.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}}, opening = "```toml\n";
   const std::size_t start = page.find(opening) + opening.size();
-  const std::string mesh = testing::TempDir() + "part.obj";
-  std::ofstream(mesh) << kTetrahedron;
-  const SceneDescription scene = read_scene(page.substr(start, page.find("```", start) - start),
-                                            testing::TempDir() + "my.toml");
+  const ode_ext::TemporaryFolder folder("scene_file_test");
+  std::ofstream(folder / "part.obj") << kTetrahedron;
+  const SceneDescription scene =
+      read_scene(page.substr(start, page.find("```", start) - start), folder / "my.toml");
   EXPECT_EQ(scene.bodies.size(), 3u);
   EXPECT_EQ(scene.meshes[scene.bodies[1].mesh].name, "die");
-  std::remove(mesh.c_str());
 }
 
 struct Wrong {

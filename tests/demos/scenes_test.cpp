@@ -2,10 +2,13 @@
 // The scenes that come with the program are read, and run.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "falling_objects/penetration.h"
 #include "falling_objects/scene_file.h"
 #include "falling_objects/simulation.h"
 #include "falling_objects/user_meshes.h"
+#include "support/temporary_folder.h"
 
 namespace falling_objects {
 namespace {
@@ -133,12 +136,11 @@ TEST_F(SceneBodies, TurnWithTheMotorOfTheirHinge) {
 class UserMeshes : public SceneBodies {
  protected:
   UserMeshes() {
-    FILE* file = std::fopen(path_.c_str(), "w");
-    std::fputs("v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", file);
-    std::fclose(file);
+    std::ofstream(path_) << "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 4\n"
+                            "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   }
-  ~UserMeshes() override { std::remove(path_.c_str()); }
-  std::string path_ = testing::TempDir() + "user_meshes_test.obj";
+  ode_ext::TemporaryFolder folder_{"user_meshes_test"};
+  std::string path_ = folder_ / "a.obj";
 };
 
 TEST_F(UserMeshes, TakeThePlaceAndSizeOfTheMeshThatCanMove) {

@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "support/temporary_folder.h"
 #include "view/camera.h"
 
 namespace view_tests {
 namespace {
 
+using ode_ext::TemporaryFolder;
 using testing::HasSubstr;
 
 view::Image grey(view::Size size) {
@@ -20,12 +22,6 @@ view::Image grey(view::Size size) {
                                               static_cast<std::size_t>(size.width) *
                                               static_cast<std::size_t>(size.height),
                                           128)};
-}
-
-std::string folder(const char* name) {
-  const auto path = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove_all(path);
-  return path.string();
 }
 
 template <class Call>
@@ -48,7 +44,8 @@ TEST(Film, NumbersPicturesWhereTheirNameSaysSo) {
 }
 
 TEST(Film, WritesAllPicturesOrThatOfTheEnd) {
-  const std::string out = folder("film_pictures");
+  const TemporaryFolder folder("film_test");
+  const std::string out = folder / "made";
   view::Film all(out + "/%02d.png", "", {32, 32}, 30);
   EXPECT_TRUE(all.wants_all());
   EXPECT_FALSE(all.wants_end());
@@ -66,7 +63,8 @@ TEST(Film, WritesAllPicturesOrThatOfTheEnd) {
 }
 
 TEST(Film, MakesAFilm) {
-  const std::string out = folder("film_video") + "/a.mp4";
+  const TemporaryFolder folder("film_test");
+  const std::string out = folder / "made/a.mp4";
   view::Film film("", out, {64, 64}, 30);
   for (int i = 0; i < 5; ++i) film.add(grey({64, 64}));
   film.finish();
@@ -74,10 +72,11 @@ TEST(Film, MakesAFilm) {
 }
 
 TEST(Film, SaysWhyItCannotBeMade) {
+  const TemporaryFolder folder("film_test");
   EXPECT_THAT(error_of([] { write_png("/nowhere/a.png", grey({8, 8})); }), HasSubstr("/nowhere"));
   testing::internal::CaptureStderr();
-  const std::string bad = error_of([] {
-    view::Film film("", folder("film_bad") + "/a.nonsense", {64, 64}, 30);
+  const std::string bad = error_of([&] {
+    view::Film film("", folder / "a.nonsense", {64, 64}, 30);
     for (int i = 0; i < 100; ++i) film.add(grey({64, 64}));
     film.finish();
   });

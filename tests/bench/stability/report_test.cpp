@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "support/temporary_folder.h"
 
 namespace ode_ext::stability {
 namespace {
@@ -34,11 +35,11 @@ TEST(Report, WritesEverythingInFull) {
   Report report(out);
   report.table("speeds", {{{"mm/s", 0.123456789}}});
   report.target("still", false);
-  const std::string path = ::testing::TempDir() + "ode_ext_report_test.json";
+  const TemporaryFolder folder("report_test");
+  const std::string path = folder / "a.json";
   report.write(path);
   std::ifstream file(path);
   const auto document = nlohmann::json::parse(file);
-  std::remove(path.c_str());
   EXPECT_EQ(document["tables"][0]["title"], "speeds");
   EXPECT_EQ(document["tables"][0]["rows"][0]["mm/s"], 0.123456789);
   EXPECT_EQ(document["targets"][0]["target"], "still");
