@@ -15,8 +15,9 @@ trap cleanup EXIT
 fail() { echo "$*" >&2; cat "$out/log" >&2; exit 1; }
 unset WAYLAND_DISPLAY
 
-# It says which number it took.
-Xvfb -displayfd 3 -screen 0 1200x640x24 -nolisten tcp 3> "$out/number" 2> "$out/xvfb" &
+# It says which number it took. Without -noreset it refuses the program while it starts anew, as it does
+# whenever xdotool, the only client so far, has left.
+Xvfb -displayfd 3 -screen 0 1200x640x24 -nolisten tcp -noreset 3> "$out/number" 2> "$out/xvfb" &
 screen=$!
 wait_for() { # SECONDS COMMAND...
   local end=$((SECONDS + $1))
@@ -37,8 +38,11 @@ window=$!
 focus() { xdotool windowfocus "$(xdotool search --onlyvisible --name '^falling_objects$')"; }
 wait_for 120 focus || fail "no window came"
 
+# The whole, and ODE's half: that shows no number that changes while nothing else does. Without the
+# pointer, which would be a change of its own.
 picture() {
-  ffmpeg -loglevel error -y -f x11grab -video_size 1200x640 -i "$DISPLAY" -frames:v 1 "$out/$1.png"
+  ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size 1200x640 -i "$DISPLAY" \
+    -frames:v 1 "$out/$1.png" -frames:v 1 -vf crop=600:640:0:0 "$out/$1-half.png"
 }
 # How many colors there are tells an empty window from a drawn one.
 colors() {
@@ -47,19 +51,33 @@ colors() {
 drawn() { picture start && [[ $(colors start) -gt 500 ]]; }
 wait_for 60 drawn || fail "the window shows nothing: $(colors start) colors"
 
-[[ $# -lt 2 ]] || sleep 15 # until things lie, for a picture to show
-xdotool key p; sleep 1   # stands still
+# What comes after `before`.
+changed() { picture after && ! cmp -s "$out/before-half.png" "$out/after-half.png"; }
+stands() { picture before && sleep 1 && ! changed; }
+stand() { wait_for 60 stands || fail "it does not stand still $1"; }
+change() { wait_for 60 changed || fail "$1 changes nothing"; }
 picture before
+change "time"
+
+[[ $# -lt 2 ]] || sleep 15 # until things lie, for a picture to show
+xdotool key p
+stand "after p"
 xdotool mousemove 200 300 mousedown 1; sleep 0.5
 xdotool mousemove 260 320; sleep 0.5
-xdotool mouseup 1 click 4; sleep 1
-picture turned
-cmp -s "$out/before.png" "$out/turned.png" && fail "turning and zooming changes nothing"
-[[ $# -lt 2 ]] || cp "$out/turned.png" "$2"
-xdotool key d; sleep 0.7 # ten more
-xdotool key c; sleep 0.7 # driven by ODE's own collider
-xdotool key o; sleep 0.7 # one step
-xdotool key p; sleep 2   # goes on
+xdotool mouseup 1
+change "turning"
+stand "after turning"
+xdotool click 4
+change "zooming"
+stand "after zooming"
+[[ $# -lt 2 ]] || cp "$out/before.png" "$2"
+xdotool key d key c   # ten more, and driven by ODE's own collider: seen at the end
+stand "after d and c"
+xdotool key o
+change "a step"
+stand "after a step"
+xdotool key p
+change "going on"
 xdotool key Escape
 
 wait "$window" || fail "the program failed"
