@@ -82,7 +82,7 @@ case $client in
 esac
 asked=$(sed -n 's/.*two meshes \([0-9]*\) times.*/\1/p' "$results/statistics")
 by_ode=$(sed -n 's/.*contacts; \([0-9]*\) pairs answered by.*/\1/p' "$results/statistics")
-[[ ${asked:-0} -gt 0 && $by_ode -eq 0 ]] || fail "not all mesh pairs came to ode_ext"
+[[ ${asked:-0} -gt 0 && ${by_ode:-1} -eq 0 ]] || fail "not all mesh pairs came to ode_ext"
 
 if [[ $client == two ]]; then
   second() { sed -n '/^panda_meshes$/,/^figures.*hash/s/in [0-9.]* s//p' "$1"; }

@@ -9,7 +9,7 @@ usage: tests/preload/overhead.sh BIN [RUNS [argument of boxes]...]
   BIN   the directory of boxes and ode_ext-run
   RUNS  of either kind (default: 10)
 Prints the time of a pass [ms] of either: the least, the median, the most. Fails if bodies end
-elsewhere.
+elsewhere, or if anything was loaded for them.
 TEXT
 }
 
@@ -25,7 +25,10 @@ trap 'rm -rf "$results"' EXIT
 for ((i = 0; i < runs; ++i)); do
   "$bin/boxes" "$@" > "$results/plain"
   "$bin/ode_ext-run" --stats "$bin/boxes" "$@" > "$results/preload" 2> "$results/statistics"
-  cmp <(grep state "$results/plain") <(grep state "$results/preload")
+  grep '^state' "$results/plain" > "$results/plain-states"
+  grep '^state' "$results/preload" | cmp "$results/plain-states" -
+  grep -q "nothing was loaded" "$results/statistics" ||
+    { cat "$results/statistics" >&2; echo "overhead: something was loaded" >&2; exit 1; }
   for kind in plain preload; do
     sed -n 's/figures: \([0-9.]*\) ms.*/\1/p' "$results/$kind" >> "$results/$kind-times"
   done
