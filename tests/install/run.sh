@@ -41,7 +41,7 @@ install_component dev "^\./include/ode_ext/|/cmake/ode_ext/|/ode_ext\.pc$|$libra
   /ode_ext\\.h /ode_ext-config\\.cmake /ode_ext\\.pc "$library"
 install_component tools '^\./(bin/ode_ext-|share/man/man1/ode_ext-|lib.*/ode_ext/libode_ext_preload)' \
   /ode_ext-info /ode_ext-replay /ode_ext-run /libode_ext_preload\\.so /ode_ext-info\\.1 /ode_ext-replay\\.1
-install_component docs '^\./share/doc/ode_ext/' /README\\.md /docs/contacts\\.md /hello\\.c
+install_component docs '^\./share/doc/ode_ext/' /README\\.md /docs/contacts\\.md /docs/pictures/tower\\.webp /hello\\.c
 # All of it is what comes without naming a component.
 installed > "$work/components"
 cmake --install "$build" --prefix "$work/whole" > /dev/null
