@@ -50,6 +50,8 @@ expect 3 "" sh -c 'exit 3'
 expect 0 "called no ODE" --stats true
 expect 0 "--help" echo --help
 expect 0 "uses ode_ext by itself" "$bin/idioms_by_api" in_the_callback
+expect 0 "" --capture "$results/capture" "$bin/idioms" in_the_callback
+[[ -s $results/capture ]] || fail "--capture writes nothing"
 expect 0 "passes" --stats sh -c "exec '$bin/idioms' in_the_callback"
 
 # same_as_stock <environment> <sentence>: the program goes on as before, and hears of it once.

@@ -32,12 +32,13 @@ constexpr const char* kUsage =
     "  --config TEXT       as dBatchColliderParams.config\n"
     "  --log LEVEL         off, error, warning (default) or info\n"
     "  --trace FILE        write a time line of every pass, for Perfetto\n"
+    "  --capture FILE      write what is collided, for ode_ext-replay\n"
     "  --help, --version\n"
     "\n"
     "Each option sets a variable of the environment, which may be set instead: ODE_EXT_STATS=1,\n"
     "ODE_EXT_DEVICE, ODE_EXT_MAX_CONTACTS, ODE_EXT_TRUST_MESHES=1, ODE_EXT_CONFIG, ODE_EXT_LOG,\n"
-    "ODE_EXT_TRACE. The program's ODE may be a shared library, of its own or of the system, or be\n"
-    "linked into it and exported.\n"
+    "ODE_EXT_TRACE, ODE_EXT_CAPTURE. The program's ODE may be a shared library, of its own or of\n"
+    "the system, or on x86-64 be linked into it and exported.\n"
     "Exit status: that of the program; 2 wrong usage, 125 ode_ext is not installed completely,\n"
     "126 the program cannot be run like this, 127 it is not found.\n";
 
@@ -54,6 +55,7 @@ constexpr Setting kSettings[] = {
     {"config", "ODE_EXT_CONFIG", nullptr},
     {"log", "ODE_EXT_LOG", nullptr},
     {"trace", "ODE_EXT_TRACE", nullptr},
+    {"capture", "ODE_EXT_CAPTURE", nullptr},
 };
 constexpr int kSettingCount = std::size(kSettings);
 constexpr int kHelp = kSettingCount, kVersion = kSettingCount + 1;
