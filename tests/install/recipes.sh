@@ -16,7 +16,8 @@ fail() {
 
 version=$(sed -n 's/^project(ode_ext VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")
 [[ -n $version ]] || fail "CMakeLists.txt has no version"
-python3 - "$root" "$version" <<'TEXT'
+# Debian's, for which python3-yaml is installed, whichever else comes first.
+/usr/bin/python3 - "$root" "$version" <<'TEXT'
 import json, os, sys, yaml
 root, version = sys.argv[1:]
 def check(holds, what):

@@ -32,6 +32,7 @@ plant_clean_tree() {
   source_file ode_ext/device/device.cpp '#include <CL/cl.h>'
   source_file ode_ext/tools/replay/main.cpp '#include "ode/capture_format.h"'
   source_file demos/hello/hello.c '#include <ode/ode.h>' '#include <ode_ext/ode_ext.h>'
+  source_file demos/paper/run.cpp '#include "paper/options.h"'
   source_file kernels/shared/types.h 'typedef uint ox_u32;'
   source_file kernels/step.cl '#include "shared/types.h"' \
     '__kernel void step(__global ox_u32* out) { out[0] = 0u; }'
@@ -93,10 +94,13 @@ include_fails ode_ext/api/create.cpp '<CL/cl.h>'
 include_fails ode_ext/tools/replay/player.cpp '"ode/gather.h"'
 include_fails ode_ext/tools/replay/player.cpp '"ode/capture.h"'
 include_fails ode_ext/tools/replay/player.cpp '"geometry/vec.h"'
+include_fails ode_ext/tools/replay/player.cpp '"preload/core.h"'
 include_fails ode_ext/tools/replay/player.cpp '<CL/cl.h>'
 include_fails ode_ext/api/create.cpp '"tools/replay/player.h"'
 include_fails include/ode_ext/export.h '<CL/cl.h>'
 include_fails demos/hello/hello.c '"pipeline/collider.h"'
+include_fails demos/hello/hello.c '"preload/core.h"'
+include_fails demos/hello/hello.c '"ode_ext/paper/rays.h"'
 include_fails kernels/step.cl '<ode/ode.h>'
 
 printf 'int x;\n' > "$tree/ode_ext/geometry/unlicensed.cpp"
