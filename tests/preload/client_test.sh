@@ -9,8 +9,8 @@ usage() {
 usage: tests/preload/client_test.sh BUILD dart|dartpy|panda|late|two|static [argument of the client]...
   BUILD  the build directory
   dart   a C++ program of DART's ODE detector     dartpy  the same from Python
-  panda  panda3d, whose wheel has an ODE of its own in single precision; is installed by pip into
-         BUILD/panda where it is not
+  panda  panda3d, whose wheel has an ODE of its own in single precision; install_panda.sh installs it
+         where it is not
   two    dartpy and panda3d in one process
   late   ODE comes with a plugin                  static  ODE is linked statically and exported
 TEXT
@@ -32,27 +32,18 @@ fail() {
   failed=1
 }
 
-install_panda() {
-  local python=$build/panda/bin/python
-  if ! "$python" -c "import panda3d.ode, dartpy" 2> "$results/import"; then
-    # With those of the system: dartpy is one.
-    /usr/bin/python3 -m venv --clear --system-site-packages "$build/panda"
-    "$python" -m pip install --quiet --disable-pip-version-check panda3d==1.10.16
-  fi
-}
-
 # Of idioms their pairs, sorted out below.
 case $client in
   dart) program=("$build/bin/dart_pairs" "$@") ;;
   dartpy) program=(/usr/bin/python3 "$sources/clients/dartpy_pairs.py" "$@") ;;
   panda)
-    install_panda
-    program=("$build/panda/bin/python" "$sources/clients/panda_meshes.py" "$@")
+    python=$("$sources/install_panda.sh")
+    program=("$python" "$sources/clients/panda_meshes.py" "$@")
     ;;
   late) program=("$build/bin/late_host" "$build/libidioms_plugin.so" "${1:-recorded}") ;;
   two)
-    install_panda
-    program=("$build/panda/bin/python" "$sources/clients/two_odes.py")
+    python=$("$sources/install_panda.sh")
+    program=("$python" "$sources/clients/two_odes.py")
     ;;
   static) program=("$build/bin/idioms_static" "${1:-recorded}") ;;
   *) usage >&2; exit 2 ;;
