@@ -40,13 +40,18 @@ inline Memory memory_now() {
           static_cast<double>(heap.uordblks + heap.hblkhd) / kMiB};
 }
 
-// The largest of the last third of the samples less the largest of the middle third: what comes and
-// goes cancels out, and what is kept for good does not. The first third is for warming up.
+// The median of the last third of the samples less that of the middle third: what comes and goes
+// cancels out, such as a collider made anew before a driver gave back what the last one had,
+// and what is kept for good does not. The first third is for warming up.
 inline double growth(const std::vector<double>& samples) {
   const auto third = static_cast<std::ptrdiff_t>(samples.size() / 3);
   if (third == 0) return 0;
-  const auto middle = samples.end() - 2 * third, last = samples.end() - third;
-  return *std::max_element(last, samples.end()) - *std::max_element(middle, last);
+  const auto median = [&](auto first) {
+    std::vector<double> part(first, first + third);
+    std::nth_element(part.begin(), part.begin() + third / 2, part.end());
+    return part[static_cast<std::size_t>(third / 2)];
+  };
+  return median(samples.end() - third) - median(samples.end() - 2 * third);
 }
 
 }  // namespace ode_ext::soak
