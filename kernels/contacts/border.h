@@ -8,8 +8,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_BORDER_H
 #define ODE_EXT_KERNELS_CONTACTS_BORDER_H
 
-#include "contacts/types.h"
-#include "shared/append.h"
+#include "shared/scene.h"
 #include "shared/transform.h"
 
 static inline float ox_distance2_to_segment(float3 p, float3 a, float3 b) {

@@ -5,6 +5,7 @@
 
 #include "contacts/types.h"
 #include "shared/append.h"
+#include "shared/flat.h"
 #include "shared/general_position.h"
 
 static inline uint ox_crossing_count(const ox_scene* scene) {
@@ -49,25 +50,6 @@ static inline bool ox_is_valley(const ox_scene* scene, uint pair, uint edge) {
   if (second == OX_NONE) return false;
   const float flat = 2.0f * scene->pairs[pair].epsilon;
   return ox_rise(scene, first, second) > flat && ox_rise(scene, second, first) > flat;
-}
-
-// Whether the faces at an edge are of one facet.
-static inline bool ox_is_flat_edge(const ox_scene* scene, uint edge) {
-  const uint second = scene->edges[edge].triangle[1];
-  return second != OX_NONE &&
-         scene->facets[scene->edges[edge].triangle[0]] == scene->facets[second];
-}
-
-// Whether a vertex is within a facet, so that it bounds nothing. Of a mesh that changes its shape,
-// or of one beside it, every vertex may need a contact.
-static inline bool ox_is_flat_vertex(const ox_scene* scene, uint pair, uint vertex) {
-  __global const uint* of_pair = scene->pairs[pair].mesh;
-  if (((scene->meshes[of_pair[0]].flags | scene->meshes[of_pair[1]].flags) & OX_MESH_DEFORMABLE) !=
-      0u)
-    return false;
-  for (uint k = scene->ring_starts[vertex]; k < scene->ring_starts[vertex + 1u]; ++k)
-    if (!ox_is_flat_edge(scene, scene->rings[k].edge)) return false;
-  return true;
 }
 
 // Whether feature a comes before b in an order that does not depend on their numbers.

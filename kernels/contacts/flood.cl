@@ -17,8 +17,8 @@
 // room  words: a table for each side (shared/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
-#include "contacts/feature.h"
 #include "shared/closest.h"
+#include "shared/flat.h"
 #include "shared/flood_table.h"
 #include "shared/flooded.h"
 #include "shared/general_position.h"

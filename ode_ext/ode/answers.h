@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ode/members.h"
-#include "pipeline/scene.h"
+#include "pipeline/contact.h"
 
 namespace ode_ext {
 

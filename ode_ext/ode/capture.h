@@ -10,6 +10,7 @@
 
 #include "ode/members.h"
 #include "ode_ext/ode_ext.h"
+#include "pipeline/contact.h"
 
 namespace ode_ext {
 

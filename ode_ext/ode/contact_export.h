@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "pipeline/scene.h"
+#include "pipeline/contact.h"
 
 namespace ode_ext {
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "ode_ext/ode_ext.h"
-#include "pipeline/scene.h"
+#include "pipeline/contact.h"
 
 namespace ode_ext {
 

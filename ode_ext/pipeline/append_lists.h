@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "device/buffer.h"
-#include "pipeline/prediction.h"
+#include "pipeline/list.h"
 #include "shared/types.h"
 
 namespace ode_ext {

@@ -65,8 +65,8 @@ void Collider::run(Step& step) {
   if (paper_) paper_->begin_run(data_, step);
   read_back_.reserve(data_);
 
-  if (workload.is_whole_step()) {
-    steps_.run_whole(workload.launch_shares(), data_);
+  if (whole_step_) {
+    whole_step_->run(workload.launch_shares(), data_);
     if (!workload.expects_left()) {
       read_back_.read(data_, workload.predicted(List::kContacts));
       if (data_.lists.counted(OX_COUNTER_LEFT) == 0) return;
@@ -81,25 +81,25 @@ void Collider::run(Step& step) {
 void Collider::launch_steps(Step& step) {
   Workload& workload = step.workload;
   const std::size_t pairs = workload.tile().count;
-  if (!workload.is_whole_step()) steps_.relate(workload.launch(pairs), data_);
+  if (!whole_step_) search_.relate(workload.launch(pairs), data_);
   if (options_.edges) {
-    steps_.cull(workload.launch(pairs), data_);
-    steps_.match(workload.settle_launch(List::kMeshlets), data_);
-    steps_.cross(workload.settle_launch(List::kMeshletPairs, steps_.items_per_meshlet_pair()),
-                 data_);
+    search_.cull(workload.launch(pairs), data_);
+    search_.match(workload.settle_launch(List::kMeshlets), data_);
+    search_.cross(workload.settle_launch(List::kMeshletPairs, search_.items_per_meshlet_pair()),
+                  data_);
   }
   if (paper_) {
     paper_->run(data_, step);
   } else {
-    steps_.flood(workload.launch_queue(2 * pairs), data_);
-    if (!step.floods_all) steps_.choose_vertices(workload.settle_launch(List::kChunks), data_);
-    steps_.cast(workload.settle_launch(List::kRays), data_);
+    search_.flood(workload.launch_queue(2 * pairs), data_);
+    if (!step.floods_all) search_.choose_vertices(workload.settle_launch(List::kChunks), data_);
+    search_.cast(workload.settle_launch(List::kRays), data_);
   }
   workload.settle_launches();
-  steps_.assemble(workload.launch(pairs),
-                  std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
-                  workload.launch_queue(pairs), data_);
-  steps_.reduce(workload.launch_queue(pairs), data_);
+  assembly_.assemble(workload.launch(pairs),
+                     std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
+                     workload.launch_queue(pairs), data_);
+  assembly_.reduce(workload.launch_queue(pairs), data_);
 }
 
 void Collider::deliver(Step& step) {
@@ -131,7 +131,9 @@ void Collider::drop(Step& step) {
 StageTimes Collider::take_milliseconds() {
   StageTimes ms{};
   add_time(ms, Stage::kDeformStep, data_.meshes);
-  steps_.take_milliseconds(ms);
+  search_.take_milliseconds(ms);
+  assembly_.take_milliseconds(ms);
+  if (whole_step_) whole_step_->take_milliseconds(ms);
   if (paper_) paper_->take_milliseconds(ms);
   return ms;
 }

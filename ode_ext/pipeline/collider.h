@@ -6,14 +6,17 @@
 
 #include "device/program.h"
 #include "paper/vertex_rays.h"
+#include "pipeline/contact.h"
 #include "pipeline/options.h"
 #include "pipeline/pass_memory.h"
+#include "pipeline/plane_assembly.h"
 #include "pipeline/read_back.h"
 #include "pipeline/scene.h"
+#include "pipeline/search.h"
 #include "pipeline/step.h"
 #include "pipeline/step_data.h"
 #include "pipeline/step_report.h"
-#include "pipeline/steps.h"
+#include "pipeline/whole_step.h"
 
 namespace ode_ext {
 
@@ -46,9 +49,12 @@ class Collider {
   ColliderOptions options_;
   Device device_;
   Program program_;
-  Steps steps_;
+  Search search_;
+  PlaneAssembly assembly_;
   StepData data_;
-  std::optional<paper::VertexRays> paper_;  // where options ask for it
+  // Where options ask for them.
+  std::optional<WholeStep> whole_step_;
+  std::optional<paper::VertexRays> paper_;
   ReadBack read_back_;
   PairContacts result_;
   StepReport report_;

@@ -40,7 +40,7 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
   if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
-  if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
+  if (may_run_whole(options, device)) text += std::string(" ") + WholeStep::kProgramOption;
   return text;
 }
 
@@ -50,14 +50,16 @@ Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer),
       program_(device_, program_options(options, device_.info())),
-      steps_(program_, may_run_whole(options_, device_.info()),
-             items_per_meshlet_pair(options_, device_.info())),
+      search_(program_, items_per_meshlet_pair(options_, device_.info())),
+      assembly_(program_),
       data_(program_),
       read_back_(device_) {
   data_.settings = settings_of(options);
   if (follows_paper(options_)) paper_.emplace(program_, options_);
-  if (may_run_whole(options_, device_.info()))
+  if (may_run_whole(options_, device_.info())) {
+    whole_step_.emplace(program_);
     data_.lists.keep_shares(device_.info().compute_units);
+  }
   if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
       options_.vector_width != 8 && options_.vector_width != 16)
     throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
@@ -86,20 +88,20 @@ void Collider::warm_up() {
   const bool is_pocl =
       device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
   const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
-  steps_.relate(wide, data_);
-  steps_.cull(wide, data_);
-  steps_.match(wide, data_);
-  steps_.cross(wide, data_);
+  search_.relate(wide, data_);
+  search_.cull(wide, data_);
+  search_.match(wide, data_);
+  search_.cross(wide, data_);
   if (paper_) {
     paper_->warm_up(wide, data_, step);
   } else {
-    steps_.flood(wide, data_);
-    steps_.choose_vertices(wide, data_);
-    steps_.cast(wide, data_);
+    search_.flood(wide, data_);
+    search_.choose_vertices(wide, data_);
+    search_.cast(wide, data_);
   }
-  steps_.assemble(wide, wide, wide, data_);
-  steps_.reduce(wide, data_);
-  if (step.workload.is_whole_step()) steps_.run_whole({1, 1}, data_);
+  assembly_.assemble(wide, wide, wide, data_);
+  assembly_.reduce(wide, data_);
+  if (whole_step_) whole_step_->run({1, 1}, data_);
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

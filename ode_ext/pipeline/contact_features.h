@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "pipeline/contact.h"
 #include "pipeline/device_meshes.h"
-#include "pipeline/scene.h"
 
 namespace ode_ext {
 

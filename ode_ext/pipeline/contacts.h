@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "pipeline/contact.h"
 #include "pipeline/device_meshes.h"
 #include "pipeline/scene.h"
 #include "shared/types.h"

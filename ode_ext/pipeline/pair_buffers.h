@@ -7,7 +7,6 @@
 
 #include "device/buffer.h"
 #include "pipeline/scene.h"
-#include "pipeline/tiles.h"
 #include "shared/types.h"
 
 namespace ode_ext {

@@ -2,29 +2,11 @@
 // Predicting how many entries an append buffer will get (GRAPP section 4.1).
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
-namespace ode_ext {
+#include "pipeline/list.h"
 
-// The append buffers, in the order of the pipeline. The order is public (dBatchBuffer...).
-enum class List : std::size_t {
-  kChunksSmall,
-  kChunks,
-  kChunksDeformable,
-  kRaysIterative,
-  kRays,
-  kRaysBasic,
-  kMeshlets,
-  kMeshletPairs,
-  kHits,
-  kCrossings,
-  kFloodWords,
-  kContacts
-};
-inline constexpr std::size_t kListCount = 12;
-using ListCounts = std::array<std::uint64_t, kListCount>;
+namespace ode_ext {
 
 enum class PredictionRule { kPairScaled, kPlain };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step collides, and what it finds.
+// What a step collides.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -37,28 +38,9 @@ struct Scene {
   std::vector<std::array<std::uint32_t, 2>> pairs;  // of objects
 };
 
-// World frame [m]; the normal points into the first object of the pair, and moving that object by
-// depth * normal clears the contact. Triangles are the program's indices.
-struct Contact {
-  Vec3d position;
-  Vec3d normal;
-  double depth;
-  std::array<std::uint32_t, 2> triangles;
-  std::array<std::uint32_t, 2> features;  // what it is of in each mesh (contact_features.h)
-};
-
-struct PairContacts {
-  struct Range {
-    std::size_t first;
-    std::uint32_t count;
-  };
-  std::vector<Range> ranges;  // one per pair
-  std::vector<Contact> contacts;
-
-  void clear() {
-    ranges.clear();
-    contacts.clear();
-  }
+// Pairs of a scene that are collided together.
+struct Tile {
+  std::size_t first, count;
 };
 
 }  // namespace ode_ext

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "paper/work_count.h"
-#include "pipeline/prediction.h"
+#include "pipeline/list.h"
 #include "pipeline/stage.h"
 
 namespace ode_ext {

@@ -6,14 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/list.h"
 #include "pipeline/options.h"
 #include "pipeline/scene.h"
 
 namespace ode_ext {
-
-struct Tile {
-  std::size_t first, count;  // pairs
-};
 
 // Tiles of at most so many vertices, unless it is a single pair's, and at most so many pairs.
 std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices,

@@ -54,9 +54,7 @@ class Workload {
     settle_launches();
     return launch(list, items_per_record);
   }
-  // Whether each pair is taken through all steps at once, if it fits (kernels/whole_step.cl).
-  bool is_whole_step() const { return lists_.shares() != 0; }
-  // Of that: a work-item for each share of the lists.
+  // Of the whole step: a work-item for each share of the lists.
   Launch launch_shares() const;
   // Whether some pairs will not fit into a share, as in the last step.
   bool expects_left() const;
@@ -72,6 +70,8 @@ class Workload {
     ListCounts expected;
   };
 
+  // Whether each pair is taken through all steps at once, if it fits (kernels/whole_step.cl).
+  bool is_whole_step() const { return lists_.shares() != 0; }
   // Records may be lost, as the paper has it.
   bool may_lose() const { return misprediction_ == Misprediction::kIgnore; }
   ListCounts stored() const;

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "pipeline/search.h"
 #include "pipeline/step_data.h"
-#include "pipeline/steps.h"
 #include "pipeline/test_scene.h"
 
 namespace ode_ext::test {
@@ -31,7 +31,7 @@ Curves find_curves(const TestScene& scene) {
   const auto& meshes = scene.scene.meshes;
   Device device("");
   Program program(device, "");
-  Steps steps(program, false, 1);
+  Search search(program, 1);
   StepData data(program);
   data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
   data.meshes.set(meshes);
@@ -42,10 +42,10 @@ Curves find_curves(const TestScene& scene) {
   data.lists.reserve(room);
   data.lists.begin(data.lists.capacities());
   const Launch launch{8, 64};
-  steps.relate(launch, data);
-  steps.cull(launch, data);
-  steps.match(launch, data);
-  steps.cross(launch, data);
+  search.relate(launch, data);
+  search.cull(launch, data);
+  search.match(launch, data);
+  search.cross(launch, data);
   data.lists.count();
   EXPECT_FALSE(data.lists.overflowed([&] {
     ListCounts counts{};

@@ -12,8 +12,9 @@
 #include "paper/types.h"
 #include "pipeline/field_records.h"
 #include "pipeline/options.h"
+#include "pipeline/plane_assembly.h"
+#include "pipeline/search.h"
 #include "pipeline/step_data.h"
-#include "pipeline/steps.h"
 #include "pipeline/test_scene.h"
 
 namespace ode_ext::test {
@@ -70,7 +71,7 @@ class Rig {
 
   StepRecords run(const Scene& scene, std::uint32_t max_contacts = 16, Launch launch = {8, 64}) {
     upload(scene, max_contacts, false);
-    steps_.relate(launch, data_);
+    search_.relate(launch, data_);
     run_vertices(launch);
     assemble(launch);
     return read_back();
@@ -83,10 +84,10 @@ class Rig {
     do {
       upload(scene, 16, true);
       if (flooded) data_.settings.modes |= OX_MODE_FLOOD;
-      steps_.relate(launch, data_);
-      steps_.cull(launch, data_);
-      steps_.match(launch, data_);
-      steps_.cross(launch, data_);
+      search_.relate(launch, data_);
+      search_.cull(launch, data_);
+      search_.match(launch, data_);
+      search_.cross(launch, data_);
       if (flooded)
         flood(launch);
       else if (dense)
@@ -104,7 +105,7 @@ class Rig {
   StepRecords run_reduction(const Scene& scene, const std::vector<Candidate>& candidates,
                             std::uint32_t max_contacts = 16) {
     upload(scene, max_contacts, false);
-    steps_.relate({8, 64}, data_);
+    search_.relate({8, 64}, data_);
     ox_found found{};
     found.head[0] = found.head[1] = OX_NONE;
     found.features = found.placed = found.candidates = static_cast<ox_u32>(candidates.size());
@@ -124,7 +125,7 @@ class Rig {
   // Its first step alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1, false);
-    steps_.relate(launch, data_);
+    search_.relate(launch, data_);
     list_chunks(launch, false);
     return read_back();
   }
@@ -142,19 +143,20 @@ class Rig {
   Rig()
       : device_(""),
         program_(device_, paper::kProgramOption),
-        steps_(program_, false, 1),
+        search_(program_, 1),
+        assembly_(program_),
         paper_(program_),
         data_(program_) {}
 
   void assemble(Launch launch) {
-    steps_.assemble(launch, launch, launch, data_);
-    steps_.reduce(launch, data_);
+    assembly_.assemble(launch, launch, launch, data_);
+    assembly_.reduce(launch, data_);
   }
 
   void flood(Launch launch) {
-    steps_.flood(launch, data_);
-    steps_.choose_vertices(launch, data_);
-    steps_.cast(launch, data_);
+    search_.flood(launch, data_);
+    search_.choose_vertices(launch, data_);
+    search_.cast(launch, data_);
   }
 
   void list_chunks(Launch launch, bool dense) {
@@ -287,7 +289,8 @@ class Rig {
 
   Device device_;
   Program program_;
-  Steps steps_;
+  Search search_;
+  PlaneAssembly assembly_;
   paper::Kernels paper_;
   StepData data_;
   TemporalCache temporal_{device_};

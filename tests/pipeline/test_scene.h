@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "pipeline/contact.h"
 #include "pipeline/scene.h"
 #include "support/mesh_makers.h"
 

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of the pipeline, step by step, in the order in which they run.
+// From pairs to crossings, vertices inside and the faces these leave by: one kernel a step, in the
+// order in which they run.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "device/program.h"
 #include "pipeline/launch.h"
-#include "pipeline/plane_assembly.h"
 #include "pipeline/stage.h"
 #include "pipeline/step_data.h"
 
 namespace ode_ext {
 
-class Steps {
+class Search {
  public:
-  // has_whole: the program was built for a whole step too. items_per_meshlet_pair: for so many
-  // work-items to each in cross.cl.
-  Steps(Program& program, bool has_whole, std::uint32_t items_per_meshlet_pair);
+  // items_per_meshlet_pair: for so many work-items to each in cross.cl.
+  Search(Program& program, std::uint32_t items_per_meshlet_pair);
 
   std::uint32_t items_per_meshlet_pair() const { return items_per_meshlet_pair_; }
 
@@ -32,22 +30,12 @@ class Steps {
   void flood(Launch per_side, const StepData& data);
   void choose_vertices(Launch per_vertex, const StepData& data);
   void cast(Launch per_ray, const StepData& data);
-  // What becomes of hits and crossings: contacts/features.cl, choose.cl, reduce.cl.
-  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const StepData& data) {
-    assembly_.assemble(per_pair, per_feature, per_region, data);
-  }
-  void reduce(Launch per_pair, const StepData& data) { assembly_.reduce(per_pair, data); }
-
-  // All of them in one launch: whole_step.cl. Only if has_whole.
-  void run_whole(Launch shares, const StepData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms);
 
  private:
   Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_;
-  PlaneAssembly assembly_;
-  std::optional<Kernel> whole_;
   std::uint32_t items_per_meshlet_pair_;
 };
 
