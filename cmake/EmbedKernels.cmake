@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes the files of kernels/ as arrays into a C++ source (see ode_ext/device/embedded_kernels.h):
-#   cmake "-DROOT=<kernels>" "-DFILES=shared/types.h;pair_step.cl" "-DOUT=<file.cpp>" -P EmbedKernels.cmake
+# Writes the files of kernels/ as arrays into a C++ source (see ode_ext/opencl/embedded_kernels.h):
+#   cmake "-DROOT=<kernels>" "-DFILES=abi/types.h;pair_step.cl" "-DOUT=<file.cpp>" -P EmbedKernels.cmake
 # The table has the files in the order given. As hex there is nothing to escape and no limit on length.
 
 foreach(argument ROOT FILES OUT)
@@ -26,7 +26,7 @@ foreach(file IN LISTS FILES)
 endforeach()
 
 file(WRITE "${OUT}.new" "// Written by cmake/EmbedKernels.cmake.
-#include \"device/embedded_kernels.h\"
+#include \"opencl/embedded_kernels.h\"
 
 namespace ode_ext {
 namespace {

@@ -32,7 +32,7 @@ file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test
      tests/bench/audit/scene_audit.cpp tests/bench/audit/kind*.cpp tests/bench/audit/pair_*.cpp
      tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
      tests/bench/stability/report.cpp tests/bench/stability/shape.cpp
-     tests/bench/stability/stack.cpp tests/pipeline/*_comparison.cpp)
+     tests/bench/stability/stack.cpp tests/search/*_comparison.cpp)
 list(FILTER test_sources EXCLUDE REGEX "/tests/view/")
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
@@ -78,7 +78,7 @@ target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support fall
 # What the search finds, crossings and vertices inside, beside brute force. Minutes.
 add_executable(search_audit EXCLUDE_FROM_ALL
   tests/bench/audit/search_audit.cpp tests/bench/audit/kinds.cpp tests/bench/audit/pair_poses.cpp
-  tests/pipeline/crossing_comparison.cpp)
+  tests/search/crossing_comparison.cpp)
 ode_ext_compile_options(search_audit)
 target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
                       CLI11::CLI11)

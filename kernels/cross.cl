@@ -5,10 +5,10 @@
 // in    meshlet_pairs, pairs, meshes, meshlets
 // out   crossings; found: those of each side that is flooded, one after the other
 // item  1 pair of meshlets (grid-stride), an edge against a vector of triangles at a time; with
-//       OX_LANES_ARE_ITEMS one block of lanes (shared/lanes.h) of one of its sides: on a GPU one
+//       OX_LANES_ARE_ITEMS one block of lanes (lib/lanes.h) of one of its sides: on a GPU one
 //       triangle against the edges of the other meshlet, its neighbours beside it
 // may overflow: OX_LIST_CROSSINGS
-#include "contacts/cross.h"
+#include "lib/cross.h"
 
 static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair* meshlet_pairs,
                            __global ox_edge_crossing* crossings) {

@@ -6,7 +6,7 @@
 // out   tasks
 // item  1 pair (grid-stride)
 // may overflow: OX_LIST_MESHLETS
-#include "shared/meshlet.h"
+#include "lib/meshlet.h"
 
 typedef struct {
   uint count;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Deform step, the part of exits: where the ray from a vertex of a closed mesh leaves that mesh, as
-// geometry/exit_distance.h.
+// mesh/exit_distance.h.
 //
 // in    moves, starts (deform_step.cl), topology, meshlets, meshlet_nodes
 // out   vertices: their exits
 // item  1 vertex (grid-stride)
 // may overflow: none
-#include "shared/meshlet_tree.h"
-#include "shared/moves.h"
-#include "shared/ray_meshlet.h"
+#include "lib/meshlet_tree.h"
+#include "lib/moves.h"
+#include "lib/ray_meshlet.h"
 
 // INFINITY: a front face comes first, or nothing. What lies within on_surface is where it starts.
 static float ox_exit(__global const ox_move* move, __global const uint* topology,

@@ -6,9 +6,9 @@
 // out   meshlets, meshlet_nodes: those of the meshes that moved, in place
 // item  1 meshlet / child of a node over meshlets (grid-stride)
 // may overflow: none
-#include "shared/moves.h"
+#include "lib/moves.h"
 
-// A flat edge lies within a facet (geometry/facets.h): it crosses nothing that others do not.
+// A flat edge lies within a facet (mesh/facets.h): it crosses nothing that others do not.
 static bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
   if (edge->triangle[1] == OX_NONE) return false;
   const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -

@@ -14,7 +14,7 @@
 //
 // Nothing here depends on the shape that a mesh had before (but for `moved`), nor on the order of
 // its vertices: a mesh gives the same bits however it came to its shape.
-#include "shared/moves.h"
+#include "lib/moves.h"
 
 // a * b - c * d to 1.5 roundings of the result (Kahan; Jeannerod, Louvet, Muller 2013).
 static float ox_minor(float a, float b, float c, float d) {
@@ -120,7 +120,7 @@ __kernel void deform_triangles(__global const ox_move* moves, uint move_count,
 }
 
 // The sum of the normals of the faces weighted by their angles (Thuermer and Wuethrich 1998), as
-// geometry/normals.h. Where they cancel out it is the normal of the largest face: each term is
+// mesh/normals.h. Where they cancel out it is the normal of the largest face: each term is
 // right to about 20 roundings, 2^-20 of the weights; a sum 16 times as long still has a direction.
 static float3 ox_vertex_normal(__global const ox_move* move, __global const uint* topology,
                                __global const ox_triangle* all_triangles,

@@ -7,7 +7,7 @@
 //       predicted and no further, and what it cannot take is crossed at once (cross.cl)
 // item  1 meshlet of the list (grid-stride)
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
-#include "contacts/cross.h"
+#include "lib/cross.h"
 
 typedef struct {
   uint count;

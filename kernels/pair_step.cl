@@ -6,8 +6,8 @@
 //       found, pair_ranges: cleared
 // item  1 pair (grid-stride)
 // may overflow: none
-#include "shared/append.h"
-#include "shared/general_position.h"
+#include "lib/append.h"
+#include "lib/general_position.h"
 
 // Separating axes of two oriented boxes (Gottschalk 1996) in the frame of B. Rounding is covered by
 // epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike

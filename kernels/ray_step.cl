@@ -5,9 +5,9 @@
 // out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
-#include "contacts/border.h"
-#include "shared/closest.h"
-#include "shared/vertex_ray.h"
+#include "lib/border.h"
+#include "lib/closest.h"
+#include "lib/vertex_ray.h"
 
 static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float margin) {
   return ox_dot(vload3(0, triangle->normal), p - vload3(0, triangle->a)) <= margin;

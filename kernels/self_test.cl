@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the collider takes for granted of a device's arithmetic, tried out once per device. The host
-// (ode_ext/device/self_test.cpp) works out the same values and compares.
+// (ode_ext/opencl/self_test.cpp) works out the same values and compares.
 //
 // 1 work-item = 1 case, any local size.
 // in:  inputs, four floats a case; case_count
 // out: results, ten words a case in the order of the host's SelfTestColumn; counter: += case_count
 
-#include "shared/lanes.h"
+#include "lib/lanes.h"
 
 static bool ox_agrees(float p, float q) { return p == q || (p != p && q != q); }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Vertex step (GRAPP section 3.2): can this vertex be in contact with the target? Then it gets a
-// ray. Of those sides of pairs alone of which crossings cannot tell (shared/flooded.h,
-// contacts/flood.cl).
+// ray. Of those sides of pairs alone of which crossings cannot tell (lib/flooded.h,
+// flood.cl).
 //
 // in    tasks, pairs, meshes, chunks, vertices
 // out   rays
 // item  1 vertex of 1 chunk: item i is vertex i % 16 of task i / 16 of the list (grid-stride)
 // may overflow: OX_LIST_RAYS
-#include "shared/vertex_ray.h"
+#include "lib/vertex_ray.h"
 
 static void ox_choose_vertices(const ox_scene* scene, __global const ox_chunk_task* tasks,
                                __global ox_ray* rays) {

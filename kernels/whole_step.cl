@@ -10,15 +10,15 @@
 // may overflow: OX_LIST_CONTACTS; all others without loss
 //
 // It is left out where it never runs: on a GPU there is more to gain from many work-items than
-// from a cache (OX_WHOLE_STEP, pipeline/collider_start.cpp).
+// from a cache (OX_WHOLE_STEP, collide/collider_start.cpp).
 #ifdef OX_WHOLE_STEP
 #ifndef OX_WHOLE_PROGRAM
 #include "contacts/choose.cl"
 #include "contacts/features.cl"
-#include "contacts/flood.cl"
 #include "contacts/reduce.cl"
 #include "cross.cl"
 #include "cull.cl"
+#include "flood.cl"
 #include "match.cl"
 #include "pair_step.cl"
 #include "ray_step.cl"

@@ -3,9 +3,9 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
 #define ODE_EXT_KERNELS_CONTACTS_CANDIDATE_LIST_H
 
+#include "abi/contacts.h"
 #include "contacts/fields.h"
-#include "contacts/types.h"
-#include "shared/append.h"
+#include "lib/append.h"
 
 #define OX_MAX_CONTACTS 64u
 

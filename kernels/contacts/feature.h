@@ -3,10 +3,10 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_FEATURE_H
 #define ODE_EXT_KERNELS_CONTACTS_FEATURE_H
 
-#include "contacts/types.h"
-#include "shared/append.h"
-#include "shared/flat.h"
-#include "shared/general_position.h"
+#include "abi/contacts.h"
+#include "lib/append.h"
+#include "lib/flat.h"
+#include "lib/general_position.h"
 
 static inline uint ox_crossing_count(const ox_scene* scene) {
   return ox_length(scene, OX_LIST_CROSSINGS);

@@ -7,7 +7,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_FIELDS_H
 #define ODE_EXT_KERNELS_CONTACTS_FIELDS_H
 
-#include "shared/lanes.h"
+#include "lib/lanes.h"
 
 typedef struct {
   __global float* words;

@@ -5,7 +5,7 @@
 #define ODE_EXT_KERNELS_CONTACTS_PLANE_H
 
 #include "contacts/feature.h"
-#include "shared/meshlet_tree.h"
+#include "lib/meshlet_tree.h"
 
 // Kinds: a bit for each mesh that it clears, OX_PLANE_CLEARS.
 #define OX_PLANE_NONE 0u

@@ -8,7 +8,7 @@
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS
 #include "contacts/candidate_list.h"
-#include "shared/lanes.h"
+#include "lib/lanes.h"
 
 // What of a candidate is taken already.
 #define OX_TAKEN_ITSELF 1

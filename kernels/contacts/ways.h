@@ -5,8 +5,8 @@
 #define ODE_EXT_KERNELS_CONTACTS_WAYS_H
 
 #include "contacts/region.h"
-#include "shared/closest.h"
-#include "shared/full_ray.h"
+#include "lib/closest.h"
+#include "lib/full_ray.h"
 
 // Planes that are tried where the one before does not separate, so many at most.
 #define OX_MOST_TRIES 4u

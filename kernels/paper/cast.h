@@ -3,9 +3,9 @@
 #ifndef ODE_EXT_KERNELS_PAPER_CAST_H
 #define ODE_EXT_KERNELS_PAPER_CAST_H
 
+#include "abi/paper.h"
+#include "lib/vertex_ray.h"
 #include "paper/iterative_ray.h"
-#include "paper/types.h"
-#include "shared/vertex_ray.h"
 
 // Casts a ray by one of the algorithms, and leaves its temporal datum. False: an iterative ray that
 // has to be cast in full, since the walk failed, or since what it found need not be the first that

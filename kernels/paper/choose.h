@@ -4,8 +4,8 @@
 #ifndef ODE_EXT_KERNELS_PAPER_CHOOSE_H
 #define ODE_EXT_KERNELS_PAPER_CHOOSE_H
 
-#include "paper/types.h"
-#include "shared/vertex_ray.h"
+#include "abi/paper.h"
+#include "lib/vertex_ray.h"
 
 #define OX_WORK_TASK 1u
 #define OX_WORK_VERTEX 2u

@@ -9,9 +9,9 @@
 //       poses, directory: what the next step needs to find its temporal data
 // item  1 pair (grid-stride)
 // may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS, OX_LIST_CHUNKS_DEFORMABLE
-#include "paper/types.h"
-#include "shared/append.h"
-#include "shared/cull.h"
+#include "abi/paper.h"
+#include "lib/append.h"
+#include "lib/cull.h"
 
 // The angle between two relative poses [rad]; accurate for all of them, unlike the arc cosine.
 static float ox_turned_by(__global const float* rotation, __global const float* before) {

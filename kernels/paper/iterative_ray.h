@@ -8,7 +8,7 @@
 #ifndef ODE_EXT_KERNELS_PAPER_ITERATIVE_RAY_H
 #define ODE_EXT_KERNELS_PAPER_ITERATIVE_RAY_H
 
-#include "shared/full_ray.h"
+#include "lib/full_ray.h"
 
 typedef struct {
   uint triangle;  // over all meshes; OX_NONE: the walk failed

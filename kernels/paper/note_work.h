@@ -3,7 +3,7 @@
 #ifndef ODE_EXT_KERNELS_PAPER_NOTE_WORK_H
 #define ODE_EXT_KERNELS_PAPER_NOTE_WORK_H
 
-#include "paper/types.h"
+#include "abi/paper.h"
 
 static inline void ox_note_work(__global ox_work* works, uint item, const ox_work* work) {
 #ifdef OX_COUNT_WORK

@@ -6,8 +6,8 @@
 
 #include "api/guarded.h"
 #include "api/params.h"
-#include "device/choice.h"
-#include "device/device.h"
+#include "opencl/choice.h"
+#include "opencl/device.h"
 
 using namespace ode_ext::api;
 

@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "device/fork_guard.h"
 #include "ode/batch_collider.h"
 #include "ode/messages.h"
 #include "ode/registry.h"
 #include "ode_ext/ode_ext.h"
+#include "opencl/fork_guard.h"
 
 namespace ode_ext::api {
 

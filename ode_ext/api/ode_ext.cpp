@@ -9,13 +9,13 @@
 
 #include "api/guarded.h"
 #include "api/params.h"
-#include "device/fork_guard.h"
 #include "ode/batch_collider.h"
 #include "ode/capture.h"
 #include "ode/contact_ids.h"
 #include "ode/override.h"
 #include "ode/pass.h"
 #include "ode/trace.h"
+#include "opencl/fork_guard.h"
 
 using namespace ode_ext::api;
 

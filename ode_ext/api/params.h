@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "collide/options.h"
 #include "ode_ext/ode_ext.h"
-#include "pipeline/options.h"
 
 namespace ode_ext::api {
 

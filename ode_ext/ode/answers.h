@@ -10,8 +10,8 @@
 #include <deque>
 #include <vector>
 
+#include "contacts/contact.h"
 #include "ode/members.h"
-#include "pipeline/contact.h"
 
 namespace ode_ext {
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "device/error.h"
 #include "ode/contact_export.h"
 #include "ode/contact_ids.h"
 #include "ode/messages.h"
@@ -15,6 +14,7 @@
 #include "ode/stock_collider.h"
 #include "ode/stopwatch.h"
 #include "ode/trace.h"
+#include "opencl/error.h"
 
 namespace ode_ext {
 namespace {

@@ -15,6 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collide/collider.h"
 #include "ode/answers.h"
 #include "ode/members.h"
 #include "ode/mesh_store.h"
@@ -23,7 +24,6 @@
 #include "ode/pass_stats.h"
 #include "ode/space_memories.h"
 #include "ode_ext/ode_ext.h"
-#include "pipeline/collider.h"
 
 namespace ode_ext {
 

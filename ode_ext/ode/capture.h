@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
+#include "contacts/contact.h"
 #include "ode/members.h"
 #include "ode_ext/ode_ext.h"
-#include "pipeline/contact.h"
 
 namespace ode_ext {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/options.h"
+#include "collide/options.h"
 
 namespace ode_ext {
 

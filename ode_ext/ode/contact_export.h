@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "pipeline/contact.h"
+#include "contacts/contact.h"
 
 namespace ode_ext {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/contact_ids.h"
 
-#include "pipeline/contact_features.h"
+#include "contacts/contact_features.h"
 
 namespace ode_ext {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <span>
 
+#include "contacts/contact.h"
 #include "ode_ext/ode_ext.h"
-#include "pipeline/contact.h"
 
 namespace ode_ext {
 

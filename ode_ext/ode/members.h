@@ -9,7 +9,7 @@
 #include <memory>
 #include <unordered_map>
 
-#include "pipeline/scene.h"
+#include "search/scene.h"
 
 namespace ode_ext {
 

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "geometry/mesh.h"
+#include "mesh/mesh.h"
 
 namespace ode_ext {
 

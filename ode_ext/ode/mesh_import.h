@@ -5,7 +5,7 @@
 
 #include <ode/ode.h>
 
-#include "geometry/mesh.h"
+#include "mesh/mesh.h"
 
 namespace ode_ext {
 

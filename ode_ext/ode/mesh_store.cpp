@@ -5,8 +5,8 @@
 #include <iterator>
 #include <string>
 
-#include "geometry/deform.h"
-#include "geometry/range.h"
+#include "mesh/deform.h"
+#include "mesh/range.h"
 #include "ode/mesh_import.h"
 #include "ode/messages.h"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "mesh/mesh.h"
 
 namespace ode_ext {
 
@@ -39,7 +39,7 @@ class MeshStore {
 
   // Whether it lay, when last read, outside of the box that ODE knows of it.
   bool has_left_box(dTriMeshDataID data) const { return entries_.at(data).left_box; }
-  // Whether its contacts cannot be computed (geometry/range.h), as it was when last read.
+  // Whether its contacts cannot be computed (mesh/range.h), as it was when last read.
   bool is_refused(dTriMeshDataID data) const { return entries_.at(data).refused; }
   // How often deformable meshes changed since the last call.
   std::uint64_t take_deformed() { return std::exchange(deformed_, 0); }

@@ -3,11 +3,11 @@
 
 #include <ode/ode.h>
 
-#include "device/fork_guard.h"
 #include "ode/contact_export.h"
 #include "ode/messages.h"
 #include "ode/registry.h"
 #include "ode/stock_collider.h"
+#include "opencl/fork_guard.h"
 
 namespace ode_ext {
 namespace {

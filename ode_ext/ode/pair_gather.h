@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/scene.h"
+#include "search/scene.h"
 
 namespace ode_ext {
 

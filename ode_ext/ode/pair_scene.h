@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "collide/collider.h"
 #include "ode/answers.h"
 #include "ode/members.h"
 #include "ode/mesh_store.h"
-#include "pipeline/collider.h"
 
 namespace ode_ext {
 

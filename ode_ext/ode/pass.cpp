@@ -4,7 +4,7 @@
 #include <atomic>
 #include <functional>
 
-#include "device/fork_guard.h"
+#include "opencl/fork_guard.h"
 
 namespace ode_ext {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "collide/step_report.h"
 #include "ode_ext/ode_ext.h"
-#include "pipeline/step_report.h"
 
 namespace ode_ext {
 

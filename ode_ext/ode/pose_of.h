@@ -4,7 +4,7 @@
 
 #include <ode/ode.h>
 
-#include "pipeline/scene.h"
+#include "search/scene.h"
 
 namespace ode_ext {
 

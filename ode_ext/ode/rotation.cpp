@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/vec.h"
+#include "mesh/vec.h"
 
 namespace ode_ext {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <map>
 
+#include "collide/pass_memory.h"
 #include "ode/pair_gather.h"
-#include "pipeline/pass_memory.h"
 
 namespace ode_ext {
 

@@ -4,10 +4,10 @@
 
 #include <array>
 
-#include "device/program.h"
+#include "opencl/launch.h"
+#include "opencl/program.h"
 #include "paper/temporal_cache.h"
-#include "pipeline/launch.h"
-#include "pipeline/step_data.h"
+#include "search/step_data.h"
 
 namespace ode_ext::paper {
 

@@ -18,9 +18,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "device/buffer.h"
-#include "paper/types.h"
-#include "pipeline/scene.h"
+#include "abi/paper.h"
+#include "opencl/buffer.h"
+#include "search/scene.h"
 
 namespace ode_ext {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "paper/types.h"
+#include "abi/paper.h"
 
 namespace ode_ext::paper {
 

@@ -6,13 +6,13 @@
 
 #include <vector>
 
-#include "device/program.h"
+#include "collide/options.h"
+#include "collide/step.h"
+#include "opencl/program.h"
 #include "paper/kernels.h"
 #include "paper/temporal_cache.h"
 #include "paper/work_count.h"
-#include "pipeline/options.h"
-#include "pipeline/step.h"
-#include "pipeline/step_data.h"
+#include "search/step_data.h"
 
 namespace ode_ext::paper {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "device/buffer.h"
-#include "paper/types.h"
+#include "abi/paper.h"
+#include "opencl/buffer.h"
 
 namespace ode_ext {
 

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 
-#include "device/fork_guard.h"
 #include "ode/mesh_arrays.h"
 #include "ode/override.h"
 #include "ode/pair_gather.h"
 #include "ode/registry.h"
+#include "opencl/fork_guard.h"
 #include "preload/colliders.h"
 #include "preload/find_ode_functions.h"
 

@@ -10,9 +10,9 @@
 #include <map>
 #include <numbers>
 
-#include "device/error.h"
 #include "ode/contact_export.h"
 #include "ode/contact_ids.h"
+#include "opencl/error.h"
 
 namespace ode_ext::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "geometry/mesh.h"
+#include "mesh/mesh.h"
 #include "ode/members.h"
 #include "support/contact_ids.h"
 #include "support/feature_watch.h"

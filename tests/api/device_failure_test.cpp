@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "device/error.h"
+#include "opencl/error.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-#include "device/error.h"
+#include "opencl/error.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "ode/answers.h"
-#include "pipeline/test_scene.h"
 #include "support/forged_meshes.h"
 #include "support/mesh_makers.h"
 #include "support/ode_world.h"
+#include "support/test_scene.h"
 
 namespace ode_ext::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is kept of spaces that come and go.
-#include "device/program.h"
 #include "ode/space_memories.h"
+#include "opencl/program.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {

@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "device/error.h"
+#include "opencl/error.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {

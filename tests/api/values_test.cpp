@@ -87,7 +87,7 @@ TEST_F(ApiValues, OfSpheresLieInTheLensAndPointAlongTheCentres) {
 }
 
 // By distances of the vertices from the other surface. (How deep they are is compared with the
-// reference of contacts in pipeline/assembly_test.cpp.)
+// reference of contacts in contacts/assembly_test.cpp.)
 TEST_F(ApiValues, AtVerticesAreOfVerticesInside) {
   const TestMesh torus = make_torus(0.6, 0.25, 24, 16), ball = make_icosphere(0.6, 3);
   const oracle::Mesh surfaces[] = {{torus.vertices, torus.indices}, {ball.vertices, ball.indices}};

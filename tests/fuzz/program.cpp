@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "device/error.h"
 #include "fuzz/judge.h"
 #include "fuzz/world.h"
+#include "opencl/error.h"
 
 namespace ode_ext::fuzz {
 namespace {

@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "pipeline/collider.h"
-#include "pipeline/reference_reduce.h"
-#include "pipeline/rig.h"
-#include "pipeline/test_scene.h"
+#include "collide/collider.h"
+#include "contacts/reference_reduce.h"
+#include "support/rig.h"
+#include "support/test_scene.h"
 
 namespace ode_ext::test {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/error.h"
+#include "opencl/error.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::soak {

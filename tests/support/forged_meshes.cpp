@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The arithmetic of ode_ext/geometry/soup_hash.cpp, backwards: a soup is taken in by blocks of 32
+// The arithmetic of ode_ext/mesh/soup_hash.cpp, backwards: a soup is taken in by blocks of 32
 // bytes, a word for each of four lanes, and given what a lane is and what it shall be there is a
 // word that leads from one to the other.
 #include "support/forged_meshes.h"

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "geometry/vec.h"
+#include "mesh/vec.h"
 
 namespace ode_ext {
 

@@ -19,11 +19,11 @@
 #include "bench/audit/pair_poses.h"
 #include "bench/audit/rounding.h"
 #include "falling_objects/simulation.h"
-#include "pipeline/crossing_comparison.h"
-#include "pipeline/inside_oracle.h"
-#include "pipeline/rig.h"
+#include "search/crossing_comparison.h"
+#include "search/inside_oracle.h"
 #include "support/mesh_oracle.h"
 #include "support/ode_world.h"
+#include "support/rig.h"
 
 namespace {
 

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an
+// edge tells on which side of the surface that end is, and both ends of an edge without crossings
+// are on one side. So from the former ends that are inside, over the latter edges, all vertices
+// inside are reached; of a part of the mesh without crossings one ray tells where all of it is. An
+// open target has no inside, but its faces have a space behind them. A part without crossings is
+// not there, and where the flood gets round the border, to an end in front, all vertices are
+// looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
+// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by; but of
+// those inside a closed target that lie within a facet none: they bound nothing.
+//
+// in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
+//       vertices, edges, rings, components, facets, triangles, meshlets, meshlet_nodes
+// out   rays, of the sides that are flooded (lib/flooded.h)
+//       tasks: of all others, and of those where the flood got round a border
+//       crossings: `of_edge`, which strings those of an edge together
+// room  words: a table for each side (lib/flood_table.h)
+// item  1 side of a pair (of a queue)
+// may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
+#include "lib/closest.h"
+#include "lib/flat.h"
+#include "lib/flood_table.h"
+#include "lib/flooded.h"
+#include "lib/general_position.h"
+#include "lib/vertex_ray.h"
+
+typedef struct {
+  ox_scene scene;
+  __global const ox_pair* pair;
+  uint pair_side;
+  __global const ox_mesh* source;
+  __global const ox_mesh* target;
+  __global ox_edge_crossing* crossings;
+  __global uint* words;
+  ox_flood_table table;
+  bool leaks;    // the flood got round the border of an open target
+  bool asks;     // it goes on from a vertex that a ray took to be inside
+  bool refuted;  // and got to one that is outside by a crossing
+  uint begin;    // the vertex from which the flood came to those that it is at
+  uint crossed;  // so many of the queue are of parts that have crossings
+} ox_flood_state;
+
+static bool ox_is_open(const ox_flood_state* s) {
+  return (s->target->flags & OX_MESH_CLOSED) == 0u;
+}
+
+static bool ox_has_key(const ox_flood_state* s, uint key) {
+  return s->table.places != 0u && s->words[ox_find_key(s->words, &s->table, key)] != 0u;
+}
+
+// Of a key that is not there. False: there is no room.
+static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
+  if (!ox_grow_table(&s->scene, s->words, &s->table)) return false;
+  const uint word = ox_find_key(s->words, &s->table, key);
+  s->words[word] = key;
+  s->words[word + 1u] = value;
+  ++s->table.used;
+  return true;
+}
+
+// Queues a vertex. False: there is no room, or it is known to be in front.
+static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
+  const uint key = OX_KEY(vertex, OX_KEY_VERTEX);
+  if (ox_has_key(s, key)) return true;
+  if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
+    s->leaks = ox_is_open(s);
+    s->refuted = s->asks;
+    return false;
+  }
+  if (!ox_add_key(s, key, s->begin)) return false;
+  ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
+  return true;
+}
+
+// What hangs together lies in the queue one after the other; all of it names the first of it that
+// bounds anything.
+static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
+  uint begin = OX_NONE;
+  uint first = OX_NONE;
+  for (uint i = 0u; i < s->table.queued; ++i) {
+    const uint vertex = ox_queue(s->words, &s->table)[i];
+    if (ox_is_open(s)) {
+      ox_append_ray(&s->scene, s->pair_side, vertex, rays);
+      continue;
+    }
+    if (ox_is_flat_vertex(&s->scene, s->pair_side >> 1, vertex)) continue;
+    const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
+    if (s->words[word + 1u] != begin) {
+      begin = s->words[word + 1u];
+      first = vertex;
+    }
+    ox_append_inside(&s->scene, s->pair_side, vertex,
+                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first, rays);
+  }
+}
+
+// Every vertex of the source is the vertex step's.
+static void ox_look_at_all(const ox_flood_state* s, __global ox_chunk_task* tasks) {
+  for (uint k = 0u; k < s->source->chunk_count; ++k) {
+    const uint chunk = s->source->chunk_first + k;
+    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene.chunks + chunk)) continue;
+    const uint slot = ox_append(&s->scene, OX_LIST_CHUNKS);
+    if (slot == OX_NONE) continue;
+    tasks[slot].pair_side = s->pair_side;
+    tasks[slot].chunk = chunk;
+  }
+}
+
+// Strings the crossings of an edge together, from the last to come on.
+static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
+  __global ox_edge_crossing* c = s->crossings + crossing;
+  const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
+  if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
+  const uint word = ox_find_key(s->words, &s->table, key);
+  c->of_edge = s->words[word + 1u];
+  s->words[word + 1u] = crossing;
+  return true;
+}
+
+#define OX_END_UNPARTED 0  // the edge does not cross
+#define OX_END_INSIDE 1
+#define OX_END_OUTSIDE 2
+
+// On which side of the surface that crosses the edge first, seen from it, an end is. Crossings of
+// which rounding may have changed the order, at a ridge, in a valley, or where the edge runs along
+// a face, are passed over together where as many enter as leave.
+static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
+  const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
+  if (s->words[word] == 0u) return OX_END_UNPARTED;
+  const uint all = s->words[word + 1u];
+  const float sign = end == 0u ? 1.0f : -1.0f;
+  const float near = s->pair->epsilon;
+  for (float passed = -INFINITY;;) {
+    float first = INFINITY;
+    float last = -INFINITY;
+    for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
+      const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
+      if (begin <= passed || begin >= first) continue;
+      first = begin;
+      last = sign * s->crossings[c].t + s->crossings[c].blur + near;
+    }
+    if (first == INFINITY) return OX_END_UNPARTED;
+    for (bool more = true; more;) {
+      more = false;
+      for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
+        const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
+        const float until = sign * s->crossings[c].t + s->crossings[c].blur + near;
+        if (begin < first || begin > last || until <= last) continue;
+        last = until;
+        more = true;
+      }
+    }
+    int leaving = 0;
+    for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
+      const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
+      if (begin >= first && begin <= last)
+        leaving += (s->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
+    }
+    if (leaving != 0) return leaving > 0 ? OX_END_INSIDE : OX_END_OUTSIDE;
+    passed = last;
+  }
+}
+
+static bool ox_is_parted(const ox_flood_state* s, uint edge) {
+  return ox_side_of_end(s, edge, 0u) != OX_END_UNPARTED;
+}
+
+// Whether it is the crossing by which its edge is looked at, once for all of them.
+static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
+  const uint edge = s->crossings[crossing].edge;
+  const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
+  return s->words[word + 1u] == crossing;
+}
+
+// The ends outside. In front of an open target: a flood that gets there got round its border. And
+// of a mesh of several parts, of which some may have crossings and others none.
+static bool ox_mark_ends(ox_flood_state* s, uint edge) {
+  for (uint end = 0u; end < 2u; ++end) {
+    const uint outside = OX_KEY(s->scene.edges[edge].vertex[end], OX_KEY_OUTSIDE);
+    if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
+        !ox_add_key(s, outside, 0u))
+      return false;
+  }
+  return true;
+}
+
+// On over edges that do not cross.
+static bool ox_flood_on(ox_flood_state* s, uint* next) {
+  for (; *next < s->table.queued; ++*next) {
+    const uint vertex = ox_queue(s->words, &s->table)[*next];
+    for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
+      const ox_neighbour neighbour = s->scene.rings[i];
+      if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
+      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
+    }
+  }
+  return true;
+}
+
+// From a vertex to all that hang together with it, before another is begun with.
+static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
+  s->begin = vertex;
+  return ox_flood_vertex(s, vertex) && ox_flood_on(s, next);
+}
+
+static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
+  for (uint end = 0u; end < 2u; ++end)
+    if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
+        !ox_flood_from(s, s->scene.edges[edge].vertex[end], next))
+      return false;
+  return true;
+}
+
+// Whether a vertex that is not near the surface is inside, or behind an open target: then its own
+// ray meets that from behind, however far off.
+static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
+  const uint side = s->pair_side & 1u;
+  __global const ox_vertex* vertex = s->scene.vertices + index;
+  float3 p = ox_transform(s->pair, side, vload3(0, vertex->position));
+  // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
+  // larger by so much. Rays of vertices start as far out of their own mesh.
+  const float out = OX_INFLATION * s->pair->epsilon;
+  const bool in_larger = side != 0u && !ox_is_open(s);
+  if (!in_larger) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
+  if (!ox_is_open(s))
+    return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
+           (ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
+            (in_larger && ox_closest_triangle(&s->scene.surfaces, s->target, p, out) != OX_NONE));
+  if (!ox_casts_ray(vertex)) return false;
+  const float3 direction = vload3(0, vertex->direction);
+  ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
+  query.direction = ox_rotate(s->pair, side, direction);
+  query.cast = ox_cast_from(p, query.direction);
+  uint work = 0u;
+  const ox_nearest nearest = ox_trace(false, &query, s->target, &s->scene.surfaces, OX_NONE, &work);
+  return nearest.back_t < nearest.front_t;
+}
+
+// Ends outside of a target of several parts: behind the wall in front of them they may be in
+// another part. Asked once.
+static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
+  for (uint end = 0u; end < 2u; ++end) {
+    const uint vertex = s->scene.edges[edge].vertex[end];
+    const uint outside = OX_KEY(vertex, OX_KEY_OUTSIDE);
+    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_has_key(s, outside) ||
+        ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
+      continue;
+    if (ox_is_vertex_inside(s, vertex) ? !ox_flood_from(s, vertex, next)
+                                       : !ox_add_key(s, outside, 0u))
+      return false;
+  }
+  return true;
+}
+
+// Whether of the vertices queued from one on, which hang together without a crossing, the one
+// farthest from that may be inside too. They are all on one side; where one lies on the surface
+// rounding may answer for it. It may for the other one too: then the first answer stands.
+static bool ox_may_be_inside(const ox_flood_state* s, uint first) {
+  __global const uint* queue = ox_queue(s->words, &s->table);
+  const float3 p = vload3(0, s->scene.vertices[queue[first]].position);
+  uint farthest = queue[first];
+  float most = 0.0f;
+  for (uint i = first; i < s->table.queued; ++i) {
+    const float3 d = vload3(0, s->scene.vertices[queue[i]].position) - p;
+    if (!(ox_dot(d, d) > most)) continue;
+    most = ox_dot(d, d);
+    farthest = queue[i];
+  }
+  if (ox_is_vertex_inside(s, farthest)) return true;
+  const float3 there =
+      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
+  const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
+  return ox_closest_triangle(&s->scene.surfaces, s->target, there, near) != OX_NONE;
+}
+
+// Parts of the source that no crossing told of. Behind an open target they are not: what of it is
+// inside of them is so with all of its vertices. Their faces may be crossed all the same.
+static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
+  if (ox_is_open(s) || (s->source->component_count == 1u && crossed)) return true;
+  for (uint i = 0u; i < s->source->component_count; ++i) {
+    const uint vertex = s->scene.components[s->source->component_first + i];
+    if (ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX))) continue;
+    if (!ox_is_vertex_inside(s, vertex)) continue;
+    const uint queued = s->table.queued;
+    s->asks = true;
+    s->refuted = false;
+    const bool done = ox_flood_from(s, vertex, next);
+    s->asks = false;
+    if (!s->refuted && !done) return false;
+    if (s->refuted || !ox_may_be_inside(s, queued))  // on the surface, and outside elsewhere
+      s->table.queued = *next = queued;
+  }
+  return true;
+}
+
+// False: there is no room, or the flood leaks.
+static bool ox_flood(ox_flood_state* s, uint head) {
+  uint count = 0u;
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before) ++count;
+  uint places = OX_LEAST_PLACES;
+  while (places < 4u * count) places *= 2u;
+  s->table.places = s->table.used = s->table.queued = 0u;
+  if (count != 0u) {
+    s->table = ox_empty_table(&s->scene, s->words, places);
+    if (s->table.places == 0u) return false;
+  }
+  uint next = s->table.queued;
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
+    if (!ox_string_crossing(s, c)) return false;
+  const bool marks = ox_is_open(s) || s->source->component_count > 1u;
+  for (uint c = head; c != OX_NONE && marks; c = s->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->crossings[c].edge)) return false;
+  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge, &next)) return false;
+  const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
+  for (uint c = head; c != OX_NONE && many_parts; c = s->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
+  s->crossed = s->table.queued;
+  return ox_flood_components(s, count != 0u, &next);
+}
+
+static void ox_flood_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                           __global ox_chunk_task* tasks, __global ox_ray* rays,
+                           __global uint* words) {
+  const uint first = 2u * scene->pair_first;
+  for (uint i = first + ox_next_item(scene, OX_QUEUE_FLOOD); i < 2u * scene->pair_end;
+       i = first + ox_next_item(scene, OX_QUEUE_FLOOD)) {
+    __global const ox_pair* pair = scene->pairs + (i >> 1);
+    if (pair->near == 0u) continue;
+    ox_flood_state state;
+    state.scene = *scene;
+    state.pair = pair;
+    state.pair_side = i;
+    state.source = scene->meshes + pair->mesh[i & 1u];
+    state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
+    state.crossings = crossings;
+    state.words = words;
+    state.asks = state.refuted = false;
+    state.crossed = 0u;
+    state.leaks = !ox_is_flooded(scene, state.source, state.target);
+    if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
+    if (state.leaks)
+      ox_look_at_all(&state, tasks);
+    else
+      ox_cast_queue(&state, rays);
+  }
+}
+
+__kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
+                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
+  const ox_scene scene = OX_SCENE;
+  ox_flood_sides(&scene, crossings, tasks, rays, words);
+}

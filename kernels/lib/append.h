@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Append lists: a counter each, records behind it. Device only.
+#ifndef ODE_EXT_KERNELS_LIB_APPEND_H
+#define ODE_EXT_KERNELS_LIB_APPEND_H
+
+#include "lib/scene.h"
+
+// More is not counted: a counter that ran past 2^32 would begin again.
+#define OX_MOST_COUNTED 0x80000000u
+
+// Where the next record of a list goes; OX_NONE: it is full, and the counter says by how much.
+static inline uint ox_append(const ox_scene* scene, uint list) {
+  __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
+  const uint slot = atomic_inc(counter);
+  if (slot >= OX_MOST_COUNTED) atomic_dec(counter);
+  return slot < scene->lists[list].capacity ? scene->lists[list].first + slot : OX_NONE;
+}
+
+// The same for so many at once: a counter that all threads add to is what appending one by one
+// waits for. `stored` becomes how many of them there is room for, from the place on that it gives.
+#define OX_MOST_AT_ONCE 16u
+static inline uint ox_append_many(const ox_scene* scene, uint list, uint count, uint* stored) {
+  __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
+  const uint first = atomic_add(counter, count);
+  if (first >= OX_MOST_COUNTED) atomic_sub(counter, count);
+  const uint capacity = scene->lists[list].capacity;
+  *stored = first < capacity ? min(count, capacity - first) : 0u;
+  return scene->lists[list].first + first;
+}
+
+static inline uint ox_length(const ox_scene* scene, uint list) {
+  return min(scene->counters[list * OX_COUNTER_STRIDE], scene->lists[list].capacity);
+}
+
+static inline void ox_count(const ox_scene* scene, uint counter) {
+  atomic_inc(scene->counters + counter * OX_COUNTER_STRIDE);
+}
+
+// Room for so many in one go: the first of their places.
+static inline uint ox_take_room(const ox_scene* scene, uint counter, uint count) {
+  return atomic_add(scene->counters + counter * OX_COUNTER_STRIDE, count);
+}
+
+// The next of the items that no work-item has taken. For work of which one item may be a thousand
+// times the next: on a processor a work-group is one thread's, whatever is in it, and the others
+// would have nothing left to do.
+static inline uint ox_next_item(const ox_scene* scene, uint queue) {
+  return atomic_inc(scene->counters + queue * OX_COUNTER_STRIDE);
+}
+
+#endif

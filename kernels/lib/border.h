@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far behind an open mesh is known to be behind it. Device only.
+//
+// What went through a ground is behind it as deep as it is thick. But that something is behind a
+// surface is known no farther off than the surface goes on to all sides; beyond, it may have come
+// round its border. There the shorter part of a vertex's ray through its own mesh counts. Else a
+// patch that dips into a body would be behind by the far side of that.
+#ifndef ODE_EXT_KERNELS_LIB_BORDER_H
+#define ODE_EXT_KERNELS_LIB_BORDER_H
+
+#include "lib/scene.h"
+#include "lib/transform.h"
+
+static inline float ox_distance2_to_segment(float3 p, float3 a, float3 b) {
+  const float3 along = b - a;
+  const float length2 = ox_dot(along, along);
+  const float s = length2 > 0.0f ? ox_dot(p - a, along) / length2 : 0.0f;
+  const float3 off = p - (a + clamp(s, 0.0f, 1.0f) * along);
+  return ox_dot(off, off);
+}
+
+// The stretch of an edge that is inside, from a crossing on to the next or to its end.
+static inline float3 ox_end_inside(const ox_scene* scene,
+                                   __global const ox_edge_crossing* crossings, uint head,
+                                   __global const ox_edge_crossing* c, float3 start,
+                                   float3 direction) {
+  const bool leaves = c->leaves != 0u;
+  float nearest = INFINITY;
+  for (uint i = head; i != OX_NONE; i = crossings[i].before) {
+    if (crossings[i].edge != c->edge || (crossings[i].leaves != 0u) == leaves) continue;
+    const float after = leaves ? c->t - crossings[i].t : crossings[i].t - c->t;
+    if (after >= 0.0f) nearest = ox_min(nearest, after);
+  }
+  const float3 end =
+      vload3(0, scene->vertices[scene->edges[c->edge].vertex[leaves ? 0u : 1u]].position);
+  return nearest == INFINITY ? end : start + (leaves ? -nearest : nearest) * direction;
+}
+
+// Whether the target of a side of a pair goes on for `distance` about a point of it, in its frame.
+// Of its border what crosses the source is looked at; a target that does not cross it is within it,
+// border and all.
+static inline bool ox_goes_on(const ox_scene* scene, uint pair_side,
+                              __global const ox_edge_crossing* crossings, float3 p,
+                              float distance) {
+  const uint pair = pair_side >> 1;
+  const uint side = 1u - (pair_side & 1u);  // of the target
+  __global const ox_found* found = scene->found + pair;
+  if (found->head[0] == OX_NONE && found->head[1] == OX_NONE) return false;
+  if (distance > scene->meshes[scene->pairs[pair].mesh[side]].radius) return false;
+  for (uint i = found->head[side]; i != OX_NONE; i = crossings[i].before) {
+    __global const ox_edge_crossing* c = crossings + i;
+    __global const ox_edge* edge = scene->edges + c->edge;
+    if (edge->triangle[1] != OX_NONE) continue;
+    const float3 from = vload3(0, scene->vertices[edge->vertex[0]].position);
+    const float3 along = vload3(0, scene->vertices[edge->vertex[1]].position) - from;
+    const float length = sqrt(ox_dot(along, along));
+    const float3 direction = length > 0.0f ? along / length : along;
+    const float3 start = from + c->t * direction;
+    const float3 end = ox_end_inside(scene, crossings, found->head[side], c, start, direction);
+    if (ox_distance2_to_segment(p, start, end) < distance * distance) return false;
+  }
+  return true;
+}
+
+#endif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges of one meshlet against the triangles of another, of meshes in general position. Device
+// only.
+#ifndef ODE_EXT_KERNELS_LIB_CROSS_H
+#define ODE_EXT_KERNELS_LIB_CROSS_H
+
+#include "lib/flooded.h"
+#include "lib/intersect.h"
+
+#define OX_NEW_LEAVES 1u
+#define OX_NEW_FLOODED 2u  // of a side that is flooded: linked from the pair's head on
+
+// Crossings of a pair that are yet to be stored.
+typedef struct {
+  const ox_scene* scene;
+  __global ox_edge_crossing* crossings;  // where to
+  uint pair;
+  uint count;
+  uint flags[OX_MOST_AT_ONCE];  // OX_NEW_..., and the side above them
+  uint edge[OX_MOST_AT_ONCE];
+  uint triangle[OX_MOST_AT_ONCE];
+  float t[OX_MOST_AT_ONCE];
+  float blur[OX_MOST_AT_ONCE];
+} ox_new_crossings;
+#define OX_NEW_SIDE_SHIFT 2u
+
+static inline void ox_store_crossings(ox_new_crossings* fresh) {
+  if (fresh->count == 0u) return;
+  uint stored;
+  const uint first = ox_append_many(fresh->scene, OX_LIST_CROSSINGS, fresh->count, &stored);
+  __global ox_found* found = fresh->scene->found + fresh->pair;
+  uint head[2] = {OX_NONE, OX_NONE};
+  uint tail[2] = {OX_NONE, OX_NONE};
+  for (uint i = 0u; i < stored; ++i) {
+    const uint flags = fresh->flags[i];
+    const uint side = flags >> OX_NEW_SIDE_SHIFT;
+    __global ox_edge_crossing* crossing = fresh->crossings + first + i;
+    crossing->pair_side = fresh->pair << 1 | side;
+    crossing->edge = fresh->edge[i];
+    crossing->triangle = fresh->triangle[i];
+    crossing->t = fresh->t[i];
+    crossing->blur = fresh->blur[i];
+    crossing->leaves = flags & OX_NEW_LEAVES;
+    if ((flags & OX_NEW_FLOODED) == 0u) continue;
+    if (head[side] == OX_NONE) tail[side] = first + i;
+    crossing->before = head[side];
+    head[side] = first + i;
+  }
+  for (uint side = 0u; side < 2u; ++side)
+    if (head[side] != OX_NONE)
+      fresh->crossings[tail[side]].before = atomic_xchg(&found->head[side], head[side]);
+  fresh->count = 0u;
+}
+
+static inline void ox_add_crossing(ox_new_crossings* fresh, uint side, uint edge, uint triangle,
+                                   float t, float blur, uint flags) {
+  const uint i = fresh->count++;
+  fresh->flags[i] = flags | side << OX_NEW_SIDE_SHIFT;
+  fresh->edge[i] = edge;
+  fresh->triangle[i] = triangle;
+  fresh->t[i] = t;
+  fresh->blur[i] = blur;
+  if (fresh->count == OX_MOST_AT_ONCE) ox_store_crossings(fresh);
+}
+
+// How far along an edge triangle k crosses it [m]. By its corners from the first on, in order of
+// their places: the same bits for each triangle that has these corners. *blur [m]: what rounding
+// may have moved it; where the edge runs along the plane that is far.
+static inline float ox_place_of_crossing(float3 from, float3 to, const ox_general_triangles* t,
+                                         uint k, float* blur) {
+  uint first = 0u;
+  for (uint corner = 1u; corner < 3u; ++corner) {
+    const float3 one = ox_general_corner(t, corner, k);
+    const float3 other = ox_general_corner(t, first, k);
+    if (one.x < other.x ||
+        (one.x == other.x && (one.y < other.y || (one.y == other.y && one.z < other.z))))
+      first = corner;
+  }
+  const float3 a = ox_general_corner(t, first, k);
+  const float3 u = ox_general_corner(t, (first + 1u) % 3u, k) - a;
+  const float3 v = ox_general_corner(t, (first + 2u) % 3u, k) - a;
+  const float3 n = ox_plain_cross(u, v);
+  const float3 d = to - from;
+  const float length = sqrt(ox_dot(d, d));
+  const float3 p = from - a;
+  const float3 q = to - a;
+  const float above = ox_dot(n, p);
+  const float along = above - ox_dot(n, q);
+  const float far = ox_max(OX_LARGEST_OF(p.x, p.y, p.z), OX_LARGEST_OF(q.x, q.y, q.z));
+  const float doubt =
+      OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(u.x, u.y, u.z) * OX_LARGEST_OF(v.x, v.y, v.z) * far;
+  // Both heights are off by as much. Where they are 0 the edge lies in the plane: anywhere on it.
+  *blur = fabs(along) > 2.0f * doubt ? ox_min(2.0f * doubt / fabs(along), 1.0f) * length : length;
+  const float part = along != 0.0f ? ox_min(ox_max(above / along, 0.0f), 1.0f) : 0.5f;
+  return part * length;
+}
+
+// The ends of the edges of a meshlet that may cross the other one, a bit for each vertex.
+static inline uint ox_ends_of_near_edges(__global const ox_meshlet* source,
+                                         const ox_general_points* points) {
+  uint ends = 0u;
+  for (uint e = 0u; e < source->edge_count; ++e) {
+    const uint p = OX_END(source->ends, e, 0u);
+    const uint q = OX_END(source->ends, e, 1u);
+    if ((points->beyond[p] & points->beyond[q]) == 0) ends |= 1u << p | 1u << q;
+  }
+  return ends;
+}
+
+// Where the edges of the source cross the triangles of the target, those of some blocks of its
+// lanes; both in general position.
+static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
+                                     __global const ox_pair* pair,
+                                     __global const ox_meshlet* source,
+                                     const ox_general_points* points,
+                                     __global const ox_meshlet* target,
+                                     const ox_general_points* target_points,
+                                     ox_block_range blocks) {
+  uint asked = ox_ends_of_near_edges(source, points);
+  if (asked == 0u) return;
+  __global const ox_mesh* meshes = fresh->scene->meshes;
+  const uint flags =
+      ox_is_flooded(fresh->scene, meshes + pair->mesh[side], meshes + pair->mesh[1u - side])
+          ? OX_NEW_FLOODED
+          : 0u;
+  ox_general_triangles triangles;
+  ox_gather_triangles(pair, 1u - side, target, target_points, blocks, &triangles);
+  const ox_general_triangles* t = &triangles;
+  ox_general_planes planes;
+  ox_make_planes(t, blocks, &planes);
+  ox_heights heights[OX_LANES];
+  for (; asked != 0u; asked &= asked - 1u) {
+    const uint v = ox_lowest(asked);
+    heights[v] = ox_heights_over(t, &planes, blocks, ox_general_point(points, v));
+  }
+  const uint present = (1u << target->triangle_count) - 1u;
+  for (uint e = 0u; e < source->edge_count; ++e) {
+    const uint p = OX_END(source->ends, e, 0u);
+    const uint q = OX_END(source->ends, e, 1u);
+    if ((points->beyond[p] & points->beyond[q]) != 0) continue;
+    const uint doubt = heights[p].doubt | heights[q].doubt;
+    const uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & present;
+    if (asked_of == 0u) continue;
+    const float3 from = ox_general_point(points, p);
+    const float3 to = ox_general_point(points, q);
+    const ox_passes passes = ox_passes_of(t, blocks, from, to - from);
+    const uint out = heights[q].above;  // where that is sure
+    const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));
+    uint met = asked_of &
+               (((out | doubt) & passes.perhaps_left) | ((~out | doubt) & passes.perhaps_right));
+    for (; met != 0u; met &= met - 1u) {
+      const uint k = ox_lowest(met);
+      const float3 a = ox_general_corner(t, 0u, k);
+      uint way = (out >> k & 1u) != 0u ? OX_CROSSING_OUT : OX_CROSSING_IN;
+      if ((sure >> k & 1u) == 0u)
+        way = ox_cross_exactly(pair, side, from, to, a, ox_general_corner(t, 1u, k),
+                               ox_general_corner(t, 2u, k));
+      if (way == OX_NO_CROSSING) continue;
+      float blur;
+      const float place = ox_place_of_crossing(from, to, t, k, &blur);
+      ox_add_crossing(fresh, side, source->edge[e], target->triangle_first + k, place, blur,
+                      flags | (way == OX_CROSSING_OUT ? OX_NEW_LEAVES : 0u));
+    }
+  }
+}
+
+// Two meshlets of a pair, in general position.
+typedef struct {
+  __global const ox_pair* pair;
+  __global const ox_meshlet* meshlet[2];
+  ox_general_points points[2];
+} ox_placed_meshlets;
+
+// False: they lie apart.
+static inline bool ox_place_meshlets(const ox_scene* scene, const ox_meshlet_pair* both,
+                                     ox_placed_meshlets* placed) {
+  __global const ox_pair* pair = scene->pairs + both->pair;
+  __global const ox_meshlet* a = scene->surfaces.meshlets + both->meshlet[0];
+  __global const ox_meshlet* b = scene->surfaces.meshlets + both->meshlet[1];
+  placed->pair = pair;
+  placed->meshlet[0] = a;
+  placed->meshlet[1] = b;
+  ox_general_points* points = placed->points;
+  ox_place_generally(pair, 0u, a, &points[0]);
+  ox_box box;
+  box.lo = vload3(0, b->lo) - pair->epsilon;  // the grid moves them by less
+  box.hi = vload3(0, b->hi) + pair->epsilon;
+  ox_slab slab;
+  slab.normal = vload3(0, b->slab_normal);
+  slab.lo = b->slab_lo - 2.0f * pair->epsilon;
+  slab.hi = b->slab_hi + 2.0f * pair->epsilon;
+  if (!ox_note_beyond(&points[0], &box, &slab)) return false;
+  ox_place_generally(pair, 1u, b, &points[1]);
+  box = ox_box_of_points(&points[0]);
+  slab = ox_slab_there(pair, 0u, a, pair->margin);
+  return ox_note_beyond(&points[1], &box, &slab);
+}
+
+// The edges of the meshlets of `sides` of two against the triangles of the other one, those of some
+// blocks of its lanes.
+static inline void ox_cross_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                                  const ox_meshlet_pair* both, uint first_side, uint end_side,
+                                  ox_block_range blocks) {
+  ox_placed_meshlets placed;
+  if (!ox_place_meshlets(scene, both, &placed)) return;
+  ox_new_crossings fresh;
+  fresh.scene = scene;
+  fresh.crossings = crossings;
+  fresh.pair = both->pair;
+  fresh.count = 0u;
+  for (uint side = first_side; side < end_side; ++side)
+    ox_intersect_side(&fresh, side, placed.pair, placed.meshlet[side], &placed.points[side],
+                      placed.meshlet[1u - side], &placed.points[1u - side], blocks);
+  ox_store_crossings(&fresh);
+}
+
+// The edges of either meshlet against the triangles of the other, by one work-item.
+static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
+                                     const ox_meshlet_pair* both) {
+  ox_cross_sides(scene, crossings, both, 0u, 2u, OX_ALL_BLOCKS);
+}
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a flood knows of one side of a pair: a hash table with open addressing, and the queue of the
+// vertices to go on from. Grows by moving, so that room goes by what is found. Device only.
+//
+// Segment of 2^k places: a key and a value each, then the queue, half as many words.
+#ifndef ODE_EXT_KERNELS_LIB_FLOOD_TABLE_H
+#define ODE_EXT_KERNELS_LIB_FLOOD_TABLE_H
+
+#include "lib/append.h"
+
+// What a key is of: the index of a vertex or an edge. They are below 2^30: as many edges are those
+// of 700 million triangles, and their meshlets one buffer of 45 GiB.
+#define OX_KEY_VERTEX 1u   // has its ray
+#define OX_KEY_OUTSIDE 2u  // a vertex that needs none
+#define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
+#define OX_KEY(index, kind) ((index) << 2 | (kind))
+
+#define OX_LEAST_PLACES 16u
+
+typedef struct {
+  uint first;   // word of the segment
+  uint places;  // a power of two; 0: there was no room
+  uint used;
+  uint queued;
+} ox_flood_table;
+
+// Room for `count` words, or OX_NONE: the counter says what is lacking. It stops at
+// OX_MOST_COUNTED, whatever is asked for.
+static inline uint ox_take_words(const ox_scene* scene, uint count) {
+  __global volatile uint* counter = scene->counters + OX_LIST_FLOOD_WORDS * OX_COUNTER_STRIDE;
+  uint first = *counter;
+  for (;;) {
+    const uint end = count < OX_MOST_COUNTED - first ? first + count : OX_MOST_COUNTED;
+    const uint seen = atomic_cmpxchg(counter, first, end);
+    if (seen == first) break;
+    first = seen;
+  }
+  const ox_list list = scene->lists[OX_LIST_FLOOD_WORDS];
+  return first < list.capacity && count <= list.capacity - first ? list.first + first : OX_NONE;
+}
+
+static inline ox_flood_table ox_empty_table(const ox_scene* scene, __global uint* words,
+                                            uint places) {
+  ox_flood_table table;
+  table.first = ox_take_words(scene, 2u * places + places / 2u);
+  table.places = table.first == OX_NONE ? 0u : places;
+  table.used = 0u;
+  table.queued = 0u;
+  for (uint i = 0u; i < table.places; ++i) words[table.first + 2u * i] = 0u;
+  return table;
+}
+
+// The word of a key: where it is, or would be.
+static inline uint ox_find_key(__global const uint* words, const ox_flood_table* table, uint key) {
+  uint place = key * 0x9e3779b1u >> 7;  // multiplicative (Knuth)
+  for (;; ++place) {
+    const uint word = table->first + 2u * (place & (table->places - 1u));
+    if (words[word] == key || words[word] == 0u) return word;
+  }
+}
+
+static inline __global uint* ox_queue(__global uint* words, const ox_flood_table* table) {
+  return words + table->first + 2u * table->places;
+}
+
+// Room for one key more; the table is at most half full. False: there is none.
+static inline bool ox_grow_table(const ox_scene* scene, __global uint* words,
+                                 ox_flood_table* table) {
+  if (2u * (table->used + 1u) <= table->places) return true;
+  if (table->places == 0u) {
+    *table = ox_empty_table(scene, words, OX_LEAST_PLACES);
+    return table->places != 0u;
+  }
+  ox_flood_table larger = ox_empty_table(scene, words, 2u * table->places);
+  if (larger.places == 0u) {
+    // More than is needed now: the less often a step is redone.
+    ox_take_words(scene, 16u * min(table->places, OX_MOST_COUNTED / 16u));
+    return false;
+  }
+  for (uint i = 0u; i < table->places; ++i) {
+    const uint key = words[table->first + 2u * i];
+    if (key == 0u) continue;
+    const uint word = ox_find_key(words, &larger, key);
+    words[word] = key;
+    words[word + 1u] = words[table->first + 2u * i + 1u];
+  }
+  for (uint i = 0u; i < table->queued; ++i) ox_queue(words, &larger)[i] = ox_queue(words, table)[i];
+  larger.used = table->used;
+  larger.queued = table->queued;
+  *table = larger;
+  return true;
+}
+
+#endif

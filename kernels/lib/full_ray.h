@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The two full ray algorithms (GRAPP section 3.3): traversal of a BVH, and every triangle in turn.
+// Device only.
+#ifndef ODE_EXT_KERNELS_LIB_FULL_RAY_H
+#define ODE_EXT_KERNELS_LIB_FULL_RAY_H
+
+#include "lib/general_position.h"
+#include "lib/meshlet_tree.h"
+#include "lib/nearest.h"
+#include "lib/ray_meshlet.h"
+#include "lib/scene.h"
+
+// In boxes.
+#define OX_WORK_TRIANGLE 2u
+
+static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces* surfaces,
+                                       __global const ox_meshlet* meshlet, float from,
+                                       ox_nearest* nearest) {
+  for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
+    ox_floats t, determinant;
+    ox_ints met;
+    ox_meets_lanes(&query->cast, meshlet, first / OX_VECTOR_WIDTH, &met, &t, &determinant);
+    met &= (t >= from) & (t <= ox_limit(query, nearest)) & (t < INFINITY);
+    uint left = ox_mask_of(&met);
+    if (left == 0u) continue;
+    float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
+    ox_store(t, 0, t_lane);
+    ox_store(determinant, 0, determinant_lane);
+    for (; left != 0u; left &= left - 1u) {
+      const uint k = ox_lowest(left);
+      ox_consider_met(query, surfaces->triangles, meshlet->triangle_first + first + k, t_lane[k],
+                      determinant_lane[k] < 0.0f, nearest);
+    }
+  }
+}
+
+// The nearer child of each node first: most of what lies behind the first hit is never looked at.
+// `seed`: a triangle that is likely to be near the first hit; OX_NONE: none is known.
+static inline ox_nearest ox_trace_bvh(const ox_query* query, __global const ox_mesh* mesh,
+                                      const ox_surfaces* surfaces, uint seed, uint* work) {
+  ox_nearest nearest = ox_nothing();
+  const float from = ox_min(-query->epsilon, -query->behind);
+  if (seed != OX_NONE) {
+    ox_consider(query, surfaces->triangles, seed, &nearest);
+    *work += OX_WORK_TRIANGLE;
+  }
+  ox_ray_walk walk = ox_begin_ray_walk(mesh);
+  for (;;) {
+    const uint next = ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, from,
+                                     ox_limit(query, &nearest), work);
+    if (next == OX_NONE) return nearest;
+    __global const ox_meshlet* meshlet = surfaces->meshlets + next;
+    ox_consider_meshlet(query, surfaces, meshlet, from, &nearest);
+    *work += meshlet->triangle_count * OX_WORK_TRIANGLE;
+  }
+}
+
+static inline ox_nearest ox_trace_all(const ox_query* query, __global const ox_mesh* mesh,
+                                      const ox_surfaces* surfaces, uint* work) {
+  ox_nearest nearest = ox_nothing();
+  for (uint k = 0u; k < mesh->triangle_count; ++k)
+    ox_consider(query, surfaces->triangles, mesh->triangle_first + k, &nearest);
+  *work += mesh->triangle_count * OX_WORK_TRIANGLE;
+  return nearest;
+}
+
+static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global const ox_mesh* mesh,
+                                  const ox_surfaces* surfaces, uint seed, uint* work) {
+  return basic ? ox_trace_all(query, mesh, surfaces, work)
+               : ox_trace_bvh(query, mesh, surfaces, seed, work);
+}
+
+// A ray that tells whether its origin is inside: in any direction, but two of which graze by a
+// coincidence only. k below OX_ASKING_RAYS.
+#define OX_ASKING_RAYS 3u
+static inline ox_query ox_asking_query(uint k, float3 origin, float epsilon) {
+  ox_query query;
+  query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
+                    : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
+                              : (float3)(0.3319f, -0.6203f, -0.7107f);
+  query.cast = ox_cast_from(origin, query.direction);
+  query.epsilon = epsilon;
+  query.t_max = INFINITY;
+  query.behind = 0.0f;
+  query.two_sided = false;
+  query.known = false;
+  return query;
+}
+
+// Whether a vertex whose ray grazes is inside a closed target. Undecided after three: outside.
+static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global const ox_mesh* mesh,
+                                const ox_surfaces* surfaces, uint* work) {
+  for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
+    const ox_query query = ox_asking_query(k, grazing->cast.origin, grazing->epsilon);
+    const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, OX_NONE, work);
+    if (!ox_grazes(&nearest, query.epsilon)) return nearest.back_t < nearest.front_t;
+  }
+  return false;
+}
+
+// How often a ray leaves the mesh more than it enters it. One through an edge counts twice there.
+static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* mesh,
+                                 const ox_surfaces* surfaces) {
+  uint work = 0u;
+  int sum = 0;
+  ox_ray_walk walk = ox_begin_ray_walk(mesh);
+  for (;;) {
+    const uint next =
+        ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, 0.0f, INFINITY, &work);
+    if (next == OX_NONE) return sum;
+    __global const ox_meshlet* meshlet = surfaces->meshlets + next;
+    for (uint block = 0u; OX_VECTOR_WIDTH * block < meshlet->triangle_count; ++block) {
+      ox_floats t, determinant;
+      ox_ints met;
+      ox_meets_lanes(&query->cast, meshlet, block, &met, &t, &determinant);
+      met &= (t >= 0.0f) & (t < INFINITY);
+      uint left = ox_mask_of(&met);
+      if (left == 0u) continue;
+      float determinant_lane[OX_VECTOR_WIDTH];
+      ox_store(determinant, 0, determinant_lane);
+      for (; left != 0u; left &= left - 1u)
+        sum += determinant_lane[ox_lowest(left)] < 0.0f ? 1 : -1;
+    }
+  }
+}
+
+// Whether a point that is not near the surface is inside a closed mesh, which may cut itself: the
+// surface winds about it. What is met first tells if that is a back face; behind a front face there
+// may be the wall of another part that the point is in.
+static inline bool ox_winds_about(float3 point, float epsilon, __global const ox_mesh* mesh,
+                                  const ox_surfaces* surfaces) {
+  uint work = 0u;
+  for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
+    const ox_query query = ox_asking_query(k, point, epsilon);
+    const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
+    if (ox_grazes(&nearest, epsilon)) continue;
+    if (nearest.back_t < nearest.front_t) return true;
+    return nearest.front != OX_NONE && ox_leaves_more(&query, mesh, surfaces) > 0;
+  }
+  return false;
+}
+
+// The ray of a vertex, in the frame of the target.
+typedef struct {
+  float3 origin, direction;
+  float ahead;  // [m] how far before its vertex it starts: as in general position
+  float exit;   // [m] where it leaves its own mesh
+  float epsilon;
+  bool both_ways;  // the source is a sheet: along -direction too, and the shallower exit counts
+  bool known;      // its vertex is inside
+} ox_vertex_ray;
+
+static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
+                                      __global const ox_mesh* meshes,
+                                      __global const ox_vertex* vertex) {
+  __global const ox_mesh* source = meshes + pair->mesh[side];
+  __global const ox_mesh* target = meshes + pair->mesh[1u - side];
+  ox_vertex_ray ray;
+  ray.direction = ox_rotate(pair, side, vload3(0, vertex->direction));
+  ray.ahead = OX_INFLATION * pair->epsilon;
+  ray.origin = ox_transform(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
+  ray.epsilon = pair->epsilon;
+  ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;
+  ray.exit = vertex->exit;
+  ray.known = false;
+  const bool closed = (target->flags & OX_MESH_CLOSED) != 0u;
+  // A sheet's thickness says nothing about how deep it is in a solid. A sheet that cuts through a
+  // solid source parts the vertex's way through it in two: what is on the shorter part is beyond.
+  if (ray.both_ways && closed) ray.exit = INFINITY;
+  if ((target->flags & OX_MESH_TWO_SIDED) != 0u && (source->flags & OX_MESH_CLOSED) != 0u)
+    ray.exit = 0.5f * ray.exit;
+  ray.exit += ray.ahead;
+  return ray;
+}
+
+// Casts it in full. *remember becomes the triangle for the next step, over all meshes; `behind`
+// [m]: how far behind the vertex it may be.
+static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
+                                         __global const ox_mesh* mesh, const ox_surfaces* surfaces,
+                                         uint seed, float behind, uint* remember, uint* work) {
+  const bool closed = (mesh->flags & OX_MESH_CLOSED) != 0u;
+  ox_query query;
+  query.epsilon = ray->epsilon;
+  // Against an open target nothing beyond the source's own exit can be told to be inside.
+  query.t_max = closed ? INFINITY : ray->exit + ray->epsilon;
+  query.behind = behind;
+  query.known = ray->known;
+  query.two_sided = (mesh->flags & OX_MESH_TWO_SIDED) != 0u;
+  ox_outcome best = ox_miss();
+  *remember = OX_NONE;
+  for (uint way = 0u; way < (ray->both_ways ? 2u : 1u); ++way) {
+    query.direction = way == 0u ? ray->direction : -ray->direction;
+    const float3 origin =
+        way == 0u ? ray->origin : ray->origin + 2.0f * ray->ahead * ray->direction;
+    query.cast = ox_cast_from(origin, query.direction);
+    const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, seed, work);
+    bool inside = false;
+    if (closed && !ray->known && ox_grazes(&nearest, query.epsilon))
+      inside = ox_is_inside(basic, &query, mesh, surfaces, work);
+    const ox_outcome outcome = ox_judge(&query, &nearest, inside, ray->exit, surfaces->triangles);
+    const uint kind = outcome.kind & OX_HIT_KIND;
+    const uint best_kind = best.kind & OX_HIT_KIND;
+    if (way == 0u || kind < best_kind || (kind == best_kind && outcome.t < best.t)) {
+      best = outcome;
+      *remember = ox_to_remember(&nearest);
+    }
+  }
+  return best;
+}
+
+#endif

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges of one meshlet against the triangles of another, in general position: by floats where
+// their rounding leaves no doubt, else exactly (lib/exact_sign.h). Device only.
+#ifndef ODE_EXT_KERNELS_LIB_INTERSECT_H
+#define ODE_EXT_KERNELS_LIB_INTERSECT_H
+
+#include "lib/exact_sign.h"
+#include "lib/meshlet.h"
+
+// What a determinant of three differences, exact each, is off by at most, in parts of the product
+// of the largest coordinates of the three. Each term of a minor takes 3 roundings of at most twice
+// that product of two, each term of the determinant 2 more and their sum 2: 12, 12 and 6 times
+// 2^-24; 32 of them.
+#define OX_DETERMINANT_ROUNDING 0x1p-19f
+
+// The vertices of a meshlet in general position, lane by lane, and beyond which sides of the other
+// one's box and slab each lies, a bit for each side.
+typedef struct {
+  float x[OX_LANES], y[OX_LANES], z[OX_LANES];
+  int beyond[OX_LANES];
+} ox_general_points;
+
+// The triangles of one: corners a, b, c; x, y, z.
+typedef struct {
+  float corner[3][3][OX_LANES];
+} ox_general_triangles;
+
+static inline void ox_place_generally(__global const ox_pair* pair, uint side,
+                                      __global const ox_meshlet* meshlet, ox_general_points* p) {
+  __global const float* r = pair->rotation[0];
+  __global const float* o = pair->offset[0];
+  const float out = OX_INFLATION * pair->epsilon;
+  const float snap = pair->snap;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    ox_floats x = ox_load(block, meshlet->vertex[0]);
+    ox_floats y = ox_load(block, meshlet->vertex[1]);
+    ox_floats z = ox_load(block, meshlet->vertex[2]);
+    if (side == 0u) {
+      const ox_floats nx = -ox_load(block, meshlet->normal[0]);
+      const ox_floats ny = -ox_load(block, meshlet->normal[1]);
+      const ox_floats nz = -ox_load(block, meshlet->normal[2]);
+      const ox_floats px = r[0] * x + r[1] * y + r[2] * z + o[0];
+      const ox_floats py = r[3] * x + r[4] * y + r[5] * z + o[1];
+      const ox_floats pz = r[6] * x + r[7] * y + r[8] * z + o[2];
+      x = px - out * (r[0] * nx + r[1] * ny + r[2] * nz);
+      y = py - out * (r[3] * nx + r[4] * ny + r[5] * nz);
+      z = pz - out * (r[6] * nx + r[7] * ny + r[8] * nz);
+    }
+    ox_store(x + snap - snap, block, p->x);
+    ox_store(y + snap - snap, block, p->y);
+    ox_store(z + snap - snap, block, p->z);
+  }
+}
+
+static inline float3 ox_general_point(const ox_general_points* p, uint k) {
+  return (float3)(p->x[k], p->y[k], p->z[k]);
+}
+
+static inline void ox_range_of(const float* values, float* least, float* greatest) {
+  ox_floats lo = ox_load_unaligned(0u, values);
+  ox_floats hi = lo;
+  for (uint block = 1u; block < OX_BLOCKS; ++block) {
+    const ox_floats v = ox_load_unaligned(block, values);
+    lo = OX_LESSER(lo, v);
+    hi = OX_GREATER(hi, v);
+  }
+  *least = ox_least_of(&lo);
+  *greatest = ox_greatest_of(&hi);
+}
+
+static inline ox_box ox_box_of_points(const ox_general_points* p) {
+  float lo[3], hi[3];
+  ox_range_of(p->x, &lo[0], &hi[0]);
+  ox_range_of(p->y, &lo[1], &hi[1]);
+  ox_range_of(p->z, &lo[2], &hi[2]);
+  ox_box box;
+  box.lo = vload3(0, lo);
+  box.hi = vload3(0, hi);
+  return box;
+}
+
+// Notes beyond what each point lies. False: all lie beyond one side.
+static inline bool ox_note_beyond(ox_general_points* p, const ox_box* box, const ox_slab* slab) {
+  const float3 lo = box->lo;
+  const float3 hi = box->hi;
+  const float3 n = slab->normal;
+  int beyond_all = -1;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    const ox_floats x = ox_load_unaligned(block, p->x);
+    const ox_floats y = ox_load_unaligned(block, p->y);
+    const ox_floats z = ox_load_unaligned(block, p->z);
+    const ox_floats height = n.x * x + n.y * y + n.z * z;
+    const ox_ints none = 0;
+    const ox_ints beyond = (x < lo.x ? none + 1 : none) | (x > hi.x ? none + 2 : none) |
+                           (y < lo.y ? none + 4 : none) | (y > hi.y ? none + 8 : none) |
+                           (z < lo.z ? none + 16 : none) | (z > hi.z ? none + 32 : none) |
+                           (height < slab->lo ? none + 64 : none) |
+                           (height > slab->hi ? none + 128 : none);
+    ox_store(beyond, block, p->beyond);
+    beyond_all &= ox_and_of(&beyond);
+  }
+  return beyond_all == 0;
+}
+
+// Of B: their own corners on the grid. Of A: those among its vertices in general position.
+static inline void ox_gather_triangles(__global const ox_pair* pair, uint side,
+                                       __global const ox_meshlet* meshlet,
+                                       const ox_general_points* p, ox_block_range blocks,
+                                       ox_general_triangles* t) {
+  if (side != 0u) {
+    const float snap = pair->snap;
+    for (uint block = blocks.first; block < blocks.end; ++block)
+      for (uint corner = 0u; corner < 3u; ++corner)
+        for (uint axis = 0u; axis < 3u; ++axis)
+          ox_store(ox_load(block, meshlet->corner[corner][axis]) + snap - snap, block,
+                   t->corner[corner][axis]);
+    return;
+  }
+  for (uint k = OX_VECTOR_WIDTH * blocks.first; k < OX_VECTOR_WIDTH * blocks.end; ++k)
+    for (uint corner = 0u; corner < 3u; ++corner) {
+      const uint v = k < meshlet->triangle_count ? OX_CORNER(meshlet->places, k, corner) : 0u;
+      t->corner[corner][0][k] = p->x[v];
+      t->corner[corner][1][k] = p->y[v];
+      t->corner[corner][2][k] = p->z[v];
+    }
+}
+
+static inline float3 ox_general_corner(const ox_general_triangles* t, uint corner, uint k) {
+  return (float3)(t->corner[corner][0][k], t->corner[corner][1][k], t->corner[corner][2][k]);
+}
+
+// Of a point, a bit for each triangle of the blocks: whether it is above its plane, and whether
+// that is in doubt.
+typedef struct {
+  uint above, doubt;
+} ox_heights;
+
+#define OX_LARGEST_OF(x, y, z) OX_GREATER(OX_GREATER(fabs(x), fabs(y)), fabs(z))
+
+// Normals of the triangles, and what the heights of points over them are in doubt by, in parts of
+// the largest coordinate of the point from a.
+typedef struct {
+  float normal[3][OX_LANES];
+  float doubt[OX_LANES];
+} ox_general_planes;
+
+static inline void ox_make_planes(const ox_general_triangles* t, ox_block_range blocks,
+                                  ox_general_planes* planes) {
+  for (uint block = blocks.first; block < blocks.end; ++block) {
+    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]);
+    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]);
+    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]);
+    const ox_floats ux = ox_load_unaligned(block, t->corner[1][0]) - ax;
+    const ox_floats uy = ox_load_unaligned(block, t->corner[1][1]) - ay;
+    const ox_floats uz = ox_load_unaligned(block, t->corner[1][2]) - az;
+    const ox_floats vx = ox_load_unaligned(block, t->corner[2][0]) - ax;
+    const ox_floats vy = ox_load_unaligned(block, t->corner[2][1]) - ay;
+    const ox_floats vz = ox_load_unaligned(block, t->corner[2][2]) - az;
+    ox_store(uy * vz - uz * vy, block, planes->normal[0]);
+    ox_store(uz * vx - ux * vz, block, planes->normal[1]);
+    ox_store(ux * vy - uy * vx, block, planes->normal[2]);
+    ox_store(OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(ux, uy, uz) * OX_LARGEST_OF(vx, vy, vz), block,
+             planes->doubt);
+  }
+}
+
+static inline ox_heights ox_heights_over(const ox_general_triangles* t,
+                                         const ox_general_planes* planes, ox_block_range blocks,
+                                         float3 p) {
+  ox_heights heights = {0u, 0u};
+  for (uint block = blocks.first; block < blocks.end; ++block) {
+    const ox_floats x = p.x - ox_load_unaligned(block, t->corner[0][0]);
+    const ox_floats y = p.y - ox_load_unaligned(block, t->corner[0][1]);
+    const ox_floats z = p.z - ox_load_unaligned(block, t->corner[0][2]);
+    const ox_floats height = ox_load_unaligned(block, planes->normal[0]) * x +
+                             ox_load_unaligned(block, planes->normal[1]) * y +
+                             ox_load_unaligned(block, planes->normal[2]) * z;
+    const ox_floats doubt = ox_load_unaligned(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
+    const ox_ints above = height > 0.0f;
+    const ox_ints doubtful = fabs(height) <= doubt;
+    heights.above |= ox_mask_of(&above) << (OX_VECTOR_WIDTH * block);
+    heights.doubt |= ox_mask_of(&doubtful) << (OX_VECTOR_WIDTH * block);
+  }
+  return heights;
+}
+
+// How the line from p along d passes triangles of the blocks, a bit for each: with all edges on its
+// left, or on its right, surely, or perhaps.
+typedef struct {
+  uint left, right, perhaps_left, perhaps_right;
+} ox_passes;
+
+static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_range blocks, float3 p,
+                                     float3 d) {
+  ox_passes passes = {0u, 0u, 0u, 0u};
+  const float size = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z);
+  for (uint block = blocks.first; block < blocks.end; ++block) {
+    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]) - p.x;
+    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]) - p.y;
+    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]) - p.z;
+    const ox_floats bx = ox_load_unaligned(block, t->corner[1][0]) - p.x;
+    const ox_floats by = ox_load_unaligned(block, t->corner[1][1]) - p.y;
+    const ox_floats bz = ox_load_unaligned(block, t->corner[1][2]) - p.z;
+    const ox_floats cx = ox_load_unaligned(block, t->corner[2][0]) - p.x;
+    const ox_floats cy = ox_load_unaligned(block, t->corner[2][1]) - p.y;
+    const ox_floats cz = ox_load_unaligned(block, t->corner[2][2]) - p.z;
+    const ox_floats u =
+        d.x * (by * cz - bz * cy) + d.y * (bz * cx - bx * cz) + d.z * (bx * cy - by * cx);
+    const ox_floats v =
+        d.x * (cy * az - cz * ay) + d.y * (cz * ax - cx * az) + d.z * (cx * ay - cy * ax);
+    const ox_floats w =
+        d.x * (ay * bz - az * by) + d.y * (az * bx - ax * bz) + d.z * (ax * by - ay * bx);
+    const ox_floats of_a = OX_LARGEST_OF(ax, ay, az);
+    const ox_floats of_b = OX_LARGEST_OF(bx, by, bz);
+    const ox_floats of_c = OX_LARGEST_OF(cx, cy, cz);
+    const ox_floats largest = OX_GREATER(OX_GREATER(of_a, of_b), of_c);
+    const ox_floats doubt = size * largest * largest;
+    const ox_floats least = OX_LESSER(OX_LESSER(u, v), w);
+    const ox_floats greatest = OX_GREATER(OX_GREATER(u, v), w);
+    const ox_ints left = least > doubt;
+    const ox_ints right = greatest < -doubt;
+    const ox_ints perhaps_left = least >= -doubt;
+    const ox_ints perhaps_right = greatest <= doubt;
+    const uint shift = OX_VECTOR_WIDTH * block;
+    passes.left |= ox_mask_of(&left) << shift;
+    passes.right |= ox_mask_of(&right) << shift;
+    passes.perhaps_left |= ox_mask_of(&perhaps_left) << shift;
+    passes.perhaps_right |= ox_mask_of(&perhaps_right) << shift;
+  }
+  return passes;
+}
+
+#endif

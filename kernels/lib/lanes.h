@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The lanes of a meshlet, OX_LANES of them, taken OX_VECTOR_WIDTH at a time: as vectors where the
+// device has such, one by one where it has not. Lane by lane the same operations in the same order,
+// so the width changes no bit. The host chooses it (opencl/program.h). Device only.
+//
+// Of a comparison only say whether it is 0: true is -1 in a vector and 1 alone.
+#ifndef ODE_EXT_KERNELS_LIB_LANES_H
+#define ODE_EXT_KERNELS_LIB_LANES_H
+
+#include "lib/transform.h"
+
+#ifndef OX_VECTOR_WIDTH
+#define OX_VECTOR_WIDTH 8
+#endif
+
+#define OX_BLOCKS (OX_LANES / OX_VECTOR_WIDTH)
+
+// The blocks that a work-item takes, from `first` up to `end`: on a processor all of them; on a
+// GPU, where a lane is a work-item, one. Masks then have bits of these alone.
+typedef struct {
+  uint first, end;
+} ox_block_range;
+#define OX_ALL_BLOCKS ((ox_block_range){0u, OX_BLOCKS})
+
+// Values go to functions by address: by value their convention changes with what the CPU has.
+#if OX_VECTOR_WIDTH == 16
+typedef float16 ox_floats;
+typedef int16 ox_ints;
+#define ox_store(v, block, p) vstore16(v, block, p)
+#elif OX_VECTOR_WIDTH == 8
+typedef float8 ox_floats;
+typedef int8 ox_ints;
+#define ox_store(v, block, p) vstore8(v, block, p)
+#elif OX_VECTOR_WIDTH == 4
+typedef float4 ox_floats;
+typedef int4 ox_ints;
+#define ox_store(v, block, p) vstore4(v, block, p)
+#elif OX_VECTOR_WIDTH == 1
+typedef float ox_floats;
+typedef int ox_ints;
+#define ox_store(v, block, p) ((p)[block] = (v))
+#else
+#error "OX_VECTOR_WIDTH is 1, 4, 8 or 16"
+#endif
+
+// A block of the lanes of a record, which lie on a boundary of all of them: buffers do, and their
+// records' lanes come first or after as many bytes (abi/types.h).
+#define ox_load(block, p) (((__global const ox_floats*)(p))[block])
+
+// The same of what need not lie there: in halves.
+#if OX_VECTOR_WIDTH == 16
+#define ox_load_unaligned(block, p) vload16(block, p)
+#elif OX_VECTOR_WIDTH == 8
+#define ox_load_unaligned(block, p) vload8(block, p)
+#elif OX_VECTOR_WIDTH == 4
+#define ox_load_unaligned(block, p) vload4(block, p)
+#else
+#define ox_load_unaligned(block, p) ((p)[block])
+#endif
+
+// Not fmin and fmax, which mind what is no number and take PoCL several times as long: where one is
+// none these give b.
+#define OX_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#define OX_GREATER(a, b) ((a) > (b) ? (a) : (b))
+
+// All lanes by one operator: `op(a, b)`.
+#define OX_OR(a, b) ((a) | (b))
+#define OX_AND(a, b) ((a) & (b))
+#define OX_FOLD4(v, op) op(op((v).x, (v).y), op((v).z, (v).w))
+#if OX_VECTOR_WIDTH == 16
+#define OX_FOLD(v, op) OX_FOLD4(op(op((v).s0123, (v).s4567), op((v).s89ab, (v).scdef)), op)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_FOLD(v, op) OX_FOLD4(op((v).lo, (v).hi), op)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_FOLD(v, op) OX_FOLD4(v, op)
+#else
+#define OX_FOLD(v, op) (v)
+#endif
+
+// The least bit that is set, of one that has any.
+static inline uint ox_lowest(uint bits) { return 31u - clz(bits & (~bits + 1u)); }
+
+// A bit for each lane where a comparison holds.
+#if OX_VECTOR_WIDTH == 16
+#define OX_LANE_BITS \
+  (int16)(1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_LANE_BITS (int8)(1, 2, 4, 8, 16, 32, 64, 128)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_LANE_BITS (int4)(1, 2, 4, 8)
+#else
+#define OX_LANE_BITS 1
+#endif
+
+#if OX_VECTOR_WIDTH == 16
+#define OX_LANE_NUMBERS (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#elif OX_VECTOR_WIDTH == 8
+#define OX_LANE_NUMBERS (int8)(0, 1, 2, 3, 4, 5, 6, 7)
+#elif OX_VECTOR_WIDTH == 4
+#define OX_LANE_NUMBERS (int4)(0, 1, 2, 3)
+#else
+#define OX_LANE_NUMBERS 0
+#endif
+
+#define OX_ALL_LANES ((1u << OX_VECTOR_WIDTH) - 1u)
+
+static inline uint ox_mask_of(const ox_ints* v) {
+  const ox_ints bits = *v & OX_LANE_BITS;
+  return as_uint(OX_FOLD(bits, OX_OR));
+}
+
+// A bit for each lane of a block that is one of so many in all.
+static inline uint ox_present_lanes(uint count, uint block) {
+  const uint before = OX_VECTOR_WIDTH * block;
+  if (count <= before) return 0u;
+  return count - before < OX_VECTOR_WIDTH ? (1u << (count - before)) - 1u : OX_ALL_LANES;
+}
+
+static inline int ox_and_of(const ox_ints* v) { return OX_FOLD(*v, OX_AND); }
+static inline float ox_least_of(const ox_floats* v) { return OX_FOLD(*v, OX_LESSER); }
+static inline float ox_greatest_of(const ox_floats* v) { return OX_FOLD(*v, OX_GREATER); }
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The rays of vertices: who gets one, and what it hits. Device only.
+#ifndef ODE_EXT_KERNELS_LIB_VERTEX_RAY_H
+#define ODE_EXT_KERNELS_LIB_VERTEX_RAY_H
+
+#include "lib/append.h"
+#include "lib/cull.h"
+#include "lib/full_ray.h"
+
+static inline bool ox_casts_ray(__global const ox_vertex* vertex) {
+  const float3 direction = vload3(0, vertex->direction);
+  return direction.x != 0.0f || direction.y != 0.0f || direction.z != 0.0f;
+}
+
+// A ray of a vertex that can be in contact.
+static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint vertex,
+                                 __global ox_ray* rays) {
+  if (!ox_casts_ray(scene->vertices + vertex) ||
+      !ox_keep_vertex(scene->pairs + (pair_side >> 1), pair_side & 1u, scene->meshes,
+                      scene->vertices + vertex))
+    return;
+  const uint slot = ox_append(scene, OX_LIST_RAYS);
+  if (slot == OX_NONE) return;
+  rays[slot].pair_side = pair_side;
+  rays[slot].vertex = vertex;
+  rays[slot].memory = OX_RAY_ASKING;
+  rays[slot].triangle = OX_NONE;
+}
+
+// Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
+static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
+                                    uint from, __global ox_ray* rays) {
+  const uint slot = ox_append(scene, OX_LIST_RAYS);
+  if (slot == OX_NONE) return;
+  rays[slot].pair_side = pair_side;
+  rays[slot].vertex = vertex;
+  rays[slot].memory = memory;
+  rays[slot].triangle = from;
+}
+
+// The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in
+// ox_hit.
+static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool known, uint from,
+                                 const ox_outcome* outcome, __global ox_hit* hits) {
+  const uint kind = outcome->kind & OX_HIT_KIND;
+  const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
+  if (!leaves && !known) return;
+  const uint slot = ox_append(scene, OX_LIST_HITS);
+  if (slot == OX_NONE) return;
+  __global ox_hit* hit = hits + slot;
+  hit->pair_side = ray->pair_side;
+  hit->vertex = ray->vertex;
+  hit->triangle = leaves ? outcome->triangle : OX_NONE;
+  hit->kind = outcome->kind;
+  hit->depth = outcome->depth;
+  hit->t = outcome->t;
+  hit->from = from;
+}
+
+#endif

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collide/collider.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "contacts/contacts.h"
+#include "opencl/error.h"
+
+namespace ode_ext {
+
+const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
+  const auto start = std::chrono::steady_clock::now();
+  const long long waits = device_.synchronizations();
+  report_ = {};
+  report_.pairs = scene.pairs.size();
+  result_.clear();
+  if (scene.pairs.empty()) return result_;
+
+  Step step{scene, memory, report_,
+            Workload(options_, device_, data_.lists, scene, memory, report_)};
+  try {
+    upload(step);
+    while (step.workload.next()) collide_tile(step);
+  } catch (...) {
+    drop(step);
+    throw;
+  }
+  finish(step);
+  report_.synchronizations = static_cast<int>(device_.synchronizations() - waits);
+  report_.ms_total =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return result_;
+}
+
+// What all tiles have in common.
+void Collider::upload(Step& step) {
+  data_.meshes.set(step.scene.meshes);  // the deform step
+  data_.pairs.upload_objects(step.scene);
+  if (paper_) paper_->begin_step(step);
+}
+
+void Collider::collide_tile(Step& step) {
+  const auto work = report_.work;  // of the tiles before
+  try {
+    do {
+      report_.work = work;
+      run(step);
+    } while (!step.workload.is_settled());
+    read_back_.read_rest(data_);
+  } catch (const DeviceError& error) {
+    report_.work = work;
+    forget_uploads();  // some may not have been made
+    if (!step.workload.try_smaller(error.code())) throw;
+    return;
+  }
+  deliver(step);
+}
+
+// Between launches nobody waits, unless pairs are left to the kernels, or for exact workloads.
+void Collider::run(Step& step) {
+  Workload& workload = step.workload;
+  workload.begin_run();
+  data_.pairs.upload_pairs(step.scene, workload.tile());
+  if (paper_) paper_->begin_run(data_, step);
+  read_back_.reserve(data_);
+
+  if (whole_step_) {
+    whole_step_->run(workload.launch_shares(), data_);
+    if (!workload.expects_left()) {
+      read_back_.read(data_, workload.predicted(List::kContacts));
+      if (data_.lists.counted(OX_COUNTER_LEFT) == 0) return;
+    }
+  }
+  launch_steps(step);
+  read_back_.read(data_, workload.predicted(List::kContacts));
+}
+
+// GRAPP figure 1, top to bottom: pairs, where their edges cross, which vertices are inside, where
+// their rays leave, contacts.
+void Collider::launch_steps(Step& step) {
+  Workload& workload = step.workload;
+  const std::size_t pairs = workload.tile().count;
+  if (!whole_step_) search_.relate(workload.launch(pairs), data_);
+  if (options_.edges) {
+    search_.cull(workload.launch(pairs), data_);
+    search_.match(workload.settle_launch(List::kMeshlets), data_);
+    search_.cross(workload.settle_launch(List::kMeshletPairs, search_.items_per_meshlet_pair()),
+                  data_);
+  }
+  if (paper_) {
+    paper_->run(data_, step);
+  } else {
+    search_.flood(workload.launch_queue(2 * pairs), data_);
+    if (!step.floods_all) search_.choose_vertices(workload.settle_launch(List::kChunks), data_);
+    search_.cast(workload.settle_launch(List::kRays), data_);
+  }
+  workload.settle_launches();
+  assembly_.assemble(workload.launch(pairs),
+                     std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
+                     workload.launch_queue(pairs), data_);
+  assembly_.reduce(workload.launch_queue(pairs), data_);
+}
+
+void Collider::deliver(Step& step) {
+  step.workload.report_tile();
+  if (report_.backtracked) {
+    result_.clear();
+    return;
+  }
+  append_contacts(step.scene, data_.meshes, step.workload.tile().first, read_back_.ranges(data_),
+                  read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
+}
+
+void Collider::forget_uploads() {  // of what is uploaded only where it changed
+  data_.lists.forget();
+  if (paper_) paper_->forget();
+}
+
+// A step that failed. What it has left may be half written: nobody is to start from it.
+void Collider::drop(Step& step) {
+  device_.settle();     // what is still in flight must not write into what the next step reuses
+  take_milliseconds();  // of what ran; the next step starts afresh
+  data_.meshes.forget();
+  forget_uploads();
+  if (step.memory == nullptr) return;
+  step.memory->temporal.reset();
+  step.memory->tile_pairs = step.tile_pairs;  // no size failed: that tells nothing
+}
+
+StageTimes Collider::take_milliseconds() {
+  StageTimes ms{};
+  add_time(ms, Stage::kDeformStep, data_.meshes);
+  search_.take_milliseconds(ms);
+  assembly_.take_milliseconds(ms);
+  if (whole_step_) whole_step_->take_milliseconds(ms);
+  if (paper_) paper_->take_milliseconds(ms);
+  return ms;
+}
+
+void Collider::finish(Step& step) {
+  report_.capacity = data_.lists.capacities();
+  report_.temporal_pairs = step.remembers() ? step.memory->temporal->pairs() : 0;
+  report_.ms = take_milliseconds();
+  data_.lists.note_use(report_.actual, step.memory != nullptr);
+  if (step.memory == nullptr) return;
+  step.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
+  // A little more each time: what did not fit once may have been short of memory for a moment.
+  if (step.memory->tile_pairs != 0) step.memory->tile_pairs += step.memory->tile_pairs / 16 + 1;
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The main path: pairs in, contacts out (GRAPP figure 1).
+#pragma once
+
+#include <optional>
+
+#include "collide/options.h"
+#include "collide/pass_memory.h"
+#include "collide/read_back.h"
+#include "collide/step.h"
+#include "collide/step_report.h"
+#include "collide/whole_step.h"
+#include "contacts/contact.h"
+#include "contacts/plane_assembly.h"
+#include "opencl/program.h"
+#include "paper/vertex_rays.h"
+#include "search/scene.h"
+#include "search/search.h"
+#include "search/step_data.h"
+
+namespace ode_ext {
+
+class Collider {
+ public:
+  // Chooses the device, builds the kernels, tests and warms them up. Throws DeviceError.
+  explicit Collider(const ColliderOptions& options);
+
+  // Collides all pairs of the scene. `memory` is what the last pass of the same space left, and is
+  // updated; nullptr: a call outside of any pass. Throws DeviceError; the next call then starts
+  // afresh. Result and scene index alike: contacts of pair i are result.ranges[i] into
+  // result.contacts. No ranges at all: nothing is delivered (Misprediction::kBacktrack).
+  const PairContacts& collide(const Scene& scene, PassMemory* memory);
+
+  const StepReport& report() const { return report_; }
+  const DeviceInfo& device_info() const { return device_.info(); }
+
+ private:
+  void upload(Step& step);
+  void collide_tile(Step& step);
+  void run(Step& step);
+  void launch_steps(Step& step);
+  void deliver(Step& step);
+  void forget_uploads();
+  void drop(Step& step);
+  void finish(Step& step);
+  StageTimes take_milliseconds();
+  void warm_up();
+
+  ColliderOptions options_;
+  Device device_;
+  Program program_;
+  Search search_;
+  PlaneAssembly assembly_;
+  StepData data_;
+  // Where options ask for them.
+  std::optional<WholeStep> whole_step_;
+  std::optional<paper::VertexRays> paper_;
+  ReadBack read_back_;
+  PairContacts result_;
+  StepReport report_;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Collider, before its first step.
+#include <stdexcept>
+#include <string>
+
+#include "collide/collider.h"
+
+namespace ode_ext {
+namespace {
+
+StepSettings settings_of(const ColliderOptions& options) {
+  StepSettings settings;
+  if (options.rays == Rays::kIterativePaper) settings.modes |= OX_MODE_PAPER;
+  if (options.deformable_target == DeformableTarget::kBasic) settings.modes |= OX_MODE_BASIC;
+  if (options.edges) settings.modes |= OX_MODE_EDGES;
+  if (!follows_paper(options)) settings.modes |= OX_MODE_FLOOD;
+  settings.displacement_limit = options.displacement_limit;
+  settings.walk_limit = options.walk_limit;
+  settings.max_contacts = options.max_contacts;
+  settings.max_contacts_deformable = options.max_contacts_deformable;
+  return settings;
+}
+
+bool lanes_are_items(const ColliderOptions& options, const DeviceInfo& device) {
+  if (options.lanes == Lanes::kOfDevice) return (device.type & CL_DEVICE_TYPE_CPU) == 0;
+  return options.lanes == Lanes::kItems;
+}
+
+// How many work-items look at two meshlets: those of a block of lanes of either side.
+std::uint32_t items_per_meshlet_pair(const ColliderOptions& options, const DeviceInfo& device) {
+  if (!lanes_are_items(options, device)) return 1;
+  const unsigned width =
+      options.vector_width != 0 ? options.vector_width : suitable_vector_width(device);
+  return 2 * OX_LANES / width;
+}
+
+std::string program_options(const ColliderOptions& options, const DeviceInfo& device) {
+  std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
+  if (options.vector_width != 0)
+    text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
+  if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
+  if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
+  if (may_run_whole(options, device)) text += std::string(" ") + WholeStep::kProgramOption;
+  return text;
+}
+
+}  // namespace
+
+Collider::Collider(const ColliderOptions& options)
+    : options_(options),
+      device_(options.device, options.largest_buffer),
+      program_(device_, program_options(options, device_.info())),
+      search_(program_, items_per_meshlet_pair(options_, device_.info())),
+      assembly_(program_),
+      data_(program_),
+      read_back_(device_) {
+  data_.settings = settings_of(options);
+  if (follows_paper(options_)) paper_.emplace(program_, options_);
+  if (may_run_whole(options_, device_.info())) {
+    whole_step_.emplace(program_);
+    data_.lists.keep_shares(device_.info().compute_units);
+  }
+  if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
+      options_.vector_width != 8 && options_.vector_width != 16)
+    throw std::invalid_argument("vector_width is " + std::to_string(options_.vector_width) +
+                                ", not 0, 1, 4, 8 or 16");
+  if (options_.work_group_size > device_.info().work_group_limit)
+    throw std::invalid_argument("work_group_size is " + std::to_string(options_.work_group_size) +
+                                ", more than the " +
+                                std::to_string(device_.info().work_group_limit) + " that '" +
+                                device_.info().name + "' can run");
+  self_test(program_);
+  warm_up();
+}
+
+// Launches every kernel on empty input, so that one that cannot run in groups of this size is known
+// now. PoCL compiles a kernel at its first launch, and again at the first one of 65,536 items or
+// more, wherever that falls in a simulation; launching that many settles both.
+void Collider::warm_up() {
+  const Scene scene;
+  Step step{scene, nullptr, report_,
+            Workload(options_, device_, data_.lists, scene, nullptr, report_)};
+  step.workload.begin_run();
+  data_.meshes.set({});
+  data_.pairs.upload_objects(scene);
+  data_.pairs.upload_pairs(scene, {0, 0});
+  const std::size_t local = options_.work_group_size;
+  const bool is_pocl =
+      device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
+  const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
+  search_.relate(wide, data_);
+  search_.cull(wide, data_);
+  search_.match(wide, data_);
+  search_.cross(wide, data_);
+  if (paper_) {
+    paper_->warm_up(wide, data_, step);
+  } else {
+    search_.flood(wide, data_);
+    search_.choose_vertices(wide, data_);
+    search_.cast(wide, data_);
+  }
+  assembly_.assemble(wide, wide, wide, data_);
+  assembly_.reduce(wide, data_);
+  if (whole_step_) whole_step_->run({1, 1}, data_);
+  data_.meshes.warm_up(wide);
+  device_.finish();
+  take_milliseconds();
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "collide/read_back.h"
+
+#include <algorithm>
+
+namespace ode_ext {
+
+void ReadBack::reserve(const StepData& data) {
+  ranges_.reserve(data.pairs.count * sizeof(ox_range));
+  contacts_.reserve(data.lists.capacity(List::kContacts) * sizeof(ox_contact));
+}
+
+void ReadBack::read(StepData& data, std::uint64_t expected) {
+  data.pairs.ranges.read(ranges_.data(), data.pairs.count * sizeof(ox_range));
+  read_contacts(data, expected);
+  data.lists.count();
+}
+
+void ReadBack::read_rest(const StepData& data) {
+  const std::uint64_t count = data.lists.length(List::kContacts);
+  if (count <= read_) return;
+  read_contacts(data, count);
+  device_.finish();
+}
+
+// At most as many as there is room for.
+void ReadBack::read_contacts(const StepData& data, std::uint64_t count) {
+  read_ = std::min(count, data.lists.capacity(List::kContacts));
+  data.lists.contacts().read(contacts_.data(), read_ * sizeof(ox_contact));
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contacts/contact_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "mesh/ray_cast.h"
+
+namespace ode_ext {
+namespace {
+
+// `triangle` is an index into built.triangles.
+std::uint32_t facet_of(const Mesh& built, std::uint32_t triangle) {
+  return to_feature(FeatureKind::kFacet, built.facets.empty() ? triangle : built.facets[triangle]);
+}
+
+// Side k of a triangle. Where more than two triangles meet, several edges have the same ends.
+std::uint32_t edge_of_side(const Mesh& built, std::uint32_t triangle, std::uint32_t k) {
+  const std::uint32_t from = built.triangles[triangle][k];
+  const std::uint32_t to = built.triangles[triangle][(k + 1) % 3];
+  for (std::uint32_t i = built.rings.starts[from]; i < built.rings.starts[from + 1]; ++i) {
+    const auto [vertex, edge] = built.rings.neighbours[i];
+    if (vertex != to || edge >= built.edges.size()) continue;
+    const auto& at = built.edges[edge].triangles;
+    if (at[0] == triangle || at[1] == triangle) return to_feature(FeatureKind::kEdge, edge);
+  }
+  return facet_of(built, triangle);
+}
+
+// How many numbers there are of a kind, at most.
+std::uint64_t count_of(const Mesh& built, std::uint32_t feature) {
+  switch (static_cast<FeatureKind>(feature >> kFeatureShift)) {
+    case FeatureKind::kVertex:
+      return built.vertices.size();
+    case FeatureKind::kEdge:
+      return built.edges.size();
+    default:
+      return built.triangles.size();
+  }
+}
+
+std::uint32_t repeated(const Mesh& built, std::uint32_t feature, std::uint64_t times) {
+  const std::uint32_t number = feature & ((1u << kFeatureShift) - 1);
+  return to_feature(static_cast<FeatureKind>(feature >> kFeatureShift),
+                    number + times * count_of(built, feature));
+}
+
+}  // namespace
+
+std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word) {
+  const Mesh& built = topology(meshes.mesh(mesh));
+  const MeshRange& place = meshes.range(mesh);
+  const std::uint32_t index = word & ((1u << OX_OF_SHIFT) - 1);
+  switch (word >> OX_OF_SHIFT) {
+    case OX_OF_VERTEX:
+      return to_feature(FeatureKind::kVertex, index - place.vertex_first);
+    case OX_OF_EDGE:
+      return to_feature(FeatureKind::kEdge, index - place.edge_first);
+    case OX_OF_FACET:
+      return facet_of(built, built.bvh.order[index - place.triangle_first]);
+    default:
+      return edge_of_side(built, built.bvh.order[index / 3 - place.triangle_first], index % 3);
+  }
+}
+
+void number_repeats(std::span<Contact> contacts, const Mesh& a, const Mesh& b) {
+  if (contacts.size() < 2) return;
+  std::vector<std::pair<std::array<std::uint32_t, 2>, std::size_t>> order(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) order[i] = {contacts[i].features, i};
+  std::sort(order.begin(), order.end());
+  std::uint64_t times = 0;
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const auto& [features, i] = order[k];
+    times = features == order[k - 1].first ? times + 1 : 0;
+    if (times != 0)
+      contacts[i].features = {repeated(topology(a), features[0], times),
+                              repeated(topology(b), features[1], times)};
+  }
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From crossings and vertices inside to contacts by separating planes: kernels/contacts.
+#pragma once
+
+#include "opencl/launch.h"
+#include "opencl/program.h"
+#include "search/stage.h"
+#include "search/step_data.h"
+
+namespace ode_ext {
+
+class PlaneAssembly {
+ public:
+  explicit PlaneAssembly(Program& program);
+
+  // Features, regions and their planes, and candidates for contacts: features.cl, choose.cl.
+  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const StepData& data);
+  // Of each pair a few of them: reduce.cl.
+  void reduce(Launch per_pair, const StepData& data);
+
+  // Adds the device time since the last call.
+  void take_milliseconds(StageTimes& ms);
+
+ private:
+  Kernel gather_, place_, link_, join_, begin_, count_, place_regions_, fill_, propose_, choose_,
+      reduce_;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/deform.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mesh/measures.h"
+#include "mesh/topology.h"
+#include "mesh/weld.h"
+
+namespace ode_ext {
+namespace {
+
+bool is_collapsed(const TriangleSoup& soup, std::size_t first) {
+  return soup[first] == soup[first + 1] || soup[first + 1] == soup[first + 2] ||
+         soup[first + 2] == soup[first];
+}
+
+// Whether the same triangles collapse, and corners of one vertex are at one place. Floats that
+// compare equal have the same bits but for the sign of 0, as in weld().
+bool follows(const Mesh& base, const TriangleSoup& soup, std::vector<Vec3f>& vertices) {
+  const std::vector<std::uint32_t>& vertex_of = base.corner_vertex;
+  for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
+    if (is_collapsed(soup, i) != (vertex_of[i] == kNoVertex)) return false;
+    if (vertex_of[i] == kNoVertex) continue;
+    for (std::size_t k = i; k < i + 3; ++k) vertices[vertex_of[k]] = soup[k] + Vec3f{};
+  }
+  for (std::size_t k = 0; k < soup.size(); ++k)
+    if (vertex_of[k] != kNoVertex && vertices[vertex_of[k]] != soup[k]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const Mesh>& base,
+                                     const TriangleSoup& soup) {
+  if (!base->finite || base->corner_vertex.size() != soup.size()) return nullptr;
+  Mesh shape;
+  shape.soup = soup;
+  shape.deformable = true;
+  shape.open_thickness = base->open_thickness;
+  shape.content_hash = hash_soup(soup.data(), soup.size());
+  shape.shape_hash = shape.content_hash;
+  shape.finite = is_finite(soup);
+  if (!shape.finite) return std::make_shared<const Mesh>(std::move(shape));
+
+  shape.vertices.resize(base->vertices.size());
+  if (base->reoriented || !follows(*base, soup, shape.vertices)) return nullptr;
+  if (base->closed && signed_volume(shape.vertices, base->triangles) < 0) return nullptr;
+  shape.base = base;
+  shape.closed = base->closed;
+  shape.inverted = base->inverted;
+  shape.box = box_of(shape.vertices);
+  shape.radius = half_diagonal(shape.box);
+  shape.mean_edge = mean_side(shape.vertices, base->triangles);
+  return std::make_shared<const Mesh>(std::move(shape));
+}
+
+}  // namespace ode_ext

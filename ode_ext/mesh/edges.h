@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edges of a mesh that are worth casting: those between facets, where its surface bends, and as
+// many within facets as join all its vertices.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/neighbours.h"
+#include "mesh/vec.h"
+
+namespace ode_ext {
+
+struct Edge {
+  // By their places, however they are numbered: an inverted mesh has the edges of the upright one.
+  std::array<std::uint32_t, 2> vertices;
+  // The first runs the edge from the first vertex on. The second is kNone where there is none.
+  std::array<std::uint32_t, 2> triangles;
+};
+
+struct Edges {
+  std::vector<Edge> apart;  // between facets, in runs by their middles (runs.h)
+  // Within a facet, by their vertices: none of which the ends are joined by the others and `apart`.
+  // So each two vertices that any edges of the mesh join, these join too.
+  std::vector<Edge> flat;
+};
+
+// `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
+// come by their vertices. Where more than two triangles meet, they are taken two by two: each of
+// them is at one of the edges.
+Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
+                 const std::vector<std::uint32_t>& facets);
+
+}  // namespace ode_ext

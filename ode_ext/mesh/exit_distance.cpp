@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/exit_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/both.h"
+#include "mesh/box.h"
+#include "mesh/ray_cast.h"
+
+namespace ode_ext {
+namespace {
+
+// A vertex may lie on a face it does not belong to (two parts glued together). That face is where
+// the ray starts, not where it leaves, although rounding the coordinates to floats has moved both
+// apart: by sqrt(3) * 2^-24 of the mesh's size each, so 2^-22 together.
+constexpr double kOnSurface = 0x1p-22;
+
+// A thread takes tens of microseconds to start, a ray one or more.
+constexpr std::size_t kVerticesAThread = 4096;
+
+}  // namespace
+
+std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
+                                  const std::vector<Vec3f>& normals,
+                                  const std::vector<Triangle>& triangles, const Bvh& bvh) {
+  const double on_surface = kOnSurface * length(extent(box_of(vertices)));
+  std::vector<float> exits(vertices.size(), std::numeric_limits<float>::infinity());
+  const auto exit_of = [&](std::size_t i) {
+    if (normals[i] == Vec3f{}) {
+      exits[i] = 0;
+      return;
+    }
+    Ray ray{Vec3d(vertices[i]), -Vec3d(normals[i])};
+    ray.t_min = on_surface;
+    ray.excluded_vertex = static_cast<std::uint32_t>(i);
+    const RayHit hit = cast_ray(ray, bvh, vertices, triangles);
+    if (hit.back) exits[i] = static_cast<float>(hit.t);
+  };
+  const auto exits_of = [&](auto self, std::size_t first, std::size_t last,
+                            std::size_t threads) -> void {
+    if (threads <= 1) {
+      for (std::size_t i = first; i < last; ++i) exit_of(i);
+      return;
+    }
+    const std::size_t half = threads / 2;
+    const std::size_t middle = first + (last - first) * half / threads;
+    do_both(
+        threads, [&] { self(self, first, middle, half); },
+        [&] { self(self, middle, last, threads - half); });
+  };
+  exits_of(exits_of, 0, vertices.size(), worthwhile_threads(vertices.size(), kVerticesAThread));
+  return exits;
+}
+
+std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
+                                  const std::vector<Vec3f>& normals,
+                                  const std::vector<Triangle>& triangles, const Bvh& bvh,
+                                  float thickness) {
+  std::vector<float> exits = exit_distances(vertices, normals, triangles, bvh);
+  for (float& exit : exits) exit = std::min(exit, thickness);
+  return exits;
+}
+
+}  // namespace ode_ext

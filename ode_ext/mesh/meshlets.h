@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshlets, clusters of neighbouring triangles that a kernel tests sixteen at a time, and a tree
+// over them. The term is of Kubisch, "Introduction to Turing Mesh Shaders", NVIDIA 2018.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/bvh.h"
+#include "mesh/edges.h"
+#include "mesh/meshlet_tree.h"
+
+namespace ode_ext {
+
+inline constexpr std::uint32_t kMeshletTriangles = 16;
+inline constexpr std::uint32_t kMeshletVertices = 16;
+inline constexpr std::uint32_t kMeshletEdges = 32;
+
+// An edge of a meshlet: index of the edge, and places of its ends among the meshlet's vertices.
+struct MeshletEdge {
+  std::uint32_t edge;
+  std::array<std::uint32_t, 2> ends;  // as Edge::vertices
+};
+
+// Consecutive triangles in the order of the leaves, the vertices at them, and those edges of which
+// the first triangle is one of them: so an edge is in one meshlet.
+struct Meshlet {
+  std::uint32_t triangle_first, triangle_count;  // in Bvh::order
+  std::uint32_t vertex_first, vertex_count;      // in Meshlets::vertices
+  std::uint32_t edge_first, edge_count;          // in Meshlets::edges
+};
+
+struct Meshlets {
+  std::vector<Meshlet> meshlets;
+  std::vector<std::uint32_t> vertices;  // indices into the mesh's
+  std::vector<MeshletEdge> edges;
+  std::vector<MeshletNode> tree;
+};
+
+// The largest subtrees of the BVH with at most so many triangles, vertices and edges.
+Meshlets build_meshlets(const Bvh& bvh, const std::vector<Triangle>& triangles,
+                        const std::vector<Edge>& edges);
+
+}  // namespace ode_ext

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which triangles lie side by side.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/bvh.h"
+
+namespace ode_ext {
+
+// The triangle across the edge from corner k to corner (k + 1) % 3; kNone (ray_cast.h) where the
+// edge has no second triangle, more than two, or two that run it in the same direction.
+using Neighbours = std::array<std::uint32_t, 3>;
+
+std::vector<Neighbours> neighbours(const std::vector<Triangle>& triangles);
+
+}  // namespace ode_ext

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whether triangles bound a solid, and their winding.
+#pragma once
+
+#include <vector>
+
+#include "mesh/bvh.h"
+#include "mesh/vec.h"
+
+namespace ode_ext {
+
+struct Orientation {
+  bool closed = false;      // every edge has exactly two triangles, of opposite direction
+  bool reoriented = false;  // the windings contradicted each other and were made consistent
+  bool inverted = false;    // all windings were turned: the volume was negative
+};
+
+// Makes the normals of a closed mesh point outward by turning triangles (swapping two corners).
+// A consistent winding is trusted: a part inside another may be a cavity, so only the sign of the
+// whole volume counts. An inconsistent one says nothing, so each connected part is made consistent
+// and turned to a positive volume by itself. A mesh that is open, not orientable, or has an edge of
+// more than two triangles is left alone.
+Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles);
+
+// Six times the volume that the triangles of a closed mesh enclose.
+double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);
+
+}  // namespace ode_ext

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/weld.h"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "mesh/runs.h"
+
+namespace ode_ext {
+namespace {
+
+bool before(const Vec3f& a, const Vec3f& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// The places of corners, each once, in the order in which they came: a hash table with open
+// addressing, at most half full.
+class Places {
+ public:
+  explicit Places(std::size_t most)
+      : table_(std::bit_ceil(2 * most + 1), kNoVertex), mask_(table_.size() - 1) {}
+
+  std::uint32_t index_of(const Vec3f& place) {
+    const auto bits = [](float value) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(value)};
+    };
+    // Multiplicative (Knuth), of which the upper half is well mixed.
+    const std::uint64_t hash =
+        (bits(place.x) * 0x9e3779b97f4a7c15u + bits(place.y)) * 0xc2b2ae3d27d4eb4fu +
+        bits(place.z) * 0x165667b19e3779f9u;
+    for (std::size_t at = hash >> 20;; ++at) {
+      std::uint32_t& found = table_[at & mask_];
+      if (found == kNoVertex) {
+        found = static_cast<std::uint32_t>(places_.size());
+        places_.push_back(place);
+        return found;
+      }
+      if (places_[found] == place) return found;
+    }
+  }
+
+  std::vector<Vec3f> take() { return std::move(places_); }
+
+ private:
+  std::vector<std::uint32_t> table_;
+  std::size_t mask_;
+  std::vector<Vec3f> places_;
+};
+
+// For each place the number of its vertex, and the vertices: in compact runs (runs.h), whatever the
+// order of the places.
+std::vector<std::uint32_t> number_in_runs(std::vector<Vec3f>& places) {
+  std::vector<std::uint32_t> sorted(places.size());
+  std::iota(sorted.begin(), sorted.end(), 0u);
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return before(places[a], places[b]); });
+  std::vector<Vec3f> in_order;
+  in_order.reserve(places.size());
+  for (const std::uint32_t i : sorted) in_order.push_back(places[i]);
+  std::vector<std::uint32_t> vertex(places.size());
+  std::uint32_t next = 0;
+  for (const std::uint32_t i : order_into_runs(in_order)) {
+    vertex[sorted[i]] = next;
+    places[next++] = in_order[i];
+  }
+  return vertex;
+}
+
+// From the lowest vertex on, which leaves the winding.
+Triangle rotated(const Triangle& t) {
+  const auto lowest = static_cast<std::size_t>(std::min_element(t.begin(), t.end()) - t.begin());
+  return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
+}
+
+Triangle sorted(Triangle t) {
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+}  // namespace
+
+WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
+  WeldedMesh mesh;
+  mesh.corner_vertex.assign(soup.size(), kNoVertex);
+  Places places(soup.size());
+  for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
+    if (soup[i] == soup[i + 1] || soup[i + 1] == soup[i + 2] || soup[i + 2] == soup[i]) continue;
+    mesh.source_triangle.push_back(static_cast<std::uint32_t>(i / 3));
+    for (std::size_t k = i; k < i + 3; ++k)
+      mesh.corner_vertex[k] = places.index_of(soup[k] + Vec3f{});  // -0 + 0 = +0
+  }
+  mesh.vertices = places.take();
+  if (order == VertexOrder::kRuns) {
+    const std::vector<std::uint32_t> vertex = number_in_runs(mesh.vertices);
+    for (std::uint32_t& corner : mesh.corner_vertex)
+      if (corner != kNoVertex) corner = vertex[corner];
+  }
+  mesh.triangles.reserve(mesh.source_triangle.size());
+  for (const std::uint32_t source : mesh.source_triangle) {
+    const std::uint32_t* corner = &mesh.corner_vertex[3 * std::size_t{source}];
+    mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+  }
+  return mesh;
+}
+
+void order_by_vertices(WeldedMesh& mesh) {
+  struct Listed {
+    Triangle corners;  // in ascending order: a mesh and the same inside out are numbered alike
+    Triangle key, triangle;
+    std::uint32_t source;
+  };
+  std::vector<Listed> listed;
+  listed.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    listed.push_back({sorted(mesh.triangles[i]), rotated(mesh.triangles[i]), mesh.triangles[i],
+                      mesh.source_triangle[i]});
+  std::sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) {
+    return std::tie(a.corners, a.key, a.source) < std::tie(b.corners, b.key, b.source);
+  });
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    mesh.triangles[i] = listed[i].triangle;
+    mesh.source_triangle[i] = listed[i].source;
+  }
+}
+
+}  // namespace ode_ext

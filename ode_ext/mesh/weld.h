@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From a triangle soup to vertices and indices.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/bvh.h"
+#include "mesh/vec.h"
+
+namespace ode_ext {
+
+inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
+
+struct WeldedMesh {
+  std::vector<Vec3f> vertices;      // each place once; -0 is stored as +0
+  std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
+  std::vector<std::uint32_t> source_triangle;
+  // For each corner of the soup its vertex; kNoVertex for those of triangles that collapsed.
+  std::vector<std::uint32_t> corner_vertex;
+};
+
+enum class VertexOrder {
+  kRuns,    // compact ones (runs.h); does not depend on the order of the triangles
+  kListing  // as the program first lists them; does not depend on where they are
+};
+
+// Corners at exactly the same place become one vertex; a triangle with two equal corners collapses
+// and is dropped (a sliver with three different ones is kept: its edges hold its neighbours
+// together). All corners must be finite.
+WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order = VertexOrder::kRuns);
+
+// Numbers the triangles by their vertices, so that no choice between triangles that goes by their
+// numbers depends on the order in which the program lists them.
+void order_by_vertices(WeldedMesh& mesh);
+
+}  // namespace ode_ext

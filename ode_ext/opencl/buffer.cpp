@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "opencl/buffer.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "opencl/error.h"
+
+namespace ode_ext {
+namespace {
+
+constexpr std::size_t kPage = 4096;  // [bytes]
+
+// What to take when `bytes` are needed and `old_capacity` was too little: see Buffer::reserve.
+std::size_t grown_capacity(Device& device, std::size_t bytes, std::size_t old_capacity) {
+  const std::size_t largest = static_cast<std::size_t>(device.info().largest_buffer);
+  if (bytes > largest) {
+    device.settle();
+    throw DeviceError(CL_INVALID_BUFFER_SIZE,
+                      "A buffer of " + std::to_string(bytes) + " bytes is needed, and " +
+                          device.label() + " takes at most " + std::to_string(largest) +
+                          " bytes in one. Ask for fewer contacts, make the scene smaller, or "
+                          "choose another device with ODE_EXT_DEVICE.");
+  }
+  const std::size_t wanted = std::max(bytes, old_capacity + old_capacity / 2);
+  const std::size_t pages = std::max<std::size_t>(1, wanted / kPage + (wanted % kPage != 0));
+  return std::min(pages * kPage, largest);
+}
+
+MemoryHandle create_memory(Device& device, cl_mem_flags flags, std::size_t size) {
+  cl_int code = CL_SUCCESS;
+  MemoryHandle memory(clCreateBuffer(device.context(), flags, size, nullptr, &code));
+  device.check_call(code, "clCreateBuffer",
+                    [&] { return "Asked for: " + std::to_string(size) + " bytes."; });
+  return memory;
+}
+
+}  // namespace
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : device_(other.device_),
+      memory_(std::move(other.memory_)),
+      capacity_(std::exchange(other.capacity_, 0)) {}
+
+void Buffer::reserve(std::size_t bytes) {
+  if (capacity_ > 0 && bytes <= capacity_) return;
+  const std::size_t old_capacity = std::exchange(capacity_, 0);
+  memory_.reset();  // first, so that old and new never need room at once
+  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
+  memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
+  capacity_ = size;
+}
+
+void Buffer::extend(std::size_t bytes) {
+  if (capacity_ > 0 && bytes <= capacity_) return;
+  const std::size_t old_capacity = std::exchange(capacity_, 0);
+  const MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
+  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
+  memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
+  if (old_capacity != 0)
+    device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
+                                            old_capacity, 0, nullptr, nullptr),
+                        "clEnqueueCopyBuffer");
+  fill_zero(size - old_capacity, old_capacity);
+  capacity_ = size;
+}
+
+void Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
+  if (bytes == 0) return;
+  device_->check_call(clEnqueueWriteBuffer(device_->queue(), memory_.get(), CL_FALSE, offset, bytes,
+                                           source, 0, nullptr, nullptr),
+                      "clEnqueueWriteBuffer");
+}
+
+void Buffer::fill_zero(std::size_t bytes, std::size_t offset) {
+  if (bytes == 0) return;
+  const cl_uint zero = 0;
+  // Size and offset must be multiples of the pattern.
+  const std::size_t pattern = (bytes | offset) % sizeof(zero) == 0 ? sizeof(zero) : 1;
+  device_->check_call(clEnqueueFillBuffer(device_->queue(), memory_.get(), &zero, pattern, offset,
+                                          bytes, 0, nullptr, nullptr),
+                      "clEnqueueFillBuffer");
+}
+
+void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
+  if (bytes == 0) return;
+  device_->check_call(clEnqueueReadBuffer(device_->queue(), memory_.get(), CL_FALSE, offset, bytes,
+                                          target, 0, nullptr, nullptr),
+                      "clEnqueueReadBuffer");
+}
+
+PinnedMemory::~PinnedMemory() { release(); }
+
+void PinnedMemory::reserve(std::size_t bytes) {
+  if (capacity_ > 0 && bytes <= capacity_) return;
+  const std::size_t old_capacity = capacity_;
+  release();
+  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
+  memory_ = create_memory(*device_, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, size);
+  cl_int code = CL_SUCCESS;
+  device_->count_synchronization();
+  data_ = clEnqueueMapBuffer(device_->queue(), memory_.get(), CL_TRUE, CL_MAP_READ | CL_MAP_WRITE,
+                             0, size, 0, nullptr, nullptr, &code);
+  try {
+    device_->check_call(code, "clEnqueueMapBuffer");
+  } catch (const DeviceError&) {
+    release();
+    throw;
+  }
+  capacity_ = size;
+}
+
+void PinnedMemory::release() {
+  // The queue is in order: transfers to and from this memory end before the unmapping, and OpenCL
+  // keeps the memory until that has been done.
+  if (data_) {
+    clEnqueueUnmapMemObject(device_->queue(), memory_.get(), data_, 0, nullptr, nullptr);
+  }
+  data_ = nullptr;
+  memory_.reset();
+  capacity_ = 0;
+}
+
+}  // namespace ode_ext

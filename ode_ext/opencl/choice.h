@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a device is chosen from a list: no OpenCL calls, so that it can be tested with any list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "opencl/device.h"
+
+namespace ode_ext {
+
+struct Choice {
+  const DeviceInfo* device = nullptr;  // into the list; null if nothing can be chosen
+  std::string reason;                  // how it was chosen, or why nothing was: a sentence's middle
+};
+
+Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& selection);
+
+// "gpu", "accelerator", "cpu" or "other".
+const char* type_name(cl_device_type type);
+
+// Why this library cannot use the device, or "" if it can.
+std::string why_unusable(const DeviceInfo& device);
+
+// What may be the matter where a platform shows no device, or builds nothing: a sentence, after a
+// space, or "".
+std::string platform_advice(const std::string& platform_name);
+
+// One line a device, `chosen` (may be null) marked with '*'.
+std::string device_lines(const std::vector<DeviceInfo>& devices, const DeviceInfo* chosen);
+
+}  // namespace ode_ext

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/meshlet_records.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ode_ext {
+namespace {
+
+static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, normal) % 64 == 0 &&
+                  offsetof(ox_meshlet, corner) % 64 == 0,
+              "lib/lanes.h loads them whole");
+static_assert(kMeshletTriangles == OX_LANES && kMeshletVertices == OX_LANES &&
+              kMeshletEdges == OX_MESHLET_EDGES);
+
+// Lanes beyond its vertices repeat the first.
+std::uint32_t vertex_index(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
+  return mesh.meshlets.vertices[meshlet.vertex_first + (k < meshlet.vertex_count ? k : 0)];
+}
+
+// Where the corners of a triangle of a meshlet are among its vertices.
+ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
+  const auto first = mesh.meshlets.vertices.begin() + meshlet.vertex_first;
+  ox_u32 places = 0;
+  for (std::uint32_t corner = 0; corner < 3; ++corner) {
+    const auto place =
+        std::find(first, first + meshlet.vertex_count, mesh.triangles[triangle][corner]) - first;
+    places |= static_cast<ox_u32>(place) << OX_CORNER_SHIFT(corner);
+  }
+  return places;
+}
+
+void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces& places,
+                   ox_meshlet& record) {
+  record.triangle_first = places.triangle_first + meshlet.triangle_first;
+  record.triangle_count = meshlet.triangle_count;
+  record.vertex_count = meshlet.vertex_count;
+  for (std::uint32_t k = 0; k < OX_LANES; ++k) {
+    record.vertex_index[k] = places.vertex_first + vertex_index(mesh, meshlet, k);
+  }
+  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k)
+    record.places[k] = corner_places(mesh, meshlet, mesh.bvh.order[meshlet.triangle_first + k]);
+  record.edge_count = meshlet.edge_count;
+  for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
+    const MeshletEdge& edge = mesh.meshlets.edges[meshlet.edge_first + k];
+    record.edge[k] = places.edge_first + edge.edge;
+    if (edge.edge < mesh.edges.size()) record.edges_apart |= 1u << k;
+    for (std::uint32_t end = 0; end < 2; ++end)
+      record.ends[k / 2] |= edge.ends[end] << OX_END_SHIFT(k, end);
+  }
+}
+
+Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
+  return mesh.vertices[vertex_index(mesh, meshlet, k)];
+}
+
+void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
+  for (std::uint32_t k = 0; k < OX_LANES; ++k) {
+    const bool used = k < meshlet.triangle_count;
+    const std::uint32_t triangle = mesh.bvh.order[meshlet.triangle_first + (used ? k : 0)];
+    const bool flat = !used || mesh.face_normals[triangle] == Vec3f{};
+    const Vec3f vertex = vertex_of(mesh, meshlet, k);
+    const Vec3f normal = mesh.normals[vertex_index(mesh, meshlet, k)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t c = 0; c < 3; ++c)
+        record.corner[c][axis][k] = mesh.vertices[mesh.triangles[triangle][flat ? 0 : c]][axis];
+      record.vertex[axis][k] = vertex[axis];
+      record.normal[axis][k] = normal[axis];
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [lo, hi] = std::minmax_element(record.vertex[axis], record.vertex[axis] + OX_LANES);
+    record.lo[axis] = *lo;
+    record.hi[axis] = *hi;
+  }
+}
+
+// Any normal gives a slab that holds the meshlet; the mean of its triangles' by area a thin one.
+void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
+  Vec3d sum{};
+  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
+    const Triangle& corners = mesh.triangles[mesh.bvh.order[meshlet.triangle_first + k]];
+    const Vec3d a(mesh.vertices[corners[0]]);
+    sum = sum + cross(Vec3d(mesh.vertices[corners[1]]) - a, Vec3d(mesh.vertices[corners[2]]) - a);
+  }
+  const double norm = length(sum);
+  const Vec3f normal = norm > 0 ? Vec3f((1 / norm) * sum) : Vec3f{};
+  record.slab_lo = INFINITY;
+  record.slab_hi = -INFINITY;
+  for (std::size_t axis = 0; axis < 3; ++axis) record.slab_normal[axis] = normal[axis];
+  for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k) {
+    const float height = dot(normal, vertex_of(mesh, meshlet, k));
+    record.slab_lo = std::min(record.slab_lo, height);
+    record.slab_hi = std::max(record.slab_hi, height);
+  }
+}
+
+}  // namespace
+
+void append_meshlets(const Mesh& mesh, const MeshletPlaces& places,
+                     std::vector<ox_meshlet>& records) {
+  for (const Meshlet& meshlet : mesh.meshlets.meshlets) {
+    ox_meshlet& record = records.emplace_back();
+    store_indices(mesh, meshlet, places, record);
+    if (mesh.deformable) continue;
+    store_places(mesh, meshlet, record);
+    store_slab(mesh, meshlet, record);
+  }
+}
+
+}  // namespace ode_ext

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshlets as the device wants them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "abi/types.h"
+#include "mesh/mesh.h"
+
+namespace ode_ext {
+
+// Where the parts of a mesh start among those of all meshes.
+struct MeshletPlaces {
+  std::uint32_t vertex_first, triangle_first, edge_first;
+};
+
+// Appends those of a mesh as it was built. The deform step makes of a deformable one's what depends
+// on where its vertices are.
+void append_meshlets(const Mesh& mesh, const MeshletPlaces& places,
+                     std::vector<ox_meshlet>& records);
+
+}  // namespace ode_ext

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step collides.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "mesh/vec.h"
+
+namespace ode_ext {
+
+// Rigid placement: world = rotation * local + position; rotation row-major 3x3.
+struct Pose {
+  Vec3d position{};
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool operator==(const Pose&) const = default;
+
+  Vec3d rotate(Vec3d v) const {
+    const auto& r = rotation;
+    return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
+            r[6] * v.x + r[7] * v.y + r[8] * v.z};
+  }
+  Vec3d transform(Vec3d p) const { return rotate(p) + position; }
+};
+
+struct Scene {
+  struct Object {
+    Pose pose;
+    std::uint32_t mesh;          // index into meshes
+    std::uint64_t identity = 0;  // the same from step to step; 0: none, nothing is remembered of it
+  };
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<Object> objects;
+  std::vector<std::array<std::uint32_t, 2>> pairs;  // of objects
+};
+
+// Pairs of a scene that are collided together.
+struct Tile {
+  std::size_t first, count;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts of sheets (open deformable meshes), and of deformable meshes in every mode.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "collide/collider.h"
+#include "support/deform_rig.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Bits = std::vector<std::vector<ContactBits>>;
+
+std::shared_ptr<const Mesh> rigid(const TestMesh& mesh) {
+  return std::make_shared<const Mesh>(build_mesh(soup_of(mesh)));
+}
+
+// A pair of two meshes, the first at `pose_a`, the second at the origin.
+Scene pair_of(std::shared_ptr<const Mesh> a, const TestPose& pose_a,
+              std::shared_ptr<const Mesh> b) {
+  Scene scene;
+  scene.meshes = {std::move(a), std::move(b)};
+  scene.objects = {{collider_pose(pose_a), 0, 1}, {Pose{}, 1, 2}};
+  scene.pairs = {{0, 1}};
+  return scene;
+}
+
+Scene turned_round(Scene scene) {
+  for (auto& pair : scene.pairs) std::swap(pair[0], pair[1]);
+  return scene;
+}
+
+class Sheet : public testing::Test {
+ protected:
+  static Collider& collider() {
+    static Collider* const collider = new Collider({});  // never destroyed, as in Rig
+    return *collider;
+  }
+  std::vector<Contact> contacts(const Scene& scene) {
+    return collider().collide(scene, nullptr).contacts;
+  }
+
+  std::shared_ptr<const Mesh> sheet = deformable(soup_of(make_sheet(2, 32)), 0.02f);
+  std::shared_ptr<const Mesh> cube = rigid(make_cube(1, 4));  // half of it above z = 0
+};
+
+// The sheet is one third of the way down from the top, or up from the bottom, of the cube.
+TEST_F(Sheet, VerticesInASolidTakeTheShorterWayOut) {
+  for (const double up : {1.0, -1.0}) {
+    for (const bool face_down : {false, true}) {
+      const TestPose pose = face_down ? turned({1, 0, 0}, std::acos(-1.0), {0.01, 0.02, up / 6})
+                                      : at(0.01, 0.02, up / 6);
+      const auto found = contacts(pair_of(sheet, pose, cube));
+      // All within the cube, at 2/32 m from one another, but for the rigid vertices on it.
+      EXPECT_GT(found.size(), 200u);
+      for (const Contact& contact : found) {
+        EXPECT_NEAR(contact.normal.z, up, 1e-6);
+        EXPECT_NEAR(contact.depth, 0.5 - 1.0 / 6, 1e-5);
+      }
+    }
+  }
+}
+
+TEST_F(Sheet, OfASolidsVerticesThoseBeyondItComeBack) {
+  // The cube stands on the sheet, a hundredth too deep: its lower corners are beyond, its upper
+  // ones are not, although their rays, down through the cube, meet the sheet too.
+  const auto found = contacts(turned_round(pair_of(sheet, at(0.01, 0.02, -0.49), cube)));
+  int of_cube = 0;
+  for (const Contact& contact : found) {
+    if (std::fabs(contact.position.z + 0.5) > 1e-6) continue;
+    ++of_cube;
+    EXPECT_GT(contact.normal.z, 0.9);  // into the cube, which is the first
+    EXPECT_NEAR(contact.depth, 0.01, 0.005);
+  }
+  EXPECT_GE(of_cube, 25);
+  for (const Contact& contact : found) EXPECT_LT(contact.depth, 0.02);
+}
+
+TEST_F(Sheet, PushBackFromEitherSide) {
+  for (const double side : {1.0, -1.0}) {
+    const auto found = contacts(turned_round(pair_of(sheet, at(0, 0, -side * 0.49), cube)));
+    ASSERT_FALSE(found.empty());
+    for (const Contact& contact : found) EXPECT_GT(side * contact.normal.z, 0.5);
+  }
+}
+
+TEST_F(Sheet, MeetOtherSheetsWithinTheirThickness) {
+  const auto other = deformable(soup_of(make_sheet(1, 8)), 0.02f);
+  EXPECT_FALSE(contacts(pair_of(sheet, at(0.01, 0.02, 0.015), other)).empty());
+  EXPECT_FALSE(contacts(pair_of(sheet, at(0.01, 0.02, -0.015), other)).empty());
+  EXPECT_TRUE(contacts(pair_of(sheet, at(0.01, 0.02, 0.025), other)).empty());
+  EXPECT_TRUE(contacts(pair_of(sheet, at(0.01, 0.02, -0.025), other)).empty());
+}
+
+TEST_F(Sheet, GiveTheSameContactsTheOtherWayRound) {
+  const Scene scene = pair_of(sheet, turned({1, 2, 0}, 0.3, {0.1, 0.05, 0.3}), cube);
+  const auto one = contacts(scene);
+  auto other = contacts(turned_round(scene));
+  ASSERT_EQ(one.size(), other.size());
+  ASSERT_GT(one.size(), 100u);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].position, other[i].position);
+    EXPECT_EQ(one[i].normal, -other[i].normal);
+    EXPECT_EQ(one[i].depth, other[i].depth);
+    EXPECT_EQ(one[i].triangles[0], other[i].triangles[1]);
+  }
+}
+
+TEST_F(Sheet, KeepAllContactsTheDeepestFirstUnlessAsked) {
+  const Scene scene = pair_of(sheet, turned({1, 2, 0}, 0.3, {0.1, 0.05, 0.3}), cube);
+  const auto all = contacts(scene);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GE(all[i - 1].depth, all[i].depth);
+  ColliderOptions options;
+  options.max_contacts_deformable = 5;
+  Collider few(options);
+  const auto five = few.collide(scene, nullptr).contacts;
+  ASSERT_EQ(five.size(), 5u);
+  EXPECT_EQ(five[0].depth, all[0].depth);
+}
+
+// Sheets and a soft ball that move over rigid meshes, all in one scene.
+class MovingDeformables {
+ public:
+  MovingDeformables() {
+    scene_.meshes = {rigid(make_icosphere(0.6, 3)), rigid(make_cube(1, 4)), nullptr, nullptr,
+                     nullptr};
+    bases_ = {deformable(soup_of(make_sheet(2, 24)), 0.05f),
+              deformable(soup_of(make_sheet(1.5, 16)), 0.05f),
+              deformable(soup_of(make_icosphere(0.5, 2)))};
+    const double z[] = {0, 0.1, 0.45, 0.47, 0.7};
+    for (std::uint32_t i = 0; i < 5; ++i)
+      scene_.objects.push_back(
+          {collider_pose(turned({1, 2, 3}, i < 2 ? 0.3 * i : 0.0, {0.1 * i, -0.05 * i, z[i]})), i,
+           i + 1});
+    for (std::uint32_t a = 0; a < 5; ++a)
+      for (std::uint32_t b = 0; b < a; ++b) scene_.pairs.push_back({a, b});
+    advance();
+  }
+
+  const Scene& scene() const { return scene_; }
+
+  void advance() {
+    ++steps_;
+    for (std::size_t i = 0; i < bases_.size(); ++i) {
+      TriangleSoup soup;
+      for (const std::uint32_t vertex : bases_[i]->corner_vertex) {
+        Vec3f p = bases_[i]->vertices[vertex];
+        p.z += 0.05f * std::sin(4 * p.x + 0.1f * static_cast<float>(steps_)) * std::cos(3 * p.y);
+        soup.push_back(p);
+      }
+      scene_.meshes[2 + i] = deformed(bases_[i], soup);
+    }
+    for (Scene::Object& object : scene_.objects) object.pose.position.z -= 0.0005;
+  }
+
+ private:
+  Scene scene_;
+  std::vector<std::shared_ptr<const Mesh>> bases_;
+  int steps_ = 0;
+};
+
+struct NamedOptions {
+  const char* name;
+  ColliderOptions options;
+};
+
+ColliderOptions options_of(Rays rays, DeformableTarget target, Organization organization) {
+  ColliderOptions options;
+  options.rays = rays;
+  options.deformable_target = target;
+  options.organization = organization;
+  return options;
+}
+
+TEST(Deformables, GiveTheSameBytesInEveryMode) {
+  const NamedOptions modes[] = {
+      {"iterative",
+       options_of(Rays::kIterative, DeformableTarget::kRefit, Organization::kPipelined)},
+      {"basic", options_of(Rays::kFull, DeformableTarget::kBasic, Organization::kPipelined)},
+      {"iterative basic",
+       options_of(Rays::kIterative, DeformableTarget::kBasic, Organization::kPipelined)},
+      {"monolithic",
+       options_of(Rays::kIterative, DeformableTarget::kRefit, Organization::kMonolithic)},
+      {"monolithic basic",
+       options_of(Rays::kFull, DeformableTarget::kBasic, Organization::kMonolithic)},
+  };
+  // The paper's modes among themselves: their contacts are of the vertices that rays find.
+  ColliderOptions in_full =
+      options_of(Rays::kFull, DeformableTarget::kRefit, Organization::kPipelined);
+  in_full.count_work = true;
+  Collider full(in_full);
+  for (const NamedOptions& mode : modes) {
+    Collider collider(mode.options);
+    MovingDeformables moving;
+    PassMemory memory;
+    std::uint64_t iterative = 0, basic = 0, small = 0;
+    std::size_t contacts = 0;
+    for (int i = 0; i < 8; ++i, moving.advance()) {
+      const Bits expected = bits_of(full.collide(moving.scene(), nullptr));
+      ASSERT_EQ(bits_of(collider.collide(moving.scene(), &memory)), expected) << mode.name << i;
+      const ListCounts& actual = collider.report().actual;
+      iterative += actual[static_cast<std::size_t>(List::kRaysIterative)];
+      basic += actual[static_cast<std::size_t>(List::kRaysBasic)];
+      small += actual[static_cast<std::size_t>(List::kChunksDeformable)];
+      for (const auto& pair : expected) contacts += pair.size();
+    }
+    EXPECT_GT(contacts, 1000u);
+    EXPECT_EQ(iterative > 100, mode.options.rays == Rays::kIterative) << mode.name;
+    EXPECT_EQ(basic > 100, mode.options.deformable_target == DeformableTarget::kBasic) << mode.name;
+    EXPECT_EQ(small > 0, mode.options.organization == Organization::kPipelined) << mode.name;
+  }
+}
+
+TEST(Deformables, AreDroppedWithoutTemporalDataInThePapersMode) {
+  Collider paper(
+      options_of(Rays::kIterativePaper, DeformableTarget::kBasic, Organization::kPipelined));
+  MovingDeformables moving;
+  PassMemory memory;
+  std::uint64_t dropped = 0, iterative = 0, in_full = 0;
+  for (int i = 0; i < 20; ++i, moving.advance()) {
+    paper.collide(moving.scene(), &memory);
+    dropped += paper.report().dropped;
+    iterative += paper.report().actual[static_cast<std::size_t>(List::kRaysIterative)];
+    if (i > 0) in_full += paper.report().actual[static_cast<std::size_t>(List::kRaysBasic)];
+  }
+  EXPECT_GT(dropped, 100u);
+  EXPECT_GT(iterative, 100u);
+  EXPECT_GT(in_full, 100u);  // vertices that have moved far since they were last cast in full
+}
+
+}  // namespace
+}  // namespace ode_ext::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reduction of contacts/reduce.cl, plainly: one rule after the other on a sorted list. And how
+// near each decision was to going the other way.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "contacts/field_records.h"
+#include "mesh/vec.h"
+
+namespace ode_ext::test {
+
+// Deeper first; of equally deep ones by where they are and what they are of.
+inline auto reduction_key(const Candidate& c) {
+  return std::tuple(-c.depth, c.position[0], c.position[1], c.position[2], c.side_kind, c.vertex,
+                    c.triangle, c.normal[0], c.normal[1], c.normal[2], c.feature[0], c.feature[1]);
+}
+
+struct Reduction {
+  std::vector<Candidate> taken;  // in order
+  // The least by which a choice was made: of depths and distances in multiples of `size`, of the
+  // cosines between normals as they are.
+  double margin = std::numeric_limits<double>::infinity();
+};
+
+class ReferenceReduce {
+ public:
+  // `merge` [m]: what is nearer to another adds nothing.
+  ReferenceReduce(std::vector<Candidate> candidates, float merge, double size)
+      : left_(std::move(candidates)), merge_(merge), size_(size) {
+    std::sort(left_.begin(), left_.end(), [](const Candidate& a, const Candidate& b) {
+      return reduction_key(a) < reduction_key(b);
+    });
+  }
+
+  Reduction run(std::size_t limit) {
+    while (result_.taken.size() < limit &&
+           (take_of_new_region() || take_of_new_manifold() || take_farthest())) {
+    }
+    return result_;
+  }
+
+ private:
+  static Vec3f vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
+  // From a contact that is taken, across its normal if both face one way.
+  float apart2(const Candidate& c, const Candidate& taken) {
+    const Vec3f n = vec(taken.normal);
+    Vec3f d = vec(c.position) - vec(taken.position);
+    const float cosine = dot(n, vec(c.normal));
+    decided(static_cast<double>(cosine) - 0.9);
+    if (cosine > 0.9f) d = d - dot(d, n) * n;
+    return dot(d, d);
+  }
+  float nearest2(const Candidate& c) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Candidate& t : result_.taken) nearest = std::min(nearest, apart2(c, t));
+    return nearest;
+  }
+  bool is_apart(const Candidate& c) {
+    const float nearest = nearest2(c);
+    decided((std::sqrt(static_cast<double>(nearest)) - static_cast<double>(merge_)) / size_);
+    return nearest > merge_ * merge_;
+  }
+  void decided(double by) { result_.margin = std::min(result_.margin, std::fabs(by)); }
+
+  void take(std::size_t i) {
+    regions_.insert(left_[i].region);
+    manifolds_.insert(left_[i].manifold);
+    result_.taken.push_back(left_[i]);
+    left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  // The first of those that `may`.
+  template <class May>
+  bool take_first(May may) {
+    const auto first = std::find_if(left_.begin(), left_.end(), may);
+    if (first == left_.end()) return false;
+    const auto second = std::find_if(first + 1, left_.end(), may);
+    if (second != left_.end()) decided(static_cast<double>(first->depth - second->depth) / size_);
+    take(static_cast<std::size_t>(first - left_.begin()));
+    return true;
+  }
+  bool take_of_new_region() {
+    return take_first([&](const Candidate& c) { return !regions_.contains(c.region); });
+  }
+  bool take_of_new_manifold() {
+    return take_first(
+        [&](const Candidate& c) { return !manifolds_.contains(c.manifold) && is_apart(c); });
+  }
+  bool take_farthest() {
+    std::size_t best = left_.size();
+    float farthest = 0, next = 0;
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (!is_apart(left_[i])) continue;
+      const float nearest = nearest2(left_[i]);
+      if (nearest > farthest) {
+        next = farthest;
+        farthest = nearest;
+        best = i;
+      } else {
+        next = std::max(next, nearest);
+      }
+    }
+    if (best == left_.size()) return false;
+    decided((std::sqrt(static_cast<double>(farthest)) - std::sqrt(static_cast<double>(next))) /
+            size_);
+    take(best);
+    return true;
+  }
+
+  std::vector<Candidate> left_;
+  std::set<ox_u32> regions_, manifolds_;
+  float merge_;
+  double size_;
+  Reduction result_;
+};
+
+}  // namespace ode_ext::test

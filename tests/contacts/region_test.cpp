@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Features: every crossing and every vertex inside, once, among those of its pair; and the regions
+// of overlap that they form.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "support/rig.h"
+
+namespace ode_ext::test {
+namespace {
+
+StepRecords searched(const TestScene& scene) {
+  return Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
+}
+
+// Flags that say what it is; pair, edge or vertex, triangle, t.
+using What = std::tuple<ox_u32, ox_u32, ox_u32, ox_u32, ox_f32>;
+
+TEST(Features, AreAllCrossingsAndAllVerticesInside) {
+  const TestScene scene = random_scene(200, 79);
+  const StepRecords records = searched(scene);
+  std::multiset<What> expected, found;
+  for (const ox_edge_crossing& c : records.crossings)
+    expected.insert({(c.pair_side & 1) | (c.leaves != 0 ? OX_FEATURE_LEAVES : 0u), c.pair_side >> 1,
+                     c.edge, c.triangle, c.t});
+  for (const ox_hit& h : records.hits)
+    expected.insert(
+        {(h.pair_side & 1) | OX_FEATURE_VERTEX, h.pair_side >> 1, h.vertex, h.triangle, 0.0f});
+  for (const ox_feature& f : records.features)
+    found.insert({f.flags & (OX_FEATURE_SIDE | OX_FEATURE_LEAVES | OX_FEATURE_VERTEX), f.pair,
+                  f.source, f.triangle, f.t});
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(records.crossings.size(), 1000u);
+  EXPECT_GT(records.hits.size(), 500u);
+}
+
+TEST(Features, LieOnTheirEdgesAndVerticesInTheFrameOfB) {
+  const TestScene scene = random_scene(200, 79);
+  const StepRecords records = searched(scene);
+  for (const ox_feature& f : records.features) {
+    const ox_u32 side = f.flags & OX_FEATURE_SIDE;
+    const std::uint32_t mesh = scene.objects[scene.pairs[f.pair][side]].mesh;
+    const TestPose &pa = scene.pose_of(f.pair, 0), &pb = scene.pose_of(f.pair, 1);
+    const auto place_of = [&](ox_u32 vertex) {
+      const Point p =
+          point_of(scene.scene.meshes[mesh]->vertices.at(Rig::shared().local_vertex(mesh, vertex)));
+      return side == 0 ? rotate_back(pb, rotate(pa, p) + (pa.position - pb.position)) : p;
+    };
+    const double epsilon = static_cast<double>(records.pairs[f.pair].epsilon);
+    Point expected;
+    if ((f.flags & OX_FEATURE_VERTEX) != 0) {
+      expected = place_of(f.source);
+    } else {
+      const ox_edge& edge = records.edges.at(f.source);
+      const Point from = place_of(edge.vertex[0]);
+      expected = from + static_cast<double>(f.t) * unit(place_of(edge.vertex[1]) - from);
+    }
+    EXPECT_LT(distance(point_of(f.position), expected), 2 * epsilon);
+  }
+}
+
+TEST(Features, AreEachOfOneRegionOfTheirPair) {
+  const TestScene scene = random_scene(200, 80);
+  const StepRecords records = searched(scene);
+  std::set<ox_u32> listed;
+  for (std::size_t r = 0; r < records.regions.size(); ++r) {
+    const ox_region& region = records.regions[r];
+    EXPECT_EQ(region.placed, region.count);
+    for (const ox_u32 feature : records.features_of(region)) {
+      EXPECT_TRUE(listed.insert(feature).second);
+      EXPECT_EQ(records.features.at(feature).region, r);
+      EXPECT_EQ(records.features.at(feature).pair, region.pair);
+    }
+  }
+  // But those within facets, which are of no contact.
+  EXPECT_EQ(listed.size(),
+            static_cast<std::size_t>(std::count_if(
+                records.features.begin(), records.features.end(),
+                [](const ox_feature& f) { return (f.flags & OX_FEATURE_FLAT) == 0; })));
+  EXPECT_GT(records.regions.size(), 100u);
+}
+
+// A chord has two ends: one where its edge enters, the other where it leaves, or a vertex.
+TEST(Features, ArePartnersOfOneAnother) {
+  const TestScene scene = random_scene(200, 81, kSmallClosedMeshCount);
+  const StepRecords records = searched(scene);
+  std::size_t chords = 0;
+  for (ox_u32 i = 0; i < records.features.size(); ++i) {
+    const ox_feature& f = records.features[i];
+    if ((f.flags & (OX_FEATURE_VERTEX | OX_FEATURE_FLAT)) != 0) continue;
+    ASSERT_NE(f.partner, OX_NONE) << "pair " << f.pair;
+    const ox_feature& other = records.features.at(f.partner);
+    EXPECT_EQ(other.region, f.region);
+    if ((other.flags & OX_FEATURE_VERTEX) != 0) {
+      const ox_u32 end = (f.flags & OX_FEATURE_LEAVES) != 0 ? 0 : 1;
+      EXPECT_EQ(other.source, records.edges.at(f.source).vertex[end]);
+      continue;
+    }
+    ++chords;
+    EXPECT_EQ(other.source, f.source);
+    EXPECT_NE(other.flags & OX_FEATURE_LEAVES, f.flags & OX_FEATURE_LEAVES);
+    EXPECT_EQ(other.partner, i);
+  }
+  EXPECT_GT(chords, 100u);
+}
+
+// By looking at all crossings of the edge: the nearest the other way on the inner side.
+ox_u32 partner_among_all(const StepRecords& records, const std::vector<ox_u32>& of_edge, ox_u32 i) {
+  const ox_feature& f = records.features[i];
+  const bool leaves = (f.flags & OX_FEATURE_LEAVES) != 0;
+  ox_u32 best = OX_NONE;
+  std::pair<ox_f32, ox_u32> least{INFINITY, 0};
+  for (const ox_u32 n : of_edge) {
+    const ox_feature& other = records.features[n];
+    if (((other.flags & OX_FEATURE_LEAVES) != 0) == leaves) continue;
+    const ox_f32 after = leaves ? f.t - other.t : other.t - f.t;
+    if (after < -(records.crossings[i].blur + records.crossings[n].blur)) continue;
+    const std::pair<ox_f32, ox_u32> rank{after, other.triangle};
+    if (rank >= least) continue;
+    least = rank;
+    best = n;
+  }
+  return best;
+}
+
+TEST(Features, ArePartnersOfTheNearestHoweverOftenAnEdgeCrosses) {
+  TestScene scene;
+  scene.add_pair(scene.add_mesh(make_soup(150, 21)), {}, scene.add_mesh(make_soup(150, 22)), {});
+  const StepRecords records = searched(scene);
+  std::map<std::pair<ox_u32, ox_u32>, std::vector<ox_u32>> of_edges;
+  std::map<std::pair<ox_u32, ox_u32>, ox_u32> inside;
+  for (ox_u32 i = 0; i < records.features.size(); ++i) {
+    const ox_feature& f = records.features[i];
+    if ((f.flags & OX_FEATURE_VERTEX) != 0)
+      inside[{f.flags & OX_FEATURE_SIDE, f.source}] = i;
+    else
+      of_edges[{f.flags & OX_FEATURE_SIDE, f.source}].push_back(i);
+  }
+  std::size_t most = 0;
+  std::size_t chords = 0;
+  for (const auto& [edge, all] : of_edges) {
+    most = std::max(most, all.size());
+    for (const ox_u32 i : all) {
+      const ox_feature& f = records.features[i];
+      ox_u32 expected = partner_among_all(records, all, i);
+      if (expected == OX_NONE) {
+        const ox_u32 end = (f.flags & OX_FEATURE_LEAVES) != 0 ? 0 : 1;
+        const auto found = inside.find({edge.first, records.edges.at(f.source).vertex[end]});
+        if (found != inside.end()) expected = found->second;
+      } else {
+        ++chords;
+      }
+      EXPECT_EQ(f.partner, expected) << "feature " << i;
+    }
+  }
+  EXPECT_GT(most, 10u);
+  EXPECT_GT(chords, 500u);
+}
+
+// Posts upright in one face.
+TEST(Regions, AreAsManyAsPostsInAFaceHoweverManyTheyAre) {
+  for (const int count : {2, 16, 17, 60}) {
+    TestMesh posts;
+    for (int i = 0; i < count; ++i)
+      posts = merged(posts, moved(make_box({0.1, 0.1, 0.5}), {0.2 * i, 0, 0.2}));
+    TestScene scene;
+    const std::uint32_t block = scene.add_mesh(moved(make_box({40, 2, 1}), {0, 0, -0.5}));
+    scene.add_pair(scene.add_mesh(posts), {}, block, {});
+    const StepRecords records = searched(scene);
+    EXPECT_EQ(records.regions.size(), static_cast<std::size_t>(count));
+    EXPECT_EQ(records.hits.size(), 4u * static_cast<unsigned>(count));
+    // A post each, and what is told of convex bodies: its surface is crossed, and has no valley.
+    std::map<int, ox_u32> region_of;
+    for (const ox_feature& f : records.features)
+      EXPECT_EQ(region_of.emplace(static_cast<int>(std::round(f.position[0] / 0.2f)), f.region)
+                    .first->second,
+                f.region);
+    for (const ox_region& region : records.regions) EXPECT_EQ(region.flags, OX_REGION_CROSSED);
+  }
+}
+
+// The inner side of an L is one.
+TEST(Regions, HaveAValleyWhereAMeshIsNotConvex) {
+  TestScene scene;
+  const std::uint32_t l = scene.add_mesh(make_l(1));
+  const std::uint32_t ball = scene.add_mesh(make_icosphere(0.3, 2));
+  scene.add_pair(ball, at(0, 0, 0), l, {});                                    // in the corner
+  scene.add_pair(ball, at(-0.25, -0.6, 0), l, {});                             // in an outer side
+  scene.add_pair(scene.add_mesh(make_cube(0.1)), at(-0.25, -0.25, 0), l, {});  // wholly inside
+  const StepRecords records = searched(scene);
+  ASSERT_EQ(records.regions.size(), 3u);
+  for (const ox_region& region : records.regions) {
+    EXPECT_EQ((region.flags & OX_REGION_VALLEY) != 0, region.pair == 0);
+    EXPECT_EQ((region.flags & OX_REGION_CROSSED) != 0, region.pair != 2);
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/meshlet_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/box.h"
+#include "mesh/mesh.h"
+#include "mesh/ray_cast.h"
+#include "support/test_scene.h"
+
+namespace ode_ext {
+namespace {
+
+// Clusters of 64 triangles, each cluster and its distance twice as large as the one before: a tree
+// of small boxes parts one or two of them from the rest at a time.
+TriangleSoup ever_larger(int clusters) {
+  TriangleSoup soup;
+  for (int c = 0; c < clusters; ++c) {
+    const float size = std::ldexp(1.0f, c);
+    for (int i = 0; i < 64; ++i) {
+      const float x = size * (1 + 0.005f * static_cast<float>(i));
+      const float y = size * 0.005f * static_cast<float>(i % 8);
+      soup.insert(soup.end(), {{x, y, 0}, {x + 0.002f * size, y, 0}, {x, y, 0.002f * size}});
+    }
+  }
+  return soup;
+}
+
+std::vector<TriangleSoup> soups() {
+  return {test::soup_of(test::make_cube(1)), test::soup_of(test::make_icosphere(1, 5)),
+          test::soup_of(test::make_torus(1, 0.3, 40, 20)), test::soup_of(test::make_sheet(2, 9)),
+          ever_larger(60)};
+}
+
+// Below a node, its own included, when the children of each wait in the worst order.
+std::uint32_t most_waiting(const std::vector<MeshletNode>& tree, std::uint32_t n) {
+  std::uint32_t most = tree[n].count;
+  for (std::uint32_t k = 0; k < tree[n].count; ++k)
+    if (tree[n].nodes[k] != kNone)
+      most = std::max(most, tree[n].count - 1 + most_waiting(tree, tree[n].nodes[k]));
+  return most;
+}
+
+std::uint32_t depth(const std::vector<MeshletNode>& tree, std::uint32_t n) {
+  std::uint32_t deepest = 0;
+  for (std::uint32_t k = 0; k < tree[n].count; ++k)
+    if (tree[n].nodes[k] != kNone) deepest = std::max(deepest, depth(tree, tree[n].nodes[k]));
+  return deepest + 1;
+}
+
+// Visits the meshlets below a node, in order.
+void expect_below(const Mesh& mesh, std::uint32_t n, std::uint32_t first, std::uint32_t end) {
+  const MeshletNode& node = mesh.meshlets.tree[n];
+  ASSERT_GE(node.count, 1u);
+  ASSERT_LE(node.count, kTreeWidth);
+  EXPECT_EQ(node.first[0], first);
+  EXPECT_EQ(node.first[node.count], end);
+  for (std::uint32_t k = 0; k < node.count; ++k) {
+    ASSERT_LT(node.first[k], node.first[k + 1]);
+    Box box = empty_box();
+    for (std::uint32_t m = node.first[k]; m < node.first[k + 1]; ++m) {
+      const Meshlet& meshlet = mesh.meshlets.meshlets[m];
+      for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i)
+        box = grown(box, mesh.vertices[mesh.meshlets.vertices[meshlet.vertex_first + i]]);
+    }
+    EXPECT_EQ(node.boxes[k].lo, box.lo);
+    EXPECT_EQ(node.boxes[k].hi, box.hi);
+    if (node.nodes[k] == kNone)
+      EXPECT_EQ(node.first[k + 1], node.first[k] + 1);
+    else
+      expect_below(mesh, node.nodes[k], node.first[k], node.first[k + 1]);
+  }
+}
+
+TEST(MeshletTree, HoldsEachMeshletOnceInTheTightestBoxes) {
+  for (const TriangleSoup& soup : soups()) {
+    const Mesh mesh = build_mesh(soup);
+    expect_below(mesh, 0, 0, static_cast<std::uint32_t>(mesh.meshlets.meshlets.size()));
+  }
+}
+
+TEST(MeshletTree, NeverHasMoreChildrenWaitThanAKernelHasRoomFor) {
+  for (const TriangleSoup& soup : soups()) {
+    const Mesh mesh = build_mesh(soup);
+    EXPECT_LE(most_waiting(mesh.meshlets.tree, 0), kTreeStack);
+  }
+}
+
+// Each leaf of `top` has twice the box of the one before: parted by their boxes, thousands are as
+// many levels.
+TEST(MeshletTree, OfADegenerateTreeOfTwoChildrenIsShallow) {
+  constexpr std::uint32_t kLeaves = 5000;
+  std::vector<BvhNode> top;
+  for (std::uint32_t i = 0; i + 1 < kLeaves; ++i) {
+    const auto size = static_cast<float>(kLeaves - i);
+    top.push_back({{0, 0, 0}, 2 * kLeaves - 1, {size, size, size}, 0});
+    top.push_back({{0, 0, 0}, 2 * i + 2, {1, 1, 1}, i << 3 | 1u});
+  }
+  top.push_back({{0, 0, 0}, 2 * kLeaves - 1, {1, 1, 1}, (kLeaves - 1) << 3 | 1u});
+  const std::vector<MeshletNode> tree = build_meshlet_tree(top);
+  EXPECT_LE(most_waiting(tree, 0), kTreeStack);
+  EXPECT_LE(depth(tree, 0), 4u);  // 16^4 > 5000
+}
+
+TEST(MeshletTree, OfAFineMeshIsAsShallowAsItCanBeAlmost) {
+  const Mesh mesh = build_mesh(test::soup_of(test::make_icosphere(1, 5)));
+  const double levels = std::log(mesh.meshlets.meshlets.size()) / std::log(kTreeWidth);
+  EXPECT_LE(depth(mesh.meshlets.tree, 0), std::ceil(levels) + 1);
+}
+
+TEST(MeshletTree, OfNothingIsEmpty) { EXPECT_TRUE(build_meshlet_tree({}).empty()); }
+
+}  // namespace
+}  // namespace ode_ext

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/neighbours.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/ray_cast.h"
+#include "shapes.h"
+
+namespace ode_ext {
+namespace {
+
+bool runs_edge(const Triangle& triangle, std::uint32_t from, std::uint32_t to) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (triangle[k] == from && triangle[(k + 1) % 3] == to) return true;
+  }
+  return false;
+}
+
+// The slow way: every triangle that has the edge, in either direction.
+std::uint32_t expected(const std::vector<Triangle>& triangles, std::uint32_t own, std::size_t k) {
+  const std::uint32_t from = triangles[own][k], to = triangles[own][(k + 1) % 3];
+  std::vector<std::uint32_t> others;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    if (i == own) continue;
+    if (runs_edge(triangles[i], from, to) || runs_edge(triangles[i], to, from)) others.push_back(i);
+  }
+  if (others.size() != 1 || !runs_edge(triangles[others[0]], to, from)) return kNone;
+  return others[0];
+}
+
+void expect_as_the_slow_way(const TriangleSoup& soup) {
+  const Mesh mesh = build_mesh(soup);
+  const std::vector<Neighbours> found = neighbours(mesh.triangles);
+  EXPECT_EQ(mesh.neighbours, found);
+  ASSERT_EQ(found.size(), mesh.triangles.size());
+  for (std::uint32_t i = 0; i < found.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(found[i][k], expected(mesh.triangles, i, k)) << i << " " << k;
+    }
+  }
+}
+
+std::size_t missing(const std::vector<Neighbours>& neighbours) {
+  std::size_t count = 0;
+  for (const Neighbours& across : neighbours) {
+    count += static_cast<std::size_t>(std::count(across.begin(), across.end(), kNone));
+  }
+  return count;
+}
+
+TEST(Neighbours, AreThoseAcrossTheEdges) {
+  for (const TriangleSoup& soup :
+       {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 8), shapes::torus(1, 0.3, 12)}) {
+    expect_as_the_slow_way(soup);
+    EXPECT_EQ(missing(build_mesh(soup).neighbours), 0u);
+  }
+}
+
+TEST(Neighbours, EndAtTheRimOfAnOpenMesh) {
+  expect_as_the_slow_way(shapes::sheet(5));
+  EXPECT_EQ(missing(build_mesh(shapes::sheet(5)).neighbours), 20u);
+  expect_as_the_slow_way({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+}
+
+TEST(Neighbours, AreNotToldWhereMoreThanTwoMeet) {
+  const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
+  expect_as_the_slow_way(two);
+  EXPECT_EQ(missing(build_mesh(two).neighbours), 4u);
+}
+
+TEST(Neighbours, MustRunTheEdgeTheOtherWay) {
+  const Triangle one{0, 1, 2}, same_way{0, 1, 3}, other_way{1, 0, 3};
+  EXPECT_EQ(neighbours({one, same_way}),
+            (std::vector<Neighbours>{{kNone, kNone, kNone}, {kNone, kNone, kNone}}));
+  EXPECT_EQ(neighbours({one, other_way}),
+            (std::vector<Neighbours>{{1, kNone, kNone}, {0, kNone, kNone}}));
+}
+
+TEST(Neighbours, OfNothingAreNone) { EXPECT_TRUE(neighbours({}).empty()); }
+
+}  // namespace
+}  // namespace ode_ext

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/topology.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "shapes.h"
+
+namespace ode_ext {
+namespace {
+
+Mesh built(const TriangleSoup& soup) { return build_mesh(soup); }
+
+TriangleSoup without_triangle(TriangleSoup soup, std::ptrdiff_t triangle) {
+  soup.erase(soup.begin() + 3 * triangle, soup.begin() + 3 * triangle + 3);
+  return soup;
+}
+
+TriangleSoup with_turned(TriangleSoup soup, std::size_t triangle) {
+  std::swap(soup[3 * triangle], soup[3 * triangle + 2]);
+  return soup;
+}
+
+TriangleSoup indexed(const std::vector<Vec3f>& places, const std::vector<Triangle>& triangles) {
+  TriangleSoup soup;
+  for (const Triangle& t : triangles) {
+    shapes::append(soup, places[t[0]], places[t[1]], places[t[2]]);
+  }
+  return soup;
+}
+
+TEST(Topology, FindsClosedMeshesClosed) {
+  for (const TriangleSoup& soup :
+       {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 10), shapes::torus(1, 0.3, 12)}) {
+    const Mesh mesh = built(soup);
+    EXPECT_TRUE(mesh.closed);
+    EXPECT_FALSE(mesh.inverted);
+    EXPECT_FALSE(mesh.reoriented);
+    EXPECT_GT(shapes::volume(mesh), 0);
+  }
+}
+
+TEST(Topology, FindsAMeshWithAHoleOpen) {
+  for (std::ptrdiff_t hole = 0; hole < 12; ++hole) {
+    EXPECT_FALSE(built(without_triangle(shapes::cube(), hole)).closed);
+  }
+  EXPECT_FALSE(built(shapes::sheet(4)).closed);
+}
+
+TEST(Topology, TurnsAMeshOfNegativeVolume) {
+  const Mesh mesh = built(shapes::turned(shapes::cube()));
+  EXPECT_TRUE(mesh.closed);
+  EXPECT_TRUE(mesh.inverted);
+  EXPECT_FALSE(mesh.reoriented);
+  EXPECT_DOUBLE_EQ(shapes::volume(mesh), 1);
+}
+
+TEST(Topology, TurnsASmallMeshFarFromTheOrigin) {
+  for (const float offset : {1e6f, 1.7e6f, 3.1e6f, 7.9e6f}) {
+    const TriangleSoup far =
+        shapes::moved(shapes::sphere(1, 12), 4, {offset, -1.3f * offset, 0.7f * offset});
+    EXPECT_FALSE(built(far).inverted);
+    EXPECT_TRUE(built(shapes::turned(far)).inverted);
+  }
+}
+
+TEST(Topology, MakesAnInconsistentWindingConsistent) {
+  for (std::size_t triangle = 0; triangle < 12; ++triangle) {
+    const Mesh mesh = built(with_turned(shapes::cube(), triangle));
+    EXPECT_TRUE(mesh.closed);
+    EXPECT_TRUE(mesh.reoriented);
+    EXPECT_FALSE(mesh.inverted);
+    EXPECT_DOUBLE_EQ(shapes::volume(mesh), 1);
+  }
+}
+
+TEST(Topology, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
+  const TriangleSoup other = shapes::turned(shapes::box({5, 0, 0}, {6, 2, 1}));
+  const Mesh mesh = built(shapes::joined(with_turned(shapes::cube(), 3), other));
+  EXPECT_TRUE(mesh.closed);
+  EXPECT_TRUE(mesh.reoriented);
+  EXPECT_DOUBLE_EQ(shapes::volume(mesh), 3);
+}
+
+TEST(Topology, LeavesACavityACavity) {
+  const TriangleSoup cavity =
+      shapes::turned(shapes::box({0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}));
+  const TriangleSoup hollow = shapes::joined(shapes::cube(), cavity);
+  for (const bool turned : {false, true}) {
+    const Mesh mesh = built(turned ? shapes::turned(hollow) : hollow);
+    EXPECT_TRUE(mesh.closed);
+    EXPECT_FALSE(mesh.reoriented);
+    EXPECT_EQ(mesh.inverted, turned);
+    EXPECT_DOUBLE_EQ(shapes::volume(mesh), 0.875);
+  }
+}
+
+TEST(Topology, FindsAnEdgeOfFourTrianglesOpen) {
+  const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
+  const Mesh mesh = built(two);
+  EXPECT_EQ(mesh.vertices.size(), 14u);
+  EXPECT_FALSE(mesh.closed);
+}
+
+TEST(Topology, ClosesMeshesThatShareOnlyAVertex) {
+  const Mesh mesh = built(shapes::joined(shapes::cube(), shapes::box({1, 1, 1}, {2, 2, 2})));
+  EXPECT_EQ(mesh.vertices.size(), 15u);
+  EXPECT_TRUE(mesh.closed);
+}
+
+TEST(Topology, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
+  const TriangleSoup cube = shapes::cube();
+  TriangleSoup soup = cube;
+  shapes::append(soup, cube[0], cube[1], cube[2]);
+  const Mesh mesh = built(soup);
+  EXPECT_EQ(mesh.triangles.size(), 13u);
+  EXPECT_FALSE(mesh.closed);
+  EXPECT_FALSE(built(shapes::joined(cube, cube)).closed);
+}
+
+TEST(Topology, FindsATriangleOfTwoSidesOpen) {
+  const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
+  EXPECT_FALSE(built({a, b, c, a, c, b}).closed);
+}
+
+TEST(Topology, CountsSliversAsNeighbours) {
+  // The bottom of a tetrahedron cut at a corner on its edge, the gap filled by a sliver.
+  const Vec3f o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, m{0.5f, 0, 0};
+  const TriangleSoup soup{o, y, m, m, y, x, o, m, x, o, x, z, o, z, y, x, y, z};
+  const Mesh mesh = built(soup);
+  EXPECT_EQ(mesh.triangles.size(), 6u);
+  EXPECT_TRUE(mesh.closed);
+  EXPECT_EQ(std::count(mesh.face_normals.begin(), mesh.face_normals.end(), Vec3f{}), 1);
+}
+
+TEST(Topology, LeavesASurfaceWithoutSidesAlone) {
+  // The projective plane on six places: each of its 15 edges has two of its ten triangles.
+  const std::vector<Vec3f> places{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 2}, {2, 1, 1}};
+  const TriangleSoup soup = indexed(places, {{0, 1, 2},
+                                             {0, 2, 3},
+                                             {0, 3, 4},
+                                             {0, 4, 5},
+                                             {0, 1, 5},
+                                             {1, 2, 4},
+                                             {2, 3, 5},
+                                             {1, 3, 4},
+                                             {2, 4, 5},
+                                             {1, 3, 5}});
+  const Mesh mesh = built(soup);
+  EXPECT_FALSE(mesh.closed);
+  EXPECT_FALSE(mesh.reoriented);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(mesh.vertices[mesh.triangles[i][k]], soup[3 * mesh.source_triangle[i] + k]);
+    }
+  }
+}
+
+RC_GTEST_PROP(TopologyProperty, UndoesAnyTurnedTriangles, ()) {
+  static const TriangleSoup torus = shapes::torus(1, 0.3, 4);
+  static const double expected = shapes::volume(built(torus));
+  TriangleSoup soup = torus;
+  const auto turned =
+      *rc::gen::container<std::vector<bool>>(soup.size() / 3, rc::gen::arbitrary<bool>());
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (turned[i]) soup = with_turned(std::move(soup), i);
+  }
+  const Mesh mesh = built(soup);
+  RC_ASSERT(mesh.closed);
+  RC_ASSERT(std::fabs(shapes::volume(mesh) - expected) < 1e-12);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::size_t source = 3 * mesh.source_triangle[i];
+    for (const std::uint32_t corner : mesh.triangles[i]) {
+      const Vec3f place = mesh.vertices[corner];
+      RC_ASSERT(place == soup[source] || place == soup[source + 1] || place == soup[source + 2]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "opencl/buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "opencl/error.h"
+
+namespace ode_ext {
+namespace {
+
+std::vector<std::uint8_t> counting(std::size_t size) {
+  std::vector<std::uint8_t> bytes(size);
+  std::iota(bytes.begin(), bytes.end(), std::uint8_t{1});
+  return bytes;
+}
+
+TEST(Buffer, TakesWholePagesAndNeverNone) {
+  Device device("");
+  Buffer buffer(device);
+  EXPECT_EQ(buffer.capacity(), 0u);
+  EXPECT_EQ(buffer.get(), nullptr);
+  buffer.reserve(0);
+  EXPECT_EQ(buffer.capacity(), 4096u);
+  EXPECT_NE(buffer.get(), nullptr);
+  Buffer larger(device);
+  larger.reserve(4097);
+  EXPECT_EQ(larger.capacity(), 8192u);
+}
+
+TEST(Buffer, GrowsByHalfAtLeastAndNeverShrinks) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.reserve(100 * 4096);
+  const cl_mem memory = buffer.get();
+  buffer.reserve(100 * 4096);
+  buffer.reserve(1);
+  EXPECT_EQ(buffer.get(), memory);
+  EXPECT_EQ(buffer.capacity(), 100u * 4096);
+  buffer.reserve(100 * 4096 + 1);
+  EXPECT_EQ(buffer.capacity(), 150u * 4096);
+  buffer.reserve(400 * 4096);
+  EXPECT_EQ(buffer.capacity(), 400u * 4096);
+}
+
+TEST(Buffer, ReadsWhatWasWrittenAtAnyOffset) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.reserve(1000);
+  for (const std::size_t size : {1u, 63u, 64u, 65u, 500u}) {
+    for (const std::size_t offset : {0u, 1u, 4u, 77u}) {
+      const std::vector<std::uint8_t> source = counting(size);
+      std::vector<std::uint8_t> target(size);
+      buffer.write(source.data(), size, offset);
+      buffer.read(target.data(), size, offset);
+      device.finish();
+      EXPECT_EQ(target, source) << size << " at " << offset;
+    }
+  }
+}
+
+TEST(Buffer, KeepsWhatIsInItWhereItIsExtendedAndTheRestIsZero) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.extend(1);
+  std::vector<unsigned char> bytes(buffer.capacity(), 1);
+  buffer.read(bytes.data(), bytes.size());
+  device.finish();
+  EXPECT_EQ(bytes, std::vector<unsigned char>(bytes.size(), 0));
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(i % 251 + 1);
+  buffer.write(bytes.data(), bytes.size());
+  const std::size_t before = buffer.capacity();
+  buffer.extend(before + 1);
+  ASSERT_GT(buffer.capacity(), before);
+  std::vector<unsigned char> extended(buffer.capacity(), 1);
+  buffer.read(extended.data(), extended.size());
+  device.finish();
+  bytes.resize(extended.size(), 0);
+  EXPECT_EQ(extended, bytes);
+}
+
+TEST(Buffer, FillsExactlyTheBytesAskedForWithZero) {
+  Device device("");
+  Buffer buffer(device);
+  const std::vector<std::uint8_t> source(200, 0xff);
+  buffer.reserve(source.size());
+  for (const auto& [offset, size] :
+       {std::pair{0, 200}, {0, 1}, {1, 1}, {4, 8}, {4, 7}, {3, 8}, {196, 4}}) {
+    std::vector<std::uint8_t> expected = source, target(source.size());
+    std::memset(expected.data() + offset, 0, static_cast<std::size_t>(size));
+    buffer.write(source.data(), source.size());
+    buffer.fill_zero(static_cast<std::size_t>(size), static_cast<std::size_t>(offset));
+    buffer.read(target.data(), target.size());
+    device.finish();
+    EXPECT_EQ(target, expected) << size << " at " << offset;
+  }
+}
+
+TEST(Buffer, DoesNothingForZeroBytesEvenWhileEmpty) {
+  Device device("");
+  Buffer buffer(device);
+  fault_injector::disarm();
+  buffer.write(nullptr, 0);
+  buffer.read(nullptr, 0);
+  buffer.fill_zero(0);
+  EXPECT_EQ(fault_injector::calls_checked(), 0);
+}
+
+TEST(Buffer, RefusesTransfersPastItsEnd) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.reserve(4096);
+  std::vector<std::uint8_t> bytes(4097);
+  EXPECT_THROW(buffer.write(bytes.data(), 4097), DeviceError);
+  EXPECT_THROW(buffer.read(bytes.data(), 1, 4096), DeviceError);
+  EXPECT_THROW(buffer.fill_zero(4097), DeviceError);
+}
+
+TEST(Buffer, NamesBothSizesWhenTheDeviceCannotHoldSoMuchAndIsEmptyThen) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.reserve(1);
+  const std::size_t largest = device.info().largest_buffer;
+  try {
+    buffer.reserve(largest + 1);
+    FAIL() << "expected a DeviceError";
+  } catch (const DeviceError& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(error.code(), CL_INVALID_BUFFER_SIZE);
+    EXPECT_NE(message.find(std::to_string(largest) + " bytes"), std::string::npos) << message;
+    EXPECT_NE(message.find(std::to_string(largest + 1) + " bytes"), std::string::npos) << message;
+    EXPECT_NE(message.find(device.info().name), std::string::npos) << message;
+  }
+  EXPECT_EQ(buffer.capacity(), 0u);
+  EXPECT_EQ(buffer.get(), nullptr);
+  EXPECT_THROW(buffer.reserve(SIZE_MAX), DeviceError);
+  buffer.reserve(1);
+  EXPECT_EQ(buffer.capacity(), 4096u);
+}
+
+TEST(Buffer, IsEmptyAfterTheDeviceRefusesToGrowIt) {
+  Device device("");
+  Buffer buffer(device);
+  buffer.reserve(4096);
+  fault_injector::arm(1, CL_MEM_OBJECT_ALLOCATION_FAILURE);
+  try {
+    buffer.reserve(8192);
+    FAIL() << "expected a DeviceError";
+  } catch (const DeviceError& error) {
+    EXPECT_NE(std::string(error.what()).find("Asked for: 8192 bytes"), std::string::npos)
+        << error.what();
+  }
+  fault_injector::disarm();
+  EXPECT_EQ(buffer.capacity(), 0u);
+  EXPECT_EQ(buffer.get(), nullptr);
+}
+
+TEST(Buffer, LeavesAnEmptyOneBehindWhenMoved) {
+  Device device("");
+  Buffer from(device);
+  from.reserve(1);
+  const cl_mem memory = from.get();
+  const Buffer to(std::move(from));
+  EXPECT_EQ(to.get(), memory);
+  EXPECT_EQ(to.capacity(), 4096u);
+  EXPECT_EQ(from.get(), nullptr);
+  EXPECT_EQ(from.capacity(), 0u);
+}
+
+TEST(PinnedMemory, TakesAndGivesWhatTheDeviceHolds) {
+  Device device("");
+  Buffer buffer(device);
+  PinnedMemory pinned(device);
+  EXPECT_EQ(pinned.data(), nullptr);
+  const std::vector<std::uint8_t> source = counting(5000);
+  pinned.reserve(source.size());
+  buffer.reserve(source.size());
+  ASSERT_EQ(pinned.capacity(), 8192u);
+  std::memcpy(pinned.data(), source.data(), source.size());
+  buffer.write(pinned.data(), source.size());
+  device.finish();
+  std::memset(pinned.data(), 0, source.size());
+  buffer.read(pinned.data(), source.size());
+  device.finish();
+  EXPECT_EQ(std::memcmp(pinned.data(), source.data(), source.size()), 0);
+}
+
+TEST(PinnedMemory, IsWritableToItsLastByteAfterGrowing) {
+  Device device("");
+  PinnedMemory pinned(device);
+  pinned.reserve(1);
+  pinned.reserve(100000);
+  ASSERT_GE(pinned.capacity(), 100000u);
+  std::memset(pinned.data(), 0x5a, pinned.capacity());
+  EXPECT_EQ(static_cast<std::uint8_t*>(pinned.data())[pinned.capacity() - 1], 0x5a);
+}
+
+TEST(PinnedMemory, IsEmptyAfterAFailedMapping) {
+  Device device("");
+  PinnedMemory pinned(device);
+  pinned.reserve(1);
+  fault_injector::arm(2, CL_MAP_FAILURE);  // clCreateBuffer, clEnqueueMapBuffer
+  EXPECT_THROW(pinned.reserve(10000), DeviceError);
+  fault_injector::disarm();
+  EXPECT_EQ(pinned.data(), nullptr);
+  EXPECT_EQ(pinned.capacity(), 0u);
+  pinned.reserve(1);
+  EXPECT_NE(pinned.data(), nullptr);
+}
+
+TEST(Device, CountsSynchronizations) {
+  Device device("");
+  PinnedMemory pinned(device);
+  EXPECT_EQ(device.synchronizations(), 0);
+  device.flush();
+  EXPECT_EQ(device.synchronizations(), 0);
+  device.finish();
+  EXPECT_EQ(device.synchronizations(), 1);
+  pinned.reserve(1);
+  EXPECT_EQ(device.synchronizations(), 2);
+}
+
+}  // namespace
+}  // namespace ode_ext

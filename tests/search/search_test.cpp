@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The search for crossings of edges against the brute-force reference, in both organizations: every
+// one is found, and only those.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "collide/collider.h"
+#include "search/crossing_comparison.h"
+#include "support/rig.h"
+#include "support/test_scene.h"
+
+namespace ode_ext::test {
+namespace {
+
+Comparison compare(const TestScene& scene, const std::map<CrossingKey, FoundCrossing>& found) {
+  const std::vector<ReferenceSurface> surfaces(scene.meshes.begin(), scene.meshes.end());
+  const Comparison comparison = compare_crossings(scene, surfaces, found);
+  for (const std::string& difference : comparison.differences) ADD_FAILURE() << difference;
+  return comparison;
+}
+
+Comparison compare(const TestScene& scene, Organization organization, Launch launch = {8, 64}) {
+  return compare(scene, found_crossings(scene, Rig::shared().run_with_edges(scene.scene,
+                                                                            organization, launch)));
+}
+
+constexpr Organization kBoth[] = {Organization::kPipelined, Organization::kMonolithic};
+
+TEST(Search, FindsTheCrossingsOfTheReference) {
+  const TestScene scene = random_scene(600, 71);
+  for (const Organization organization : kBoth) {
+    const Comparison comparison = compare(scene, organization);
+    EXPECT_GT(comparison.certain, 5000u);
+    EXPECT_LT(200 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
+  }
+}
+
+TEST(Search, FindsTheSameWhateverTheNumberOfPairs) {
+  for (const int count : {0, 1, 63, 64, 65, 1234}) {
+    const TestScene scene = random_scene(count, 72);
+    const auto pipelined =
+        found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[0]));
+    const auto monolithic =
+        found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[1]));
+    compare(scene, pipelined);
+    ASSERT_EQ(pipelined.size(), monolithic.size());
+    for (const auto& [key, crossing] : pipelined) {
+      ASSERT_TRUE(monolithic.contains(key));
+      EXPECT_EQ(monolithic.at(key).t, crossing.t);
+      EXPECT_EQ(monolithic.at(key).leaves, crossing.leaves);
+    }
+  }
+}
+
+TEST(Search, FindsTheSameWhateverTheLaunch) {
+  const TestScene scene = random_scene(65, 73);
+  const auto keys = [&](Organization organization, Launch launch) {
+    std::set<CrossingKey> result;
+    for (const auto& [key, crossing] :
+         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, organization, launch)))
+      result.insert(key);
+    return result;
+  };
+  const std::set<CrossingKey> expected = keys(kBoth[0], {8, 64});
+  EXPECT_GT(expected.size(), 500u);
+  for (const Organization organization : kBoth)
+    for (const Launch launch : {Launch{1, 1}, Launch{1, 64}, Launch{3, 32}, Launch{64, 256}})
+      EXPECT_EQ(keys(organization, launch), expected);
+}
+
+TEST(Search, FindsTheCrossingsOfLargerMeshes) {
+  TestScene scene;
+  scene.add_mesh(jittered(make_icosphere(0.6, 3), 0.002, 1));
+  scene.add_mesh(jittered(make_torus(0.5, 0.2, 32, 20), 0.002, 2));
+  scene.add_mesh(make_cube(1, 8));
+  Random random(74);
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    const TestPose a = random.pose(0.3);
+    scene.add_pair(i % 3, a, i / 3 % 3, random.pose(0.3));
+  }
+  for (const Organization organization : kBoth) {
+    const Comparison comparison = compare(scene, organization);
+    EXPECT_GT(comparison.certain, 500u);
+    // One edge in fifty is so flat that it may as well not be cast.
+    EXPECT_LT(20 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
+  }
+}
+
+TEST(Search, FindsTheSameFarFromTheOrigin) {
+  const TestScene near = random_scene(60, 75);
+  for (const Point& place : {Point{1e4, -2e4, 5e3}, Point{1e6, 1e6, -1e6}}) {
+    TestScene far;
+    for (const TestMesh& mesh : near.meshes) far.add_mesh(mesh);
+    for (std::size_t i = 0; i < near.pairs.size(); ++i) {
+      TestPose a = near.pose_of(i, 0), b = near.pose_of(i, 1);
+      a.position = a.position + place;
+      b.position = b.position + place;
+      far.add_pair(near.objects[near.pairs[i][0]].mesh, a, near.objects[near.pairs[i][1]].mesh, b);
+    }
+    EXPECT_GT(compare(far, Organization::kPipelined).certain, 500u);
+  }
+}
+
+TEST(Search, FindsTheSameAtEverySize) {
+  const TestScene model = random_scene(60, 76);
+  for (const double scale : {1e-4, 1e-2, 1e2, 1e4}) {
+    TestScene scene;
+    for (const TestMesh& mesh : model.meshes) scene.add_mesh(scaled(mesh, scale));
+    for (std::size_t i = 0; i < model.pairs.size(); ++i) {
+      TestPose a = model.pose_of(i, 0), b = model.pose_of(i, 1);
+      a.position = scale * a.position;
+      b.position = scale * b.position;
+      scene.add_pair(model.objects[model.pairs[i][0]].mesh, a,
+                     model.objects[model.pairs[i][1]].mesh, b);
+    }
+    EXPECT_GT(compare(scene, Organization::kPipelined).certain, 500u) << scale;
+  }
+}
+
+// Edges that lie in faces and on edges: whatever rounding says, they are no others.
+TEST(Search, FindsNothingFarFromWhereAlignedBoxesTouch) {
+  for (const Point& offset : {Point{0, 0, 0}, Point{0.5, 0, 0}, Point{0, 0, 1}, Point{0.5, 0.5, 1},
+                              Point{1, 1, 1}, Point{0.25, 0.5, 0.75}}) {
+    TestScene scene;
+    const std::uint32_t cube = scene.add_mesh(make_cube(1, 2));
+    scene.add_pair(cube, at(offset[0], offset[1], offset[2]), cube, at(0, 0, 0));
+    for (const Organization organization : kBoth) compare(scene, organization);
+  }
+}
+
+// What runs through the neighbour of a hole in the grid or past the box must not be culled: a rod
+// through a ring, and thin rods past one another.
+TEST(Search, CullsNothingThatCrosses) {
+  TestScene scene;
+  const std::uint32_t ring = scene.add_mesh(make_torus(1, 0.1, 40, 8));
+  const std::uint32_t rod = scene.add_mesh(make_rod(4, 0.01));
+  const std::uint32_t sheet = scene.add_mesh(make_sheet(2, 9));
+  Random random(77);
+  for (int i = 0; i < 60; ++i) {
+    const TestPose pose = random.pose(1);
+    scene.add_pair(rod, pose, ring, random.pose(0.1));
+    scene.add_pair(sheet, pose, rod, random.pose(0.5));
+    scene.add_pair(ring, pose, ring, random.pose(0.5));
+  }
+  for (const Organization organization : kBoth)
+    EXPECT_GT(compare(scene, organization).certain, 300u);
+}
+
+// The way of each crossing: the meshlet of its edge and that of its triangle were matched, once,
+// and one of them was left by the cull.
+TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
+  const TestScene scene = random_scene(65, 78);
+  const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organization::kPipelined);
+  std::set<std::pair<ox_u32, ox_u32>> tasks;
+  for (const ox_meshlet_task& task : records.meshlet_tasks)
+    EXPECT_TRUE(tasks.emplace(task.pair_side, task.meshlet).second);
+  std::set<std::tuple<ox_u32, ox_u32, ox_u32>> matched;
+  for (const ox_meshlet_pair& both : records.meshlet_pairs) {
+    EXPECT_TRUE(matched.emplace(both.pair, both.meshlet[0], both.meshlet[1]).second);
+    EXPECT_TRUE(tasks.contains({both.pair << 1, both.meshlet[0]}) ||
+                tasks.contains({both.pair << 1 | 1, both.meshlet[1]}));
+  }
+  std::map<ox_u32, ox_u32> of_edge, of_triangle;
+  for (ox_u32 m = 0; m < records.meshlets.size(); ++m) {
+    const ox_meshlet& meshlet = records.meshlets[m];
+    for (ox_u32 e = 0; e < meshlet.edge_count; ++e)
+      EXPECT_TRUE(of_edge.emplace(meshlet.edge[e], m).second);
+    for (ox_u32 k = 0; k < meshlet.triangle_count; ++k)
+      EXPECT_TRUE(of_triangle.emplace(meshlet.triangle_first + k, m).second);
+  }
+  EXPECT_EQ(of_edge.size(), records.edges.size());
+  ASSERT_GT(records.crossings.size(), 500u);
+  for (const ox_edge_crossing& c : records.crossings) {
+    const ox_u32 edges = of_edge.at(c.edge), triangles = of_triangle.at(c.triangle);
+    const bool of_a = (c.pair_side & 1) == 0;
+    EXPECT_TRUE(
+        matched.contains({c.pair_side >> 1, of_a ? edges : triangles, of_a ? triangles : edges}));
+  }
+}
+
+// One by one as on a GPU, or as vectors: lane by lane it is the same arithmetic. Each width is a
+// program to compile, so each is a test; the whole step is of the same functions, and left out.
+class SearchInLanes : public testing::TestWithParam<std::tuple<std::uint32_t, Lanes>> {};
+
+TEST_P(SearchInLanes, FindsTheSameBytesByVectorsAndByItems) {
+  TestScene scene = random_scene(100, 81);
+  // A tree of several levels.
+  const std::uint32_t fine = scene.add_mesh(make_icosphere(0.6, 4));
+  scene.add_pair(fine, at(30, 0, 0), fine, turned({1, 2, 3}, 0.4, {30.9, 0.1, 0.2}));
+  const auto contacts = [&](const ColliderOptions& options) {
+    Collider collider(options);
+    return bits_of(collider.collide(scene.scene, nullptr));
+  };
+  ColliderOptions options;
+  const auto expected = contacts(options);
+  EXPECT_TRUE(
+      std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
+  std::tie(options.vector_width, options.lanes) = GetParam();
+  options.whole_steps = false;
+  EXPECT_EQ(contacts(options), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Widths, SearchInLanes,
+    testing::Values(std::tuple{1u, Lanes::kVectors}, std::tuple{4u, Lanes::kVectors},
+                    std::tuple{8u, Lanes::kVectors}, std::tuple{16u, Lanes::kVectors},
+                    std::tuple{1u, Lanes::kItems}, std::tuple{8u, Lanes::kItems}));
+
+}  // namespace
+}  // namespace ode_ext::test
