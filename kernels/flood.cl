@@ -225,7 +225,8 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   if (!ox_is_open(s))
     return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
            (ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
-            (in_larger && ox_closest_triangle(&s->scene.surfaces, s->target, p, out) != OX_NONE));
+            (in_larger &&
+             ox_closest_triangle(&s->scene.surfaces, s->target, p, out, 0.0f) != OX_NONE));
   if (!ox_casts_ray(vertex)) return false;
   const float3 direction = vload3(0, vertex->direction);
   ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
@@ -270,7 +271,7 @@ static bool ox_may_be_inside(const ox_flood_state* s, uint first) {
   const float3 there =
       ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
   const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
-  return ox_closest_triangle(&s->scene.surfaces, s->target, there, near) != OX_NONE;
+  return ox_closest_triangle(&s->scene.surfaces, s->target, there, near, 0.0f) != OX_NONE;
 }
 
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is

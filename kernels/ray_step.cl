@@ -33,8 +33,9 @@ static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
       // Its ray leaves by a face on one side of it, and the closest may be on the other. In a solid
       // that cuts itself that may be a wall in front of which it is: not by that does it come out.
       const float3 p = ox_transform(pair, side, vload3(0, scene->vertices[ray.vertex].position));
-      const uint closest = ox_closest_triangle(&scene->surfaces, target, p,
-                                               outcome.triangle == OX_NONE ? INFINITY : outcome.t);
+      const uint closest =
+          ox_closest_triangle(&scene->surfaces, target, p,
+                              outcome.triangle == OX_NONE ? INFINITY : outcome.t, pair->epsilon);
       if (closest != OX_NONE &&
           ox_is_behind(scene->surfaces.triangles + closest, p, pair->margin)) {
         outcome.triangle = closest;

@@ -51,8 +51,8 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 // chord, the stretch of an edge that is inside. Each field lies for itself (contacts/fields.h).
 #define OX_MEMBER_POSITION 0u  // three, in the frame of B
 #define OX_MEMBER_END 3u       // three: of the chord the other one; of a vertex its position
-// Of a unit the best of the planes that its features propose: its normal, three; how deep below it
-// the unit is [m]; which it is of the region's, OX_NONE if there is none.
+// Of a unit the best of the planes that it proposes: its normal, three; how deep below it the unit
+// is [m]; which it is (contacts/units.h: ox_own_plane), OX_NONE if there is none.
 #define OX_MEMBER_NORMAL 6u
 #define OX_MEMBER_LEAST 9u
 #define OX_MEMBER_FLAGS 10u    // OX_FEATURE_..., with OX_MEMBER_BEGINS
@@ -61,7 +61,8 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_FACE 13u  // as in ox_feature
 #define OX_MEMBER_WORDS 14u
 
-#define OX_MEMBER_BEGINS 64u  // it begins a unit
+#define OX_MEMBER_BEGINS 64u    // it begins a unit
+#define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
 
 // A place in the table of the faces of a region, one of each facet.
 typedef struct {

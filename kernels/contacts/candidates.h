@@ -153,21 +153,25 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
     }
 }
 
-// Contacts of a unit that a plane has cleared just now. The other end of a chord is of the unit
-// whose end it has too: where parts of a mesh overlap several chords may end there, and a feature
-// makes one candidate at most.
-static inline void ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
+// Contacts of a unit that a plane has cleared just now; returns how many. The other end of a chord
+// is of the unit whose end it has too: where parts of a mesh overlap several chords may end there,
+// and a feature makes one candidate at most.
+static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
                                   __global const ox_feature* f) {
+  uint count = 0u;
   for (uint end = 0u; end < 2u; ++end) {
     if (end == 1u) {
-      if (ox_is_vertex(f->flags) || f->partner == OX_NONE) return;
+      if (ox_is_vertex(f->flags) || f->partner == OX_NONE) break;
       __global const ox_feature* other = m->region->features + f->partner;
-      if (ox_is_vertex(other->flags)) return;  // a unit of its own
-      if (m->region->features + other->partner != f) return;
+      if (ox_is_vertex(other->flags)) break;  // a unit of its own
+      if (m->region->features + other->partner != f) break;
       f = other;
     }
-    if (!ox_is_on_rim(m->region, f, &choice->plane)) ox_add_feature_contact(m, choice, f);
+    if (ox_is_on_rim(m->region, f, &choice->plane)) continue;
+    ox_add_feature_contact(m, choice, f);
+    ++count;
   }
+  return count;
 }
 
 #endif

@@ -29,7 +29,7 @@ static void ox_choose_parts(ox_manifold* m) {
     ox_set_move(r, &choice, &move);
     if (choice.plane.kind == OX_PLANE_EDGES)
       ox_add_edge_contact(m, &choice);
-    else
+    else if (ox_add_cleared(m, &choice, of_seed) == 0u)  // all on the rim
       ox_add_feature_contact(m, &choice, of_seed);
     // From the last on: what is cleared changes places with the last that waits.
     for (uint block = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH; block-- != 0u;)

@@ -35,8 +35,9 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
 // The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a
 // bound; else OX_PLANE_NONE. GRAPP's ray looks along the normal of the vertex alone.
 static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float3 p, float bound) {
-  const uint triangle = ox_closest_triangle(&r->scene->surfaces, ox_target_of(r, side),
-                                            ox_in_target(r, side, p), bound);
+  const uint triangle =
+      ox_closest_triangle(&r->scene->surfaces, ox_target_of(r, side), ox_in_target(r, side, p),
+                          bound, r->scene->pairs[r->pair].epsilon);
   return triangle == OX_NONE ? ox_no_plane()
                              : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
 }

@@ -47,10 +47,10 @@ static inline float ox_unit_scale(__global const ox_mesh* mesh) {
   return as_float(0x7f000000u - (as_uint(mesh->extent) & 0x7f800000u));
 }
 
-// From a point to the triangles of a block of a meshlet, squared, of all lengths times `scale`;
-// infinite where one is of no area.
+// From a point to the triangles of a block of a meshlet and to their planes, squared, of all lengths
+// times `scale`; infinite where one is of no area.
 static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p, float scale,
-                                 ox_floats* distance2) {
+                                 ox_floats* distance2, ox_floats* height2) {
   ox_vectors corner[3];
   for (uint k = 0u; k < 3u; ++k) {
     corner[k].x = (ox_load(block, m->corner[k][0]) - p.x) * scale;
@@ -70,36 +70,67 @@ static inline void ox_distances2(__global const ox_meshlet* m, uint block, float
   ox_ints within = area2 > 0.0f;
   for (uint k = 0u; k < 3u; ++k)
     ox_note_side(corner + k, corner + (k + 1u) % 3u, &normal, distance2, &within);
-  *distance2 = within ? height * height / area2 : *distance2;
+  *height2 = height * height / area2;
+  *distance2 = within ? *height2 : *distance2;
   *distance2 = area2 > 0.0f ? *distance2 : (ox_floats)(INFINITY);
 }
 
-// Within `bound` [m]; OX_NONE: none is. Ties go by the index.
+// The triangle that is nearest so far; distances are squared and scaled.
+typedef struct {
+  uint triangle;
+  float distance2;
+  float height2;  // to its plane
+  float tie;      // triangles whose distances differ by no more are as near
+  float near2;    // that and the tie: what is farther is not looked at
+} ox_closest;
+
+static inline void ox_set_closest(ox_closest* closest, uint triangle, float distance2,
+                                  float height2) {
+  closest->triangle = triangle;
+  closest->distance2 = distance2;
+  closest->height2 = height2;
+  const float near = sqrt(distance2) + closest->tie;
+  closest->near2 = near * near;
+}
+
+// Where the nearest point is on an edge or a vertex its triangles are as near as one another, and
+// rounding is not to say which: the one that faces the point most is taken, whose plane is farthest
+// from it.
+static inline void ox_note_closest(ox_closest* closest, uint triangle, float distance2,
+                                   float height2) {
+  const float far = sqrt(distance2) + closest->tie;
+  const bool is_nearer = far * far < closest->distance2;
+  const bool faces_more =
+      height2 > closest->height2 || (height2 == closest->height2 && triangle < closest->triangle);
+  if (is_nearer || (distance2 <= closest->near2 && faces_more))
+    ox_set_closest(closest, triangle, distance2, height2);
+}
+
+// Within `bound` [m]; OX_NONE: none is. `tie` [m]: by how much distances may be off.
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
-                                       float3 p, float bound) {
-  uint closest = OX_NONE;
+                                       float3 p, float bound, float tie) {
   const float scale = ox_unit_scale(mesh);
-  float closest2 = bound * scale * bound * scale;
+  ox_closest closest;
+  closest.tie = tie * scale;
+  ox_set_closest(&closest, OX_NONE, bound * scale * bound * scale, -1.0f);
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
-        ox_floats distance2;
-        ox_distances2(m, block, p, scale, &distance2);
-        const ox_ints is_near = distance2 <= closest2;
+        ox_floats distance2, height2;
+        ox_distances2(m, block, p, scale, &distance2, &height2);
+        const ox_ints is_near = distance2 <= closest.near2;
         uint near = ox_mask_of(&is_near) & ox_present_lanes(m->triangle_count, block);
         if (near == 0u) continue;
-        float of_lane[OX_VECTOR_WIDTH];
-        ox_store(distance2, 0, of_lane);
+        float distance2_of[OX_VECTOR_WIDTH], height2_of[OX_VECTOR_WIDTH];
+        ox_store(distance2, 0, distance2_of);
+        ox_store(height2, 0, height2_of);
         for (; near != 0u; near &= near - 1u) {
           const uint lane = ox_lowest(near);
-          const uint triangle = m->triangle_first + OX_VECTOR_WIDTH * block + lane;
-          if (of_lane[lane] > closest2 || (of_lane[lane] == closest2 && triangle > closest))
-            continue;
-          closest = triangle;
-          closest2 = of_lane[lane];
+          ox_note_closest(&closest, m->triangle_first + OX_VECTOR_WIDTH * block + lane,
+                          distance2_of[lane], height2_of[lane]);
         }
       }
       continue;
@@ -121,14 +152,14 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
       distance2 *= scale * scale;
-      const ox_ints is_near = distance2 <= closest2;
+      const ox_ints is_near = distance2 <= closest.near2;
       const uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
       const ox_floats nearness = -distance2;
       ox_push_children(node, block, near, &nearness, &walk, &best);
     }
     ox_put_best_last(&walk, &best);
   }
-  return closest;
+  return closest.triangle;
 }
 
 #endif

@@ -164,14 +164,16 @@ PlaneCost PlaneJudge::of_region(const ContactPlane& plane, double bound) {
 
 double PlaneJudge::depth_of_unit(const ContactPlane& plane, const ContactUnit& unit) const {
   if (!plane.moves(unit.side)) return kInfinity;
-  double deepest = -kInfinity, highest = -kInfinity;
+  double deepest = -kInfinity, sum = 0;
   for (const std::size_t end : unit.ends) {
     const double height = dot(plane.normal, features_.features[end].position);
     const double depth = unit.side == 0 ? plane.top - height : height - plane.bottom;
     deepest = std::max(deepest, depth);
-    highest = std::max(highest, -depth);
+    sum += depth;
   }
-  return highest > pair_.epsilon() ? kInfinity : std::max(deepest, 0.0);
+  // Its middle is inside the other mesh: a plane that it is above is not one to leave by.
+  const double middle = sum / static_cast<double>(unit.ends.size());
+  return middle < -pair_.epsilon() ? kInfinity : std::max(deepest, 0.0);
 }
 
 PlaneCost PlaneJudge::of_unit(const ContactPlane& plane, const ContactUnit& unit) const {

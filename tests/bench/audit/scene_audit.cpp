@@ -89,7 +89,10 @@ void SceneAudit::look_at_pair(const Placed& a, const Placed& b,
 
   const oracle::Mesh &solid_a = a.shape.solid, &solid_b = b.shape.solid;
   const double slack = rounding(solid_a, a.pose, solid_b, b.pose);
-  const double nudge = std::max(kNudge * std::min(solid_a.radius(), solid_b.radius()), slack);
+  // One mesh is taken larger by twice the rounding (docs/contacts.md, "General position"): what is
+  // less than that and the rounding apart may have a contact.
+  const double apart = contacts.empty() ? slack : 3 * slack;
+  const double nudge = std::max(kNudge * std::min(solid_a.radius(), solid_b.radius()), apart);
   for (const test::TestPose& pose : test::nudged(a.pose, nudge)) {
     if (surfaces_intersect(a.shape.surface, pose, b.shape.surface, b.pose) ==
         truth.intersecting()) {
