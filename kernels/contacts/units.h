@@ -51,8 +51,8 @@ static inline void ox_set_own(const ox_region_view* r, uint k, const ox_plane_ch
 }
 
 // Has a chord propose the face nearest to its middle too: it may go along below a face that nothing
-// of the region meets. A vertex has the face that its ray leaves by (GRAPP), which serves as well: to
-// ask for the nearest of vertices too made no nut on a bolt less deep, and took a third more for
+// of the region meets. A vertex has the face that its ray leaves by (GRAPP), which serves as well:
+// to ask for the nearest of vertices too made no nut on a bolt less deep, and took a third more for
 // deep tori. Of an open mesh the nearest may be one that the chord is in front of.
 static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);

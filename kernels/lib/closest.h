@@ -47,8 +47,8 @@ static inline float ox_unit_scale(__global const ox_mesh* mesh) {
   return as_float(0x7f000000u - (as_uint(mesh->extent) & 0x7f800000u));
 }
 
-// From a point to the triangles of a block of a meshlet and to their planes, squared, of all lengths
-// times `scale`; infinite where one is of no area.
+// From a point to the triangles of a block of a meshlet, and to their planes, squared, of all
+// lengths times `scale`; infinite where one is of no area.
 static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p, float scale,
                                  ox_floats* distance2, ox_floats* height2) {
   ox_vectors corner[3];
