@@ -51,6 +51,21 @@ if(test_sources)
     PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1")
 endif()
 
+# The tests of the product's rooms: what sanitizers are run over. They see the host's code, and of
+# demos, oracles and programs that measure none is linked by anybody else's program.
+file(GLOB product_test_sources CONFIGURE_DEPENDS
+     tests/api/*_test.cpp tests/collide/*_test.cpp tests/contacts/*_test.cpp tests/mesh/*_test.cpp
+     tests/opencl/*_test.cpp tests/paper/*_test.cpp tests/search/*_test.cpp
+     tests/search/*_comparison.cpp tests/threads/*_test.cpp tests/support/fcl_*.cpp
+     tests/support/ccd_*.cpp tests/support/leak_check.cpp tests/bench/accuracy/contact_match.cpp)
+add_executable(product_tests EXCLUDE_FROM_ALL ${product_test_sources})
+ode_ext_compile_options(product_tests)
+target_compile_definitions(product_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_link_libraries(product_tests PRIVATE
+  ode_ext_core ode_ext_test_support GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
+  ${CMAKE_DL_LIBS})
+target_precompile_headers(product_tests PRIVATE <gtest/gtest.h>)
+
 # The tests of threads alone: what ThreadSanitizer is run over, in a tenth of the time that building
 # all tests with it takes.
 file(GLOB thread_test_sources CONFIGURE_DEPENDS tests/threads/*_test.cpp)

@@ -17,7 +17,7 @@ TestMesh test_mesh(const falling_objects::TriangleMesh& mesh) {
 
 // A nut on its bolt, 3 mm from it everywhere, is moved and turned from there. The way back parts
 // them, so nothing of either has farther to go than that.
-class ApiInterlocked : public ::testing::Test {
+class NutOnBolt : public ::testing::Test {
  protected:
   static constexpr double kPitch = 0.1, kRadius = 0.103, kHeight = 0.34;
 
@@ -41,9 +41,9 @@ class ApiInterlocked : public ::testing::Test {
       {});
 };
 
-TEST_F(ApiInterlocked, ANutWithinItsPlayHasNoContacts) { EXPECT_EQ(deepest({0, 0, 0}, 0), -1); }
+TEST_F(NutOnBolt, HasNoContactsWithinItsPlay) { EXPECT_EQ(deepest({0, 0, 0}, 0), -1); }
 
-TEST_F(ApiInterlocked, ANutBeyondItsPlayIsNoDeeperInItsBoltThanTheWayBack) {
+TEST_F(NutOnBolt, IsNoDeeperBeyondItsPlayThanTheWayBack) {
   const struct {
     Point moved;  // [m]
     double tilt;  // [rad]
