@@ -3,11 +3,11 @@
 // a node that is hit continues with the next in memory, one that is missed with `skip`.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "mesh/triangle.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
@@ -26,8 +26,6 @@ struct Bvh {
   std::vector<BvhNode> nodes;        // empty for a mesh without triangles
   std::vector<std::uint32_t> order;  // leaves index this; it holds triangle indices
 };
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 // Binned surface area heuristic (Wald 2007), top down, deterministic.
 Bvh build_bvh(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);

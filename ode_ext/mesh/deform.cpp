@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "mesh/measures.h"
-#include "mesh/topology.h"
-#include "mesh/weld.h"
+#include "mesh/orientation.h"
 
 namespace ode_ext {
 namespace {
@@ -23,12 +22,12 @@ bool is_collapsed(const TriangleSoup& soup, std::size_t first) {
 bool follows(const Mesh& base, const TriangleSoup& soup, std::vector<Vec3f>& vertices) {
   const std::vector<std::uint32_t>& vertex_of = base.corner_vertex;
   for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
-    if (is_collapsed(soup, i) != (vertex_of[i] == kNoVertex)) return false;
-    if (vertex_of[i] == kNoVertex) continue;
+    if (is_collapsed(soup, i) != (vertex_of[i] == kNone)) return false;
+    if (vertex_of[i] == kNone) continue;
     for (std::size_t k = i; k < i + 3; ++k) vertices[vertex_of[k]] = soup[k] + Vec3f{};
   }
   for (std::size_t k = 0; k < soup.size(); ++k)
-    if (vertex_of[k] != kNoVertex && vertices[vertex_of[k]] != soup[k]) return false;
+    if (vertex_of[k] != kNone && vertices[vertex_of[k]] != soup[k]) return false;
   return true;
 }
 

@@ -4,9 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mesh/directed_edges.h"
 #include "mesh/joined.h"
-#include "mesh/ray_cast.h"
 #include "mesh/runs.h"
 
 namespace ode_ext {
@@ -18,16 +16,15 @@ bool comes_before(const Vec3f& a, const Vec3f& b) {
 
 }  // namespace
 
-Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
+Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets) {
   Edges edges;
   std::vector<Edge> found;
   std::vector<Vec3f> middles;
-  const std::vector<DirectedEdge> sides = sorted_edges(triangles);
-  for (std::size_t i = 0; i < sides.size();) {
-    const DirectedEdge& a = sides[i];
-    const bool paired = i + 1 < sides.size() && same_edge(a, sides[i + 1]);
-    Edge edge{{a.low, a.high}, {a.side / 3, paired ? sides[i + 1].side / 3 : kNone}};
+  for (std::size_t i = 0; i < half_edges.size();) {
+    const HalfEdge& a = half_edges[i];
+    const bool paired = i + 1 < half_edges.size() && same_edge(a, half_edges[i + 1]);
+    Edge edge{{a.low, a.high}, {a.side / 3, paired ? half_edges[i + 1].side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
     if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
     if (comes_before(vertices[a.high], vertices[a.low])) {

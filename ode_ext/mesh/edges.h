@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/neighbours.h"
+#include "mesh/half_edges.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
@@ -29,7 +29,7 @@ struct Edges {
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
 // come by their vertices. Where more than two triangles meet, they are taken two by two: each of
 // them is at one of the edges.
-Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles,
+Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets);
 
 }  // namespace ode_ext

@@ -7,9 +7,10 @@
 
 #include "mesh/exit_distance.h"
 #include "mesh/facets.h"
+#include "mesh/half_edges.h"
 #include "mesh/measures.h"
 #include "mesh/normals.h"
-#include "mesh/topology.h"
+#include "mesh/orientation.h"
 #include "mesh/vertex_chunks.h"
 #include "mesh/weld.h"
 
@@ -25,8 +26,8 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 }
 
 // What depends on edges.
-void connect(Mesh& mesh) {
-  Edges edges = find_edges(mesh.vertices, mesh.triangles, mesh.facets);
+void connect(const std::vector<HalfEdge>& half_edges, Mesh& mesh) {
+  Edges edges = find_edges(mesh.vertices, half_edges, mesh.facets);
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
   mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, all);
@@ -55,7 +56,8 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.triangles = std::move(welded.triangles);
   mesh.source_triangle = std::move(welded.source_triangle);
 
-  const Orientation orientation = orient(mesh.vertices, mesh.triangles);
+  std::vector<HalfEdge> half_edges = half_edges_of(mesh.triangles);
+  const Orientation orientation = orient(mesh.vertices, mesh.triangles, half_edges);
   mesh.closed = orientation.closed;
   mesh.inverted = orientation.inverted;
   mesh.reoriented = orientation.reoriented;
@@ -65,11 +67,11 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.mean_edge = mean_side(mesh.vertices, mesh.triangles);
   mesh.chunks = cut_into_chunks(mesh.vertices);
   mesh.bvh = build_bvh(mesh.vertices, mesh.triangles);
-  mesh.neighbours = neighbours(mesh.triangles);
+  mesh.neighbours = neighbours(mesh.triangles.size(), half_edges);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     mesh.corner_vertex = std::move(welded.corner_vertex);
-    connect(mesh);
+    connect(half_edges, mesh);
     return mesh;
   }
 
@@ -77,7 +79,7 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
   mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
-  connect(mesh);
+  connect(half_edges, mesh);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);

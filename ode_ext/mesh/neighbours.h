@@ -3,17 +3,19 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include "mesh/bvh.h"
+#include "mesh/half_edges.h"
 
 namespace ode_ext {
 
-// The triangle across the edge from corner k to corner (k + 1) % 3; kNone (ray_cast.h) where the
+// The triangle across the edge from corner k to corner (k + 1) % 3; kNone where the
 // edge has no second triangle, more than two, or two that run it in the same direction.
 using Neighbours = std::array<std::uint32_t, 3>;
 
-std::vector<Neighbours> neighbours(const std::vector<Triangle>& triangles);
+std::vector<Neighbours> neighbours(std::size_t triangle_count,
+                                   const std::vector<HalfEdge>& half_edges);
 
 }  // namespace ode_ext

@@ -11,8 +11,6 @@
 
 namespace ode_ext {
 
-inline constexpr std::uint32_t kNone = 0xffffffffu;
-
 struct Ray {
   Vec3d origin;     // [m]
   Vec3d direction;  // unit, or t is in multiples of its length

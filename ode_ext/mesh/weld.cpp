@@ -21,7 +21,7 @@ bool before(const Vec3f& a, const Vec3f& b) {
 class Places {
  public:
   explicit Places(std::size_t most)
-      : table_(std::bit_ceil(2 * most + 1), kNoVertex), mask_(table_.size() - 1) {}
+      : table_(std::bit_ceil(2 * most + 1), kNone), mask_(table_.size() - 1) {}
 
   std::uint32_t index_of(const Vec3f& place) {
     const auto bits = [](float value) {
@@ -33,7 +33,7 @@ class Places {
         bits(place.z) * 0x165667b19e3779f9u;
     for (std::size_t at = hash >> 20;; ++at) {
       std::uint32_t& found = table_[at & mask_];
-      if (found == kNoVertex) {
+      if (found == kNone) {
         found = static_cast<std::uint32_t>(places_.size());
         places_.push_back(place);
         return found;
@@ -84,7 +84,7 @@ Triangle sorted(Triangle t) {
 
 WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
   WeldedMesh mesh;
-  mesh.corner_vertex.assign(soup.size(), kNoVertex);
+  mesh.corner_vertex.assign(soup.size(), kNone);
   Places places(soup.size());
   for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
     if (soup[i] == soup[i + 1] || soup[i + 1] == soup[i + 2] || soup[i + 2] == soup[i]) continue;
@@ -96,7 +96,7 @@ WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
   if (order == VertexOrder::kRuns) {
     const std::vector<std::uint32_t> vertex = number_in_runs(mesh.vertices);
     for (std::uint32_t& corner : mesh.corner_vertex)
-      if (corner != kNoVertex) corner = vertex[corner];
+      if (corner != kNone) corner = vertex[corner];
   }
   mesh.triangles.reserve(mesh.source_triangle.size());
   for (const std::uint32_t source : mesh.source_triangle) {

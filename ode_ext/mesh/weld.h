@@ -5,18 +5,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesh/bvh.h"
+#include "mesh/triangle.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
-
-inline constexpr std::uint32_t kNoVertex = 0xffffffffu;
 
 struct WeldedMesh {
   std::vector<Vec3f> vertices;      // each place once; -0 is stored as +0
   std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
   std::vector<std::uint32_t> source_triangle;
-  // For each corner of the soup its vertex; kNoVertex for those of triangles that collapsed.
+  // For each corner of the soup its vertex; kNone for those of triangles that collapsed.
   std::vector<std::uint32_t> corner_vertex;
 };
 

@@ -125,7 +125,7 @@ TEST(Edges, WithinFacetsAreAsFewAsJoinAllVertices) {
 TEST(Edges, AreAllOfThemWithoutFacets) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh rigid = build_mesh(soup);
-    const Edges edges = find_edges(rigid.vertices, rigid.triangles, {});
+    const Edges edges = find_edges(rigid.vertices, half_edges_of(rigid.triangles), {});
     EXPECT_EQ(edges.apart.size(), all_edges(rigid).size());
     EXPECT_TRUE(edges.flat.empty());
     const Mesh deformable = build_mesh(soup, {.deformable = true});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/topology.h"
+#include "mesh/orientation.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -31,7 +31,7 @@ TriangleSoup indexed(const std::vector<Vec3f>& places, const std::vector<Triangl
   return soup;
 }
 
-TEST(Topology, FindsClosedMeshesClosed) {
+TEST(Orientation, FindsClosedMeshesClosed) {
   for (const TriangleSoup& soup :
        {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 10), shapes::torus(1, 0.3, 12)}) {
     const Mesh mesh = built(soup);
@@ -42,14 +42,14 @@ TEST(Topology, FindsClosedMeshesClosed) {
   }
 }
 
-TEST(Topology, FindsAMeshWithAHoleOpen) {
+TEST(Orientation, FindsAMeshWithAHoleOpen) {
   for (std::ptrdiff_t hole = 0; hole < 12; ++hole) {
     EXPECT_FALSE(built(without_triangle(shapes::cube(), hole)).closed);
   }
   EXPECT_FALSE(built(shapes::sheet(4)).closed);
 }
 
-TEST(Topology, TurnsAMeshOfNegativeVolume) {
+TEST(Orientation, TurnsAMeshOfNegativeVolume) {
   const Mesh mesh = built(shapes::turned(shapes::cube()));
   EXPECT_TRUE(mesh.closed);
   EXPECT_TRUE(mesh.inverted);
@@ -57,7 +57,7 @@ TEST(Topology, TurnsAMeshOfNegativeVolume) {
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 1);
 }
 
-TEST(Topology, TurnsASmallMeshFarFromTheOrigin) {
+TEST(Orientation, TurnsASmallMeshFarFromTheOrigin) {
   for (const float offset : {1e6f, 1.7e6f, 3.1e6f, 7.9e6f}) {
     const TriangleSoup far =
         shapes::moved(shapes::sphere(1, 12), 4, {offset, -1.3f * offset, 0.7f * offset});
@@ -66,7 +66,7 @@ TEST(Topology, TurnsASmallMeshFarFromTheOrigin) {
   }
 }
 
-TEST(Topology, MakesAnInconsistentWindingConsistent) {
+TEST(Orientation, MakesAnInconsistentWindingConsistent) {
   for (std::size_t triangle = 0; triangle < 12; ++triangle) {
     const Mesh mesh = built(with_turned(shapes::cube(), triangle));
     EXPECT_TRUE(mesh.closed);
@@ -76,7 +76,7 @@ TEST(Topology, MakesAnInconsistentWindingConsistent) {
   }
 }
 
-TEST(Topology, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
+TEST(Orientation, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
   const TriangleSoup other = shapes::turned(shapes::box({5, 0, 0}, {6, 2, 1}));
   const Mesh mesh = built(shapes::joined(with_turned(shapes::cube(), 3), other));
   EXPECT_TRUE(mesh.closed);
@@ -84,7 +84,7 @@ TEST(Topology, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 3);
 }
 
-TEST(Topology, LeavesACavityACavity) {
+TEST(Orientation, LeavesACavityACavity) {
   const TriangleSoup cavity =
       shapes::turned(shapes::box({0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}));
   const TriangleSoup hollow = shapes::joined(shapes::cube(), cavity);
@@ -97,20 +97,20 @@ TEST(Topology, LeavesACavityACavity) {
   }
 }
 
-TEST(Topology, FindsAnEdgeOfFourTrianglesOpen) {
+TEST(Orientation, FindsAnEdgeOfFourTrianglesOpen) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
   const Mesh mesh = built(two);
   EXPECT_EQ(mesh.vertices.size(), 14u);
   EXPECT_FALSE(mesh.closed);
 }
 
-TEST(Topology, ClosesMeshesThatShareOnlyAVertex) {
+TEST(Orientation, ClosesMeshesThatShareOnlyAVertex) {
   const Mesh mesh = built(shapes::joined(shapes::cube(), shapes::box({1, 1, 1}, {2, 2, 2})));
   EXPECT_EQ(mesh.vertices.size(), 15u);
   EXPECT_TRUE(mesh.closed);
 }
 
-TEST(Topology, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
+TEST(Orientation, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
   const TriangleSoup cube = shapes::cube();
   TriangleSoup soup = cube;
   shapes::append(soup, cube[0], cube[1], cube[2]);
@@ -120,12 +120,12 @@ TEST(Topology, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
   EXPECT_FALSE(built(shapes::joined(cube, cube)).closed);
 }
 
-TEST(Topology, FindsATriangleOfTwoSidesOpen) {
+TEST(Orientation, FindsATriangleOfTwoSidesOpen) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
   EXPECT_FALSE(built({a, b, c, a, c, b}).closed);
 }
 
-TEST(Topology, CountsSliversAsNeighbours) {
+TEST(Orientation, CountsSliversAsNeighbours) {
   // The bottom of a tetrahedron cut at a corner on its edge, the gap filled by a sliver.
   const Vec3f o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, m{0.5f, 0, 0};
   const TriangleSoup soup{o, y, m, m, y, x, o, m, x, o, x, z, o, z, y, x, y, z};
@@ -135,7 +135,7 @@ TEST(Topology, CountsSliversAsNeighbours) {
   EXPECT_EQ(std::count(mesh.face_normals.begin(), mesh.face_normals.end(), Vec3f{}), 1);
 }
 
-TEST(Topology, LeavesASurfaceWithoutSidesAlone) {
+TEST(Orientation, LeavesASurfaceWithoutSidesAlone) {
   // The projective plane on six places: each of its 15 edges has two of its ten triangles.
   const std::vector<Vec3f> places{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 2}, {2, 1, 1}};
   const TriangleSoup soup = indexed(places, {{0, 1, 2},
@@ -158,7 +158,7 @@ TEST(Topology, LeavesASurfaceWithoutSidesAlone) {
   }
 }
 
-RC_GTEST_PROP(TopologyProperty, UndoesAnyTurnedTriangles, ()) {
+RC_GTEST_PROP(OrientationProperty, UndoesAnyTurnedTriangles, ()) {
   static const TriangleSoup torus = shapes::torus(1, 0.3, 4);
   static const double expected = shapes::volume(built(torus));
   TriangleSoup soup = torus;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/topology.h"
+#include "mesh/orientation.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <utility>
-
-#include "mesh/directed_edges.h"
 
 namespace ode_ext {
 namespace {
 
 constexpr std::size_t kFewestClosedTriangles = 4;  // a tetrahedron
 
-bool every_edge_has_two(const std::vector<DirectedEdge>& edges) {
+bool every_edge_has_two(const std::vector<HalfEdge>& edges) {
   if (edges.size() % 2 != 0) return false;
   for (std::size_t i = 0; i < edges.size(); i += 2) {
     if (!same_edge(edges[i], edges[i + 1])) return false;
@@ -21,7 +19,7 @@ bool every_edge_has_two(const std::vector<DirectedEdge>& edges) {
   return true;
 }
 
-bool consistent(const std::vector<DirectedEdge>& edges) {
+bool consistent(const std::vector<HalfEdge>& edges) {
   for (std::size_t i = 0; i < edges.size(); i += 2)
     if (edges[i].upward == edges[i + 1].upward) return false;
   return true;
@@ -46,7 +44,7 @@ Winding opposite(Winding winding) {
 
 // Breadth first through each connected part. False, with nothing changed, if some part is not
 // orientable (a Klein bottle).
-bool make_consistent(const std::vector<DirectedEdge>& edges, const std::vector<Vec3f>& vertices,
+bool make_consistent(const std::vector<HalfEdge>& edges, const std::vector<Vec3f>& vertices,
                      std::vector<Triangle>& triangles) {
   struct Partner {
     std::uint32_t side;
@@ -102,21 +100,19 @@ double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Trian
   return volume;
 }
 
-Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles) {
+Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles,
+                   std::vector<HalfEdge>& half_edges) {
   Orientation result;
-  if (triangles.size() < kFewestClosedTriangles) return result;
-  const std::vector<DirectedEdge> edges = sorted_edges(triangles);
-  if (!every_edge_has_two(edges)) return result;
-
-  if (!consistent(edges)) {
-    result.closed = result.reoriented = make_consistent(edges, vertices, triangles);
-    return result;
+  if (triangles.size() < kFewestClosedTriangles || !every_edge_has_two(half_edges)) return result;
+  if (!consistent(half_edges)) {
+    result.closed = result.reoriented = make_consistent(half_edges, vertices, triangles);
+  } else {
+    result.closed = true;
+    result.inverted = signed_volume(vertices, triangles) < 0;
+    if (result.inverted)
+      for (Triangle& triangle : triangles) turn(triangle);
   }
-  result.closed = true;
-  if (signed_volume(vertices, triangles) < 0) {
-    result.inverted = true;
-    for (Triangle& triangle : triangles) turn(triangle);
-  }
+  if (result.reoriented || result.inverted) half_edges = half_edges_of(triangles);
   return result;
 }
 

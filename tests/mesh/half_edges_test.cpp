@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/directed_edges.h"
+#include "mesh/half_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@
 namespace ode_ext {
 namespace {
 
-TEST(DirectedEdges, AreAllSidesOfAllTrianglesEdgeByEdge) {
+TEST(HalfEdges, AreAllSidesOfAllTrianglesEdgeByEdge) {
   for (const TriangleSoup& soup : {shapes::cube(), shapes::sheet(3), shapes::torus(1, 0.3, 7)}) {
     const std::vector<Triangle> triangles = build_mesh(soup).triangles;
-    const std::vector<DirectedEdge> edges = sorted_edges(triangles);
+    const std::vector<HalfEdge> edges = half_edges_of(triangles);
     ASSERT_EQ(edges.size(), 3 * triangles.size());
     std::set<std::uint32_t> sides;
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      const DirectedEdge& edge = edges[i];
+      const HalfEdge& edge = edges[i];
       const Triangle& triangle = triangles.at(edge.side / 3);
       const std::uint32_t corner = edge.side % 3;
       const std::uint32_t from = triangle[corner], to = triangle[(corner + 1) % 3];
@@ -28,14 +28,14 @@ TEST(DirectedEdges, AreAllSidesOfAllTrianglesEdgeByEdge) {
       EXPECT_EQ(edge.upward, from < to);
       EXPECT_TRUE(sides.insert(edge.side).second);
       if (i == 0) continue;
-      const DirectedEdge& last = edges[i - 1];
+      const HalfEdge& last = edges[i - 1];
       EXPECT_LT(std::tie(last.low, last.high, last.side), std::tie(edge.low, edge.high, edge.side));
       EXPECT_EQ(same_edge(last, edge), last.low == edge.low && last.high == edge.high);
     }
   }
 }
 
-TEST(DirectedEdges, OfNothingAreNone) { EXPECT_TRUE(sorted_edges({}).empty()); }
+TEST(HalfEdges, OfNothingAreNone) { EXPECT_TRUE(half_edges_of({}).empty()); }
 
 }  // namespace
 }  // namespace ode_ext

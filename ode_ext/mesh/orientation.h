@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mesh/bvh.h"
+#include "mesh/half_edges.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
@@ -19,8 +19,9 @@ struct Orientation {
 // A consistent winding is trusted: a part inside another may be a cavity, so only the sign of the
 // whole volume counts. An inconsistent one says nothing, so each connected part is made consistent
 // and turned to a positive volume by itself. A mesh that is open, not orientable, or has an edge of
-// more than two triangles is left alone.
-Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles);
+// more than two triangles is left alone. The half-edges follow the triangles.
+Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles,
+                   std::vector<HalfEdge>& half_edges);
 
 // Six times the volume that the triangles of a closed mesh enclose.
 double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);

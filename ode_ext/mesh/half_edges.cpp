@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/directed_edges.h"
+#include "mesh/half_edges.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 namespace ode_ext {
 
 // By the lower corner they are counted into place, a few to each; only those few are compared.
-std::vector<DirectedEdge> sorted_edges(const std::vector<Triangle>& triangles) {
+std::vector<HalfEdge> half_edges_of(const std::vector<Triangle>& triangles) {
   std::uint32_t corners = 0;
   for (const Triangle& triangle : triangles)
     for (const std::uint32_t corner : triangle) corners = std::max(corners, corner + 1);
@@ -17,7 +17,7 @@ std::vector<DirectedEdge> sorted_edges(const std::vector<Triangle>& triangles) {
     for (std::size_t k = 0; k < 3; ++k) ++next[std::min(triangle[k], triangle[(k + 1) % 3]) + 1];
   std::partial_sum(next.begin(), next.end(), next.begin());
 
-  std::vector<DirectedEdge> edges(3 * triangles.size());
+  std::vector<HalfEdge> edges(3 * triangles.size());
   std::uint32_t side = 0;
   for (const Triangle& triangle : triangles) {
     for (std::size_t k = 0; k < 3; ++k, ++side) {
@@ -28,7 +28,7 @@ std::vector<DirectedEdge> sorted_edges(const std::vector<Triangle>& triangles) {
   }
   for (std::uint32_t corner = 0, first = 0; corner < corners; first = next[corner++])
     std::sort(edges.begin() + first, edges.begin() + next[corner],
-              [](const DirectedEdge& a, const DirectedEdge& b) {
+              [](const HalfEdge& a, const HalfEdge& b) {
                 return a.high != b.high ? a.high < b.high : a.side < b.side;
               });
   return edges;
