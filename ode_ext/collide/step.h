@@ -20,7 +20,7 @@ struct Step {
   // What is among its objects: deformable meshes, and closed ones alone, of which a flood leaves
   // nothing to the vertex step (flood.cl).
   bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });
-  bool floods_all = !any_object([](const Mesh& mesh) { return !mesh.closed; });
+  bool floods_all = !any_object([](const Mesh& mesh) { return !mesh.closed(); });
 
   bool remembers() const { return memory != nullptr && memory->temporal != nullptr; }
 

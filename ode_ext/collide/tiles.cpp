@@ -15,7 +15,7 @@ std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     std::uint64_t of_pair = 0;
     for (const std::uint32_t object : scene.pairs[i])
-      of_pair += kChunkVertices * topology(*scene.meshes[scene.objects[object].mesh]).chunks.size();
+      of_pair += kChunkVertices * scene.meshes[scene.objects[object].mesh]->topology->chunks.size();
     if (tiles.empty() || vertices + of_pair > tile_vertices || tiles.back().count == tile_pairs) {
       tiles.push_back({i, 0});
       vertices = 0;
@@ -29,9 +29,9 @@ std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices
 namespace {
 
 std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
-  const Mesh& a = topology(*scene.meshes[scene.objects[pair[0]].mesh]);
-  const Mesh& b = topology(*scene.meshes[scene.objects[pair[1]].mesh]);
-  const auto edges = [](const Mesh& mesh) {
+  const MeshTopology& a = *scene.meshes[scene.objects[pair[0]].mesh]->topology;
+  const MeshTopology& b = *scene.meshes[scene.objects[pair[1]].mesh]->topology;
+  const auto edges = [](const MeshTopology& mesh) {
     return std::uint64_t{mesh.edges.size()} + mesh.flat_edges.size();
   };
   return edges(a) * b.triangles.size() + edges(b) * a.triangles.size();
@@ -48,14 +48,14 @@ ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& op
     for (const std::uint32_t object : scene.pairs[i]) {
       const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
       deformable = deformable || mesh.deformable;
-      chunks += topology(mesh).chunks.size();
+      chunks += mesh.topology->chunks.size();
       of_pair += mesh.vertices.size();
     }
     vertices += of_pair;
     if (options.edges) {
       const auto count = [&](std::size_t k) {
         const Mesh& mesh = *scene.meshes[scene.objects[scene.pairs[i][k]].mesh];
-        return std::uint64_t{topology(mesh).meshlets.meshlets.size()};
+        return std::uint64_t{mesh.topology->meshlets.meshlets.size()};
       };
       meshlets += std::max(count(0), count(1));
       meshlet_pairs += count(0) * count(1);

@@ -13,12 +13,12 @@ namespace ode_ext {
 namespace {
 
 // `triangle` is an index into built.triangles.
-std::uint32_t facet_of(const Mesh& built, std::uint32_t triangle) {
+std::uint32_t facet_of(const MeshTopology& built, std::uint32_t triangle) {
   return to_feature(FeatureKind::kFacet, built.facets.empty() ? triangle : built.facets[triangle]);
 }
 
 // Side k of a triangle. Where more than two triangles meet, several edges have the same ends.
-std::uint32_t edge_of_side(const Mesh& built, std::uint32_t triangle, std::uint32_t k) {
+std::uint32_t edge_of_side(const MeshTopology& built, std::uint32_t triangle, std::uint32_t k) {
   const std::uint32_t from = built.triangles[triangle][k];
   const std::uint32_t to = built.triangles[triangle][(k + 1) % 3];
   for (std::uint32_t i = built.rings.starts[from]; i < built.rings.starts[from + 1]; ++i) {
@@ -31,10 +31,10 @@ std::uint32_t edge_of_side(const Mesh& built, std::uint32_t triangle, std::uint3
 }
 
 // How many numbers there are of a kind, at most.
-std::uint64_t count_of(const Mesh& built, std::uint32_t feature) {
+std::uint64_t count_of(const MeshTopology& built, std::uint32_t feature) {
   switch (static_cast<FeatureKind>(feature >> kFeatureShift)) {
     case FeatureKind::kVertex:
-      return built.vertices.size();
+      return built.vertex_count;
     case FeatureKind::kEdge:
       return built.edges.size();
     default:
@@ -42,7 +42,7 @@ std::uint64_t count_of(const Mesh& built, std::uint32_t feature) {
   }
 }
 
-std::uint32_t repeated(const Mesh& built, std::uint32_t feature, std::uint64_t times) {
+std::uint32_t repeated(const MeshTopology& built, std::uint32_t feature, std::uint64_t times) {
   const std::uint32_t number = feature & ((1u << kFeatureShift) - 1);
   return to_feature(static_cast<FeatureKind>(feature >> kFeatureShift),
                     number + times * count_of(built, feature));
@@ -51,7 +51,7 @@ std::uint32_t repeated(const Mesh& built, std::uint32_t feature, std::uint64_t t
 }  // namespace
 
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word) {
-  const Mesh& built = topology(meshes.mesh(mesh));
+  const MeshTopology& built = *meshes.mesh(mesh).topology;
   const MeshRange& place = meshes.range(mesh);
   const std::uint32_t index = word & ((1u << OX_OF_SHIFT) - 1);
   switch (word >> OX_OF_SHIFT) {
@@ -76,8 +76,8 @@ void number_repeats(std::span<Contact> contacts, const Mesh& a, const Mesh& b) {
     const auto& [features, i] = order[k];
     times = features == order[k - 1].first ? times + 1 : 0;
     if (times != 0)
-      contacts[i].features = {repeated(topology(a), features[0], times),
-                              repeated(topology(b), features[1], times)};
+      contacts[i].features = {repeated(*a.topology, features[0], times),
+                              repeated(*b.topology, features[1], times)};
   }
 }
 

@@ -11,13 +11,13 @@
 
 namespace ode_ext {
 
-enum class FeatureKind : std::uint32_t { kNone, kVertex, kEdge, kFacet };
+enum class FeatureKind : std::uint32_t { kUnknown, kVertex, kEdge, kFacet };
 inline constexpr std::uint32_t kFeatureShift = 30;
 
 // The kind in the two highest bits, in the others the number: of the vertex, of the edge (among
 // those between facets), of the facet. 0: not known, or the number has no room.
 constexpr std::uint32_t to_feature(FeatureKind kind, std::uint64_t number) {
-  if (kind == FeatureKind::kNone || number >> kFeatureShift != 0) return 0;
+  if (kind == FeatureKind::kUnknown || number >> kFeatureShift != 0) return 0;
   return static_cast<std::uint32_t>(kind) << kFeatureShift | static_cast<std::uint32_t>(number);
 }
 

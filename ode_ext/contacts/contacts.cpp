@@ -21,7 +21,7 @@ double known_depth(double depth, const Mesh& a, const Mesh& b) {
 // The program's index of a triangle of the device's.
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
                               std::uint32_t triangle) {
-  const Mesh& built = topology(meshes.mesh(mesh));
+  const MeshTopology& built = *meshes.mesh(mesh).topology;
   return built.source_triangle[built.bvh.order[triangle - meshes.range(mesh).triangle_first]];
 }
 
@@ -53,7 +53,7 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
   const std::uint32_t triangle =
-      topology(target_mesh).bvh.order[contact.triangle - meshes.range(target.mesh).triangle_first];
+      target_mesh.topology->bvh.order[contact.triangle - meshes.range(target.mesh).triangle_first];
 
   // Out of the target is into the source; the normal is to point into the first object.
   const Vec3d outward = target.pose.rotate(face_normal(target_mesh, triangle));
@@ -64,7 +64,7 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   // Again in double precision: bodies come to rest 1e-9 m deep, where floats would push and let go
   // by turns. What the device took for inside, to within its rounding, stays a contact.
   const Vec3d corner =
-      target.pose.rotate(Vec3d(target_mesh.vertices[topology(target_mesh).triangles[triangle][0]]));
+      target.pose.rotate(Vec3d(target_mesh.vertices[target_mesh.topology->triangles[triangle][0]]));
   const Vec3d from = source.pose.rotate(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
   // Of places far from the origin the difference is exact, the sums are not.
   const Vec3d apart = (corner - from) + (target.pose.position - source.pose.position);
@@ -72,7 +72,7 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const bool reversed = (contact.side_kind & OX_HIT_REVERSED) != 0;
   result.depth = known_depth(reversed ? -height : height, meshes.mesh(source.mesh), target_mesh);
   result.triangles[side] = meshes.owner_triangle(contact.vertex);
-  result.triangles[1 - side] = topology(target_mesh).source_triangle[triangle];
+  result.triangles[1 - side] = target_mesh.topology->source_triangle[triangle];
   return result;
 }
 

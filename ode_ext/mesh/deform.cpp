@@ -19,8 +19,8 @@ bool is_collapsed(const TriangleSoup& soup, std::size_t first) {
 
 // Whether the same triangles collapse, and corners of one vertex are at one place. Floats that
 // compare equal have the same bits but for the sign of 0, as in weld().
-bool follows(const Mesh& base, const TriangleSoup& soup, std::vector<Vec3f>& vertices) {
-  const std::vector<std::uint32_t>& vertex_of = base.corner_vertex;
+bool follows(const std::vector<std::uint32_t>& vertex_of, const TriangleSoup& soup,
+             std::vector<Vec3f>& vertices) {
   for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
     if (is_collapsed(soup, i) != (vertex_of[i] == kNone)) return false;
     if (vertex_of[i] == kNone) continue;
@@ -33,27 +33,26 @@ bool follows(const Mesh& base, const TriangleSoup& soup, std::vector<Vec3f>& ver
 
 }  // namespace
 
-std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const Mesh>& base,
-                                     const TriangleSoup& soup) {
-  if (!base->finite || base->corner_vertex.size() != soup.size()) return nullptr;
+std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const MeshTopology>& topology,
+                                     const TriangleSoup& soup, float open_thickness) {
+  if (topology->corner_vertex.size() != soup.size()) return nullptr;
   Mesh shape;
   shape.soup = soup;
   shape.deformable = true;
-  shape.open_thickness = base->open_thickness;
+  shape.open_thickness = open_thickness;
   shape.content_hash = hash_soup(soup.data(), soup.size());
   shape.shape_hash = shape.content_hash;
   shape.finite = is_finite(soup);
   if (!shape.finite) return std::make_shared<const Mesh>(std::move(shape));
 
-  shape.vertices.resize(base->vertices.size());
-  if (base->reoriented || !follows(*base, soup, shape.vertices)) return nullptr;
-  if (base->closed && signed_volume(shape.vertices, base->triangles) < 0) return nullptr;
-  shape.base = base;
-  shape.closed = base->closed;
-  shape.inverted = base->inverted;
+  shape.vertices.resize(topology->vertex_count);
+  if (topology->reoriented || !follows(topology->corner_vertex, soup, shape.vertices))
+    return nullptr;
+  if (topology->closed && signed_volume(shape.vertices, topology->triangles) < 0) return nullptr;
+  shape.topology = topology;
   shape.box = box_of(shape.vertices);
   shape.radius = half_diagonal(shape.box);
-  shape.mean_edge = mean_side(shape.vertices, base->triangles);
+  shape.mean_edge = mean_side(shape.vertices, topology->triangles);
   return std::make_shared<const Mesh>(std::move(shape));
 }
 

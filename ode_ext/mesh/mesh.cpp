@@ -26,14 +26,15 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 }
 
 // What depends on edges.
-void connect(const std::vector<HalfEdge>& half_edges, Mesh& mesh) {
-  Edges edges = find_edges(mesh.vertices, half_edges, mesh.facets);
+void connect(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
+             MeshTopology& topology) {
+  Edges edges = find_edges(vertices, half_edges, topology.facets);
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
-  mesh.meshlets = build_meshlets(mesh.bvh, mesh.triangles, all);
-  mesh.rings = build_rings(mesh.vertices.size(), all);
-  mesh.edges = std::move(edges.apart);
-  mesh.flat_edges = std::move(edges.flat);
+  topology.meshlets = build_meshlets(topology.bvh, topology.triangles, all);
+  topology.rings = build_rings(vertices.size(), all);
+  topology.edges = std::move(edges.apart);
+  topology.flat_edges = std::move(edges.flat);
 }
 
 }  // namespace
@@ -52,47 +53,52 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   // contacts would be told apart by its past; nor on how the program lists a rigid one.
   WeldedMesh welded = weld(soup, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
   if (!mesh.deformable) order_by_vertices(welded);
+  const auto topology = std::make_shared<MeshTopology>();
+  mesh.topology = topology;
   mesh.vertices = std::move(welded.vertices);
-  mesh.triangles = std::move(welded.triangles);
-  mesh.source_triangle = std::move(welded.source_triangle);
+  topology->vertex_count = mesh.vertices.size();
+  topology->triangles = std::move(welded.triangles);
+  topology->source_triangle = std::move(welded.source_triangle);
 
-  std::vector<HalfEdge> half_edges = half_edges_of(mesh.triangles);
-  const Orientation orientation = orient(mesh.vertices, mesh.triangles, half_edges);
-  mesh.closed = orientation.closed;
-  mesh.inverted = orientation.inverted;
-  mesh.reoriented = orientation.reoriented;
+  const std::vector<Triangle>& triangles = topology->triangles;
+  std::vector<HalfEdge> half_edges = half_edges_of(triangles);
+  const Orientation orientation = orient(mesh.vertices, topology->triangles, half_edges);
+  topology->closed = orientation.closed;
+  topology->inverted = orientation.inverted;
+  topology->reoriented = orientation.reoriented;
 
   if (!mesh.deformable) mesh.shape_hash = hash_soup(mesh.vertices.data(), mesh.vertices.size());
   mesh.box = box_of(mesh.vertices);
-  mesh.mean_edge = mean_side(mesh.vertices, mesh.triangles);
-  mesh.chunks = cut_into_chunks(mesh.vertices);
-  mesh.bvh = build_bvh(mesh.vertices, mesh.triangles);
-  mesh.neighbours = neighbours(mesh.triangles.size(), half_edges);
+  mesh.mean_edge = mean_side(mesh.vertices, triangles);
+  topology->chunks = cut_into_chunks(mesh.vertices);
+  topology->bvh = build_bvh(mesh.vertices, triangles);
+  topology->neighbours = neighbours(triangles.size(), half_edges);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
-    mesh.corner_vertex = std::move(welded.corner_vertex);
-    connect(half_edges, mesh);
+    topology->soup = soup;
+    topology->corner_vertex = std::move(welded.corner_vertex);
+    connect(mesh.vertices, half_edges, *topology);
     return mesh;
   }
 
-  Normals normals = compute_normals(mesh.vertices, mesh.triangles);
+  Normals normals = compute_normals(mesh.vertices, triangles);
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
-  mesh.facets = facets(mesh.vertices, mesh.triangles, mesh.face_normals, mesh.neighbours);
-  connect(half_edges, mesh);
+  topology->facets = facets(mesh.vertices, triangles, mesh.face_normals, topology->neighbours);
+  connect(mesh.vertices, half_edges, *topology);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
-  if (mesh.closed) {
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh);
+  if (mesh.closed()) {
+    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, topology->bvh);
   } else {
     const float thickness = options.open_thickness > 0 ? options.open_thickness : mesh.mean_edge;
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, mesh.triangles, mesh.bvh, thickness);
+    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, topology->bvh, thickness);
   }
   return mesh;
 }
 
 Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle) {
   if (!mesh.deformable) return Vec3d(mesh.face_normals[triangle]);
-  const Triangle& corners = topology(mesh).triangles[triangle];
+  const Triangle& corners = mesh.topology->triangles[triangle];
   return face_normal(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                      mesh.vertices[corners[2]]);
 }

@@ -90,17 +90,27 @@ class CaptureFile {
   bool failed() const { return std::ferror(file_.get()) != 0; }
 
  private:
+  std::uint32_t mesh(const Mesh& mesh) {
+    const TriangleSoup& built = mesh.topology->soup;
+    std::uint32_t base = capture::kNoBase;
+    if (mesh.deformable && mesh.finite && compare_soups(mesh.soup, built) != 0) {
+      const std::uint64_t hash = hash_soup(built.data(), built.size());
+      base = number_of(built, hash, hash, base, true);
+    }
+    return number_of(mesh.soup, mesh.content_hash, mesh.shape_hash, base, mesh.deformable);
+  }
+
   // Content that was written before has a number already. Two hashes are taken for it: a mesh that
   // is forged to have both of another is not worth keeping every mesh.
-  std::uint32_t mesh(const Mesh& mesh) {
-    const std::uint32_t base = mesh.base == nullptr ? capture::kNoBase : this->mesh(*mesh.base);
-    const auto [known, is_new] = meshes_.try_emplace(
-        {mesh.content_hash, mesh.shape_hash, mesh.soup.size(), base, mesh.deformable},
-        static_cast<std::uint32_t>(meshes_.size()));
+  std::uint32_t number_of(const TriangleSoup& soup, std::uint64_t hash, std::uint64_t shape_hash,
+                          std::uint32_t base, bool deformable) {
+    const auto [known, is_new] =
+        meshes_.try_emplace({hash, shape_hash, soup.size(), base, deformable},
+                            static_cast<std::uint32_t>(meshes_.size()));
     if (!is_new) return known->second;
-    put(capture::Mesh{known->second, base, mesh.deformable ? 1u : 0u,
-                      static_cast<std::uint32_t>(mesh.soup.size() / 3)});
-    put(mesh.soup.data(), mesh.soup.size() * sizeof(Vec3f));
+    put(capture::Mesh{known->second, base, deformable ? 1u : 0u,
+                      static_cast<std::uint32_t>(soup.size() / 3)});
+    put(soup.data(), soup.size() * sizeof(Vec3f));
     end_record(capture::kMesh);
     return known->second;
   }

@@ -7,7 +7,7 @@ namespace ode_ext {
 namespace {
 
 static_assert(kFeatureShift == dBatchFeatureShift);
-static_assert(static_cast<int>(FeatureKind::kNone) == dBatchFeatureNone &&
+static_assert(static_cast<int>(FeatureKind::kUnknown) == dBatchFeatureNone &&
               static_cast<int>(FeatureKind::kVertex) == dBatchFeatureVertex &&
               static_cast<int>(FeatureKind::kEdge) == dBatchFeatureEdge &&
               static_cast<int>(FeatureKind::kFacet) == dBatchFeatureFacet);

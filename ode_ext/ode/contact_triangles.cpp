@@ -65,7 +65,7 @@ bool has_all(const Triangle& triangle, std::span<const std::uint32_t> corners) {
 std::vector<std::uint32_t> triangles_of(const AnswerCopy& answer, const Contact& contact,
                                         std::size_t side) {
   const PairMember& member = answer.members[side];
-  const Mesh& built = topology(*member.mesh);
+  const MeshTopology& built = *member.mesh->topology;
   const std::uint32_t own = contact.triangles[side];
   const auto place = std::find(built.source_triangle.begin(), built.source_triangle.end(), own);
   if (place == built.source_triangle.end()) return {own};

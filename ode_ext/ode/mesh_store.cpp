@@ -46,10 +46,12 @@ void MeshStore::update(Entry& entry) {
   } else {
     if (entry.mesh != nullptr) ++deformed_;
     std::shared_ptr<const Mesh> shape;
-    if (entry.base != nullptr) shape = deformed(entry.base, soup_);
-    if (shape == nullptr)
-      shape = entry.base = std::make_shared<const Mesh>(
+    if (entry.topology != nullptr) shape = deformed(entry.topology, soup_, options_.open_thickness);
+    if (shape == nullptr) {
+      shape = std::make_shared<const Mesh>(
           build_mesh(soup_, {.open_thickness = options_.open_thickness, .deformable = true}));
+      entry.topology = shape->topology;
+    }
     entry.mesh = std::move(shape);
   }
   const std::string reason = why_refused(soup_);
@@ -108,7 +110,10 @@ void MeshStore::set_deformable(dTriMeshDataID data, bool deformable) {
   resident_is_stale_ = true;
 }
 
-void MeshStore::drop(Entry& entry) { entry.mesh = entry.base = nullptr; }
+void MeshStore::drop(Entry& entry) {
+  entry.mesh = nullptr;
+  entry.topology = nullptr;
+}
 
 void MeshStore::forget(dTriMeshDataID data) {
   if (entries_.erase(data) != 0) resident_is_stale_ = true;

@@ -61,7 +61,7 @@ class MeshStore {
  private:
   struct Entry {
     std::shared_ptr<const Mesh> mesh;
-    std::shared_ptr<const Mesh> base;  // of a deformable mesh: as it was built
+    std::shared_ptr<const MeshTopology> topology;  // of a deformable mesh, of all its shapes
     std::uint64_t last_look = 0;
     std::uint64_t last_pass = 0;
     std::uint64_t order = 0;

@@ -16,11 +16,7 @@ constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
 constexpr std::size_t kPoseBytes = 2 * sizeof(ox_relative_pose);
 constexpr std::size_t kEntryBytes = 2 * sizeof(ox_directory_entry);
 
-const std::shared_ptr<const Mesh>& topology_of(const std::shared_ptr<const Mesh>& mesh) {
-  return mesh->base != nullptr ? mesh->base : mesh;
-}
-
-std::uint32_t chunk_count(const Mesh& mesh) {
+std::uint32_t chunk_count(const MeshTopology& mesh) {
   return static_cast<std::uint32_t>(mesh.chunks.size());
 }
 
@@ -78,8 +74,8 @@ ox_link TemporalCache::link(const Scene& scene, const std::array<std::uint32_t, 
   const bool swapped = b.identity < a.identity;
   const Scene::Object& low = swapped ? b : a;
   const Scene::Object& high = swapped ? a : b;
-  const auto& low_mesh = topology_of(scene.meshes[low.mesh]);
-  const auto& high_mesh = topology_of(scene.meshes[high.mesh]);
+  const auto& low_mesh = scene.meshes[low.mesh]->topology;
+  const auto& high_mesh = scene.meshes[high.mesh]->topology;
 
   const auto [found, is_new] = slots_.try_emplace(Key{low.identity, high.identity});
   Slot& slot = found->second;

@@ -60,7 +60,8 @@ class TemporalCache {
   };
   struct Slot {
     Place place;
-    std::array<std::shared_ptr<const Mesh>, 2> meshes;  // of the lower and the higher identity
+    std::array<std::shared_ptr<const MeshTopology>, 2>
+        meshes;  // of the lower and the higher identity
     std::uint32_t last_step;
   };
 

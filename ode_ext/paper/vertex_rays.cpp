@@ -46,8 +46,8 @@ void VertexRays::place_chunks(const Step& step) {
   for (std::size_t i = first; i < first + count; ++i) {
     host_dense_first_.push_back(chunks_);
     for (const std::uint32_t object : step.scene.pairs[i]) {
-      const Mesh& mesh = topology(*step.scene.meshes[step.scene.objects[object].mesh]);
-      chunks_ += static_cast<cl_uint>(mesh.chunks.size());
+      const Mesh& mesh = *step.scene.meshes[step.scene.objects[object].mesh];
+      chunks_ += static_cast<cl_uint>(mesh.topology->chunks.size());
     }
   }
   dense_first_.reserve(host_dense_first_.size() * sizeof(ox_u32));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "abi/deform.h"
-#include "mesh/mesh.h"
+#include "mesh/mesh_topology.h"
 
 namespace ode_ext {
 
@@ -16,7 +16,7 @@ struct DeformTopology {
   std::uint32_t incident_first = 0;
 };
 
-// Appends to `words` what belongs to `mesh` (as it was built, not a shape).
-DeformTopology append_topology(const Mesh& mesh, std::vector<ox_u32>& words);
+// Appends to `words` what belongs to `mesh`.
+DeformTopology append_topology(const MeshTopology& mesh, std::vector<ox_u32>& words);
 
 }  // namespace ode_ext

@@ -79,16 +79,16 @@ static_assert(offsetof(ox_meshlet_node, lo) % 64 == 0 && offsetof(ox_meshlet_nod
 ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
                       const std::vector<std::uint32_t>& places) {
   ox_triangle record{};
-  record.id = mesh.source_triangle[triangle];
+  record.id = mesh.topology->source_triangle[triangle];
   const auto across = [&](std::size_t k) {
-    const std::uint32_t neighbour = mesh.neighbours[triangle][k];
+    const std::uint32_t neighbour = mesh.topology->neighbours[triangle][k];
     return neighbour == kNone ? OX_NONE : places[neighbour];
   };
   record.across_ab = across(0);
   record.across_bc = across(1);
   record.across_ca = across(2);
   if (mesh.deformable) return record;
-  const auto& corners = mesh.triangles[triangle];
+  const Triangle& corners = mesh.topology->triangles[triangle];
   const bool flat = mesh.face_normals[triangle] == Vec3f{};
   store(record.a, mesh.vertices[corners[0]]);
   store(record.b, mesh.vertices[corners[flat ? 0 : 1]]);
@@ -97,7 +97,7 @@ ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
   return record;
 }
 
-std::vector<std::uint32_t> places_in_leaves(const Mesh& mesh) {
+std::vector<std::uint32_t> places_in_leaves(const MeshTopology& mesh) {
   std::vector<std::uint32_t> places(mesh.triangles.size());
   for (std::size_t i = 0; i < places.size(); ++i)
     places[mesh.bvh.order[i]] = static_cast<std::uint32_t>(i);
@@ -117,13 +117,13 @@ void upload_all(Buffer& buffer, const std::vector<T>& records) {
 
 // Of the vertices of a deformable mesh [m]; a closed one's come from rays.
 float thickness_of(const Mesh& mesh) {
-  if (mesh.closed) return INFINITY;
+  if (mesh.closed()) return INFINITY;
   return mesh.open_thickness > 0 ? mesh.open_thickness : mesh.mean_edge;
 }
 
 // How far the rays of an open mesh go [m].
 float reach_of(const Mesh& mesh) {
-  if (mesh.closed) return 0;
+  if (mesh.closed()) return 0;
   if (mesh.deformable) return thickness_of(mesh);
   float reach = 0;
   for (const float exit : mesh.exits)
@@ -190,12 +190,12 @@ void DeviceMeshes::forget() {
 
 bool DeviceMeshes::are_shapes_of_the_same(const MeshList& meshes) const {
   return std::equal(meshes.begin(), meshes.end(), meshes_.begin(), meshes_.end(),
-                    [](const auto& a, const auto& b) { return &topology(*a) == &topology(*b); });
+                    [](const auto& a, const auto& b) { return a->topology == b->topology; });
 }
 
 void DeviceMeshes::rebuild(const MeshList& meshes) {
-  std::unordered_map<const Mesh*, const Mesh*> shapes_before;
-  for (const auto& mesh : meshes_) shapes_before.emplace(&topology(*mesh), mesh.get());
+  std::unordered_map<const MeshTopology*, const Mesh*> shapes_before;
+  for (const auto& mesh : meshes_) shapes_before.emplace(mesh->topology.get(), mesh.get());
   const MeshList before = std::exchange(meshes_, {});  // keeps them until they are appended
   ranges_.clear();
   owner_triangles_.clear();
@@ -214,7 +214,7 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   deformables_.clear();
   reserve(meshes);
   for (const auto& mesh : meshes) {
-    const auto known = shapes_before.find(&topology(*mesh));
+    const auto known = shapes_before.find(mesh->topology.get());
     append(*mesh, known == shapes_before.end() ? nullptr : known->second);
   }
   upload();
@@ -224,20 +224,21 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
 void DeviceMeshes::reserve(const MeshList& meshes) {
   const auto sum = [&](auto count_of) {
     std::size_t total = 0;
-    for (const auto& mesh : meshes) total += count_of(topology(*mesh));
+    for (const auto& mesh : meshes) total += count_of(*mesh->topology);
     return total;
   };
-  const std::size_t vertices = sum([](const Mesh& mesh) { return mesh.vertices.size(); });
-  const std::size_t triangles = sum([](const Mesh& mesh) { return mesh.triangles.size(); });
-  host_chunks_.reserve(sum([](const Mesh& mesh) { return mesh.chunks.size(); }));
+  const std::size_t vertices = sum([](const MeshTopology& mesh) { return mesh.vertex_count; });
+  const std::size_t triangles = sum([](const MeshTopology& mesh) { return mesh.triangles.size(); });
+  host_chunks_.reserve(sum([](const MeshTopology& mesh) { return mesh.chunks.size(); }));
   host_vertices_.reserve(vertices);
   host_ring_starts_.reserve(vertices + 1);
   host_triangles_.reserve(triangles);
   host_facets_.reserve(triangles);
   host_edges_.reserve(
-      sum([](const Mesh& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); }));
-  host_rings_.reserve(sum([](const Mesh& mesh) { return mesh.rings.neighbours.size(); }));
-  host_meshlets_.reserve(sum([](const Mesh& mesh) { return mesh.meshlets.meshlets.size(); }));
+      sum([](const MeshTopology& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); }));
+  host_rings_.reserve(sum([](const MeshTopology& mesh) { return mesh.rings.neighbours.size(); }));
+  host_meshlets_.reserve(
+      sum([](const MeshTopology& mesh) { return mesh.meshlets.meshlets.size(); }));
 }
 
 // What was uploaded only, once it has been.
@@ -250,7 +251,7 @@ void DeviceMeshes::forget_sources() {
 }
 
 void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
-  const Mesh& built = topology(mesh);
+  const MeshTopology& built = *mesh.topology;
   ox_mesh record{};
   record.chunk_first = static_cast<ox_u32>(host_chunks_.size());
   record.chunk_count = static_cast<ox_u32>(built.chunks.size());
@@ -262,13 +263,14 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.tree.size());
   record.component_first = static_cast<ox_u32>(host_components_.size());
   record.component_count = static_cast<ox_u32>(built.rings.components.size());
-  record.flags = (mesh.closed ? OX_MESH_CLOSED : 0u) | (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
-                 (mesh.deformable && !mesh.closed ? OX_MESH_TWO_SIDED : 0u);
+  record.flags = (mesh.closed() ? OX_MESH_CLOSED : 0u) |
+                 (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
+                 (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u);
   measure(mesh, record);
 
-  const auto vertex_first = static_cast<std::uint32_t>(host_vertices_.size());
-  const auto edge_first = static_cast<std::uint32_t>(host_edges_.size());
-  ranges_.push_back({vertex_first, record.triangle_first, edge_first});
+  const MeshRange first{static_cast<std::uint32_t>(host_vertices_.size()), record.triangle_first,
+                        static_cast<std::uint32_t>(host_edges_.size())};
+  ranges_.push_back(first);
   if (mesh.deformable) {
     Deformable& deformable = deformables_[static_cast<std::uint32_t>(host_records_.size())];
     deformable.topology = append_topology(built, host_topologies_);
@@ -276,8 +278,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   }
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
-    host_chunks_.push_back(to_record(built, chunk, vertex_first));
-  const MeshletPlaces first{vertex_first, record.triangle_first, edge_first};
+    host_chunks_.push_back(to_record(mesh, chunk, first.vertex_first));
   const Mesh& placed = mesh.deformable && before != nullptr ? *before : mesh;
   for (std::size_t i = 0; i < placed.vertices.size(); ++i)
     host_vertices_.push_back(to_record(placed, i));
@@ -289,22 +290,23 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
       [&] {
         append_edges(built, first, places);
         append_rings(built.rings, first);
-        append_owners(built, vertex_first);
+        append_owners(built, first.vertex_first);
       },
       [&] {
-        append_meshlets(built, first, host_meshlets_);
-        append_triangles(built, places);
+        append_meshlets(mesh, first, host_meshlets_);
+        append_triangles(mesh, places);
       });
 }
 
 void DeviceMeshes::append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
-  for (const std::uint32_t triangle : mesh.bvh.order) {
+  const std::vector<std::uint32_t>& facets = mesh.topology->facets;
+  for (const std::uint32_t triangle : mesh.topology->bvh.order) {
     host_triangles_.push_back(to_record(mesh, triangle, places));
-    host_facets_.push_back(mesh.facets.empty() ? triangle : mesh.facets[triangle]);
+    host_facets_.push_back(facets.empty() ? triangle : facets[triangle]);
   }
 }
 
-void DeviceMeshes::append_owners(const Mesh& mesh, std::uint32_t vertex_first) {
+void DeviceMeshes::append_owners(const MeshTopology& mesh, std::uint32_t vertex_first) {
   owner_triangles_.resize(host_vertices_.size(), UINT32_MAX);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t corner : mesh.triangles[t]) {
@@ -313,7 +315,7 @@ void DeviceMeshes::append_owners(const Mesh& mesh, std::uint32_t vertex_first) {
     }
 }
 
-void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first,
+void DeviceMeshes::append_edges(const MeshTopology& mesh, const MeshRange& first,
                                 const std::vector<std::uint32_t>& places) {
   const auto append_all = [&](const std::vector<Edge>& edges) {
     for (const Edge& edge : edges) {
@@ -330,7 +332,7 @@ void DeviceMeshes::append_edges(const Mesh& mesh, const MeshletPlaces& first,
   append_all(mesh.flat_edges);
 }
 
-void DeviceMeshes::append_rings(const Rings& rings, const MeshletPlaces& first) {
+void DeviceMeshes::append_rings(const Rings& rings, const MeshRange& first) {
   const ox_u32 before = host_ring_starts_.back();
   for (std::size_t v = 1; v < rings.starts.size(); ++v)
     host_ring_starts_.push_back(before + rings.starts[v]);

@@ -16,13 +16,6 @@
 
 namespace ode_ext {
 
-// Where the parts of a mesh start in the concatenated arrays.
-struct MeshRange {
-  std::uint32_t vertex_first = 0;
-  std::uint32_t triangle_first = 0;
-  std::uint32_t edge_first = 0;
-};
-
 class DeviceMeshes {
  public:
   explicit DeviceMeshes(Program& program);
@@ -74,11 +67,11 @@ class DeviceMeshes {
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
   // `places` of the triangles in the order of the leaves.
-  void append_edges(const Mesh& mesh, const MeshletPlaces& first,
+  void append_edges(const MeshTopology& mesh, const MeshRange& first,
                     const std::vector<std::uint32_t>& places);
-  void append_rings(const Rings& rings, const MeshletPlaces& first);
+  void append_rings(const Rings& rings, const MeshRange& first);
   void append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places);
-  void append_owners(const Mesh& mesh, std::uint32_t vertex_first);
+  void append_owners(const MeshTopology& mesh, std::uint32_t vertex_first);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);
 

@@ -16,36 +16,39 @@ static_assert(kMeshletTriangles == OX_LANES && kMeshletVertices == OX_LANES &&
 
 // Lanes beyond its vertices repeat the first.
 std::uint32_t vertex_index(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
-  return mesh.meshlets.vertices[meshlet.vertex_first + (k < meshlet.vertex_count ? k : 0)];
+  return mesh.topology->meshlets
+      .vertices[meshlet.vertex_first + (k < meshlet.vertex_count ? k : 0)];
 }
 
 // Where the corners of a triangle of a meshlet are among its vertices.
 ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
-  const auto first = mesh.meshlets.vertices.begin() + meshlet.vertex_first;
+  const auto first = mesh.topology->meshlets.vertices.begin() + meshlet.vertex_first;
   ox_u32 places = 0;
   for (std::uint32_t corner = 0; corner < 3; ++corner) {
     const auto place =
-        std::find(first, first + meshlet.vertex_count, mesh.triangles[triangle][corner]) - first;
+        std::find(first, first + meshlet.vertex_count, mesh.topology->triangles[triangle][corner]) -
+        first;
     places |= static_cast<ox_u32>(place) << OX_CORNER_SHIFT(corner);
   }
   return places;
 }
 
-void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshletPlaces& places,
+void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshRange& range,
                    ox_meshlet& record) {
-  record.triangle_first = places.triangle_first + meshlet.triangle_first;
+  record.triangle_first = range.triangle_first + meshlet.triangle_first;
   record.triangle_count = meshlet.triangle_count;
   record.vertex_count = meshlet.vertex_count;
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
-    record.vertex_index[k] = places.vertex_first + vertex_index(mesh, meshlet, k);
+    record.vertex_index[k] = range.vertex_first + vertex_index(mesh, meshlet, k);
   }
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k)
-    record.places[k] = corner_places(mesh, meshlet, mesh.bvh.order[meshlet.triangle_first + k]);
+    record.places[k] =
+        corner_places(mesh, meshlet, mesh.topology->bvh.order[meshlet.triangle_first + k]);
   record.edge_count = meshlet.edge_count;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
-    const MeshletEdge& edge = mesh.meshlets.edges[meshlet.edge_first + k];
-    record.edge[k] = places.edge_first + edge.edge;
-    if (edge.edge < mesh.edges.size()) record.edges_apart |= 1u << k;
+    const MeshletEdge& edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
+    record.edge[k] = range.edge_first + edge.edge;
+    if (edge.edge < mesh.topology->edges.size()) record.edges_apart |= 1u << k;
     for (std::uint32_t end = 0; end < 2; ++end)
       record.ends[k / 2] |= edge.ends[end] << OX_END_SHIFT(k, end);
   }
@@ -58,13 +61,15 @@ Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
 void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
     const bool used = k < meshlet.triangle_count;
-    const std::uint32_t triangle = mesh.bvh.order[meshlet.triangle_first + (used ? k : 0)];
+    const std::uint32_t triangle =
+        mesh.topology->bvh.order[meshlet.triangle_first + (used ? k : 0)];
     const bool flat = !used || mesh.face_normals[triangle] == Vec3f{};
     const Vec3f vertex = vertex_of(mesh, meshlet, k);
     const Vec3f normal = mesh.normals[vertex_index(mesh, meshlet, k)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       for (std::size_t c = 0; c < 3; ++c)
-        record.corner[c][axis][k] = mesh.vertices[mesh.triangles[triangle][flat ? 0 : c]][axis];
+        record.corner[c][axis][k] =
+            mesh.vertices[mesh.topology->triangles[triangle][flat ? 0 : c]][axis];
       record.vertex[axis][k] = vertex[axis];
       record.normal[axis][k] = normal[axis];
     }
@@ -80,7 +85,8 @@ void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) 
 void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   Vec3d sum{};
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
-    const Triangle& corners = mesh.triangles[mesh.bvh.order[meshlet.triangle_first + k]];
+    const Triangle& corners =
+        mesh.topology->triangles[mesh.topology->bvh.order[meshlet.triangle_first + k]];
     const Vec3d a(mesh.vertices[corners[0]]);
     sum = sum + cross(Vec3d(mesh.vertices[corners[1]]) - a, Vec3d(mesh.vertices[corners[2]]) - a);
   }
@@ -98,11 +104,10 @@ void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
 
 }  // namespace
 
-void append_meshlets(const Mesh& mesh, const MeshletPlaces& places,
-                     std::vector<ox_meshlet>& records) {
-  for (const Meshlet& meshlet : mesh.meshlets.meshlets) {
+void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records) {
+  for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
     ox_meshlet& record = records.emplace_back();
-    store_indices(mesh, meshlet, places, record);
+    store_indices(mesh, meshlet, range, record);
     if (mesh.deformable) continue;
     store_places(mesh, meshlet, record);
     store_slab(mesh, meshlet, record);

@@ -11,13 +11,12 @@
 namespace ode_ext {
 
 // Where the parts of a mesh start among those of all meshes.
-struct MeshletPlaces {
+struct MeshRange {
   std::uint32_t vertex_first, triangle_first, edge_first;
 };
 
-// Appends those of a mesh as it was built. The deform step makes of a deformable one's what depends
-// on where its vertices are.
-void append_meshlets(const Mesh& mesh, const MeshletPlaces& places,
-                     std::vector<ox_meshlet>& records);
+// Appends those of a mesh. The deform step makes of a deformable one's what depends on where its
+// vertices are.
+void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records);
 
 }  // namespace ode_ext

@@ -193,7 +193,8 @@ TEST(OclgrindPipeline, FindsContactsOfEdges) {
 TEST(OclgrindPipeline, FindsContactsOfEdgesOfSheets) {
   const auto base = deformable(soup_of(make_sheet(1.5, 3)), 0.05f);
   TriangleSoup soup;
-  for (const std::uint32_t vertex : base->corner_vertex) soup.push_back(base->vertices[vertex]);
+  for (const std::uint32_t vertex : base->topology->corner_vertex)
+    soup.push_back(base->vertices[vertex]);
   Scene scene;
   scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(make_rod(2, 0.1)))),
                   deformed(base, bent(soup)), deformed(base, bent(soup, 1))};
@@ -268,7 +269,7 @@ TEST(OclgrindPipeline, CollidesASheet) {
       scene.pairs = {{0, 1}};
       for (const float phase : {0.0f, 0.1f}) {
         TriangleSoup soup;
-        for (const std::uint32_t vertex : base->corner_vertex)
+        for (const std::uint32_t vertex : base->topology->corner_vertex)
           soup.push_back(base->vertices[vertex]);
         scene.meshes[1] = deformed(base, bent(soup, phase));
         EXPECT_GT(collider.collide(scene, &memory).ranges[0].count, 0u);

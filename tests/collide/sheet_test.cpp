@@ -144,7 +144,7 @@ class MovingDeformables {
     ++steps_;
     for (std::size_t i = 0; i < bases_.size(); ++i) {
       TriangleSoup soup;
-      for (const std::uint32_t vertex : bases_[i]->corner_vertex) {
+      for (const std::uint32_t vertex : bases_[i]->topology->corner_vertex) {
         Vec3f p = bases_[i]->vertices[vertex];
         p.z += 0.05f * std::sin(4 * p.x + 0.1f * static_cast<float>(steps_)) * std::cos(3 * p.y);
         soup.push_back(p);

@@ -50,7 +50,7 @@ Regions regions_of(const TestScene& scene, const StepRecords& records, std::size
       Point to = place_of(records.edges.at(f.source).vertex[1]);
       if (to < from) std::swap(from, to);
       key = {side, from, to,
-             scene.scene.meshes[target]->source_triangle.at(
+             scene.scene.meshes[target]->topology->source_triangle.at(
                  Rig::shared().local_triangle(target, f.triangle))};
     }
     EXPECT_TRUE(regions.emplace(key, f.region).second) << "pair " << pair;

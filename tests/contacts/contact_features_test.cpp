@@ -30,7 +30,7 @@ TEST(ContactFeatures, HaveTheirKindInTheTwoHighestBits) {
   EXPECT_EQ(vertex(5), 0x40000005u);
   EXPECT_EQ(edge(5), 0x80000005u);
   EXPECT_EQ(facet(5), 0xc0000005u);
-  EXPECT_EQ(to_feature(FeatureKind::kNone, 5), 0u);
+  EXPECT_EQ(to_feature(FeatureKind::kUnknown, 5), 0u);
 }
 
 TEST(ContactFeatures, AreNotKnownWhereTheirNumberHasNoRoom) {
@@ -51,8 +51,8 @@ TEST_F(RepeatedFeatures, AreLeftWhereNoTwoContactsAreOfTheSame) {
 }
 
 TEST_F(RepeatedFeatures, GetNumbersBeyondAllFeaturesInTheOrderOfTheContacts) {
-  ASSERT_EQ(a.edges.size(), 12u);
-  ASSERT_EQ(b.triangles.size(), 12u);
+  ASSERT_EQ(a.topology->edges.size(), 12u);
+  ASSERT_EQ(b.topology->triangles.size(), 12u);
   const Features once{edge(3), facet(1)}, other{vertex(0), facet(1)};
   EXPECT_EQ(numbered({once, other, once, once}, a, b),
             (std::vector<Features>{once, other, {edge(15), facet(13)}, {edge(27), facet(25)}}));

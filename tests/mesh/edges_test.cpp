@@ -31,7 +31,7 @@ bool is_in_order(const Mesh& mesh, std::uint32_t first, std::uint32_t second) {
 
 // The triangles at every edge, the slow way. Ends are in the order of their places.
 std::map<Ends, std::vector<std::uint32_t>> all_edges(const Mesh& mesh) {
-  const std::vector<Triangle>& triangles = mesh.triangles;
+  const std::vector<Triangle>& triangles = mesh.topology->triangles;
   std::map<Ends, std::vector<std::uint32_t>> result;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -50,8 +50,8 @@ std::vector<TriangleSoup> manifolds() {
 TEST(Edges, OfACubeAreTheTwelveBetweenItsSidesHoweverFinelyItIsCut) {
   for (const int steps : {1, 2, 5}) {
     const Mesh mesh = build_mesh(shapes::box({0, 0, 0}, {1, 1, 1}, steps, 25));
-    EXPECT_EQ(mesh.edges.size(), static_cast<std::size_t>(12 * steps));
-    for (const Edge& edge : mesh.edges) {
+    EXPECT_EQ(mesh.topology->edges.size(), static_cast<std::size_t>(12 * steps));
+    for (const Edge& edge : mesh.topology->edges) {
       const Vec3f a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
       int on_sides = 0;  // an edge of the cube lies on two of its sides
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -64,7 +64,7 @@ TEST(Edges, OfACubeAreTheTwelveBetweenItsSidesHoweverFinelyItIsCut) {
 TEST(Edges, OfARoundMeshAreAllOfThem) {
   for (const int subdivisions : {0, 1, 3}) {
     const TriangleSoup soup = test::soup_of(test::make_icosphere(1, subdivisions));
-    EXPECT_EQ(build_mesh(soup).edges.size(), soup.size() / 2);
+    EXPECT_EQ(build_mesh(soup).topology->edges.size(), soup.size() / 2);
   }
 }
 
@@ -72,11 +72,13 @@ TEST(Edges, AreThoseWhoseTrianglesAreOfDifferentFacets) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh mesh = build_mesh(soup);
     std::map<Ends, const Edge*> found;
-    for (const Edge& edge : mesh.edges) EXPECT_TRUE(found.emplace(edge.vertices, &edge).second);
+    for (const Edge& edge : mesh.topology->edges)
+      EXPECT_TRUE(found.emplace(edge.vertices, &edge).second);
     std::size_t expected = 0;
     for (const auto& [ends, at] : all_edges(mesh)) {
       ASSERT_LE(at.size(), 2u);
-      const bool cast = at.size() == 1 || mesh.facets[at[0]] != mesh.facets[at[1]];
+      const bool cast =
+          at.size() == 1 || mesh.topology->facets[at[0]] != mesh.topology->facets[at[1]];
       EXPECT_EQ(found.contains(ends), cast);
       expected += cast;
       if (!cast || !found.contains(ends)) continue;
@@ -84,11 +86,11 @@ TEST(Edges, AreThoseWhoseTrianglesAreOfDifferentFacets) {
       if (at.size() == 1) {
         EXPECT_EQ(edge.triangles, (Ends{at[0], kNone}));
       } else {  // that which runs the edge upwards first
-        EXPECT_TRUE(runs(mesh.triangles[edge.triangles[0]], ends[0], ends[1]));
-        EXPECT_TRUE(runs(mesh.triangles[edge.triangles[1]], ends[1], ends[0]));
+        EXPECT_TRUE(runs(mesh.topology->triangles[edge.triangles[0]], ends[0], ends[1]));
+        EXPECT_TRUE(runs(mesh.topology->triangles[edge.triangles[1]], ends[1], ends[0]));
       }
     }
-    EXPECT_EQ(mesh.edges.size(), expected);
+    EXPECT_EQ(mesh.topology->edges.size(), expected);
   }
 }
 
@@ -96,7 +98,7 @@ TEST(Edges, AreThoseWhoseTrianglesAreOfDifferentFacets) {
 TEST(Edges, NameTheirVerticesInAscendingOrder) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh mesh = build_mesh(soup);
-    for (const Edge& edge : mesh.edges)
+    for (const Edge& edge : mesh.topology->edges)
       EXPECT_TRUE(is_in_order(mesh, edge.vertices[0], edge.vertices[1]));
   }
 }
@@ -104,11 +106,11 @@ TEST(Edges, NameTheirVerticesInAscendingOrder) {
 TEST(Edges, AreBetweenFacetsOrWithinOne) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh mesh = build_mesh(soup);
-    for (const Edge& edge : mesh.flat_edges)
-      EXPECT_EQ(mesh.facets[edge.triangles[0]], mesh.facets[edge.triangles[1]]);
-    for (const Edge& edge : mesh.edges)
-      EXPECT_TRUE(edge.triangles[1] == kNone ||
-                  mesh.facets[edge.triangles[0]] != mesh.facets[edge.triangles[1]]);
+    for (const Edge& edge : mesh.topology->flat_edges)
+      EXPECT_EQ(mesh.topology->facets[edge.triangles[0]], mesh.topology->facets[edge.triangles[1]]);
+    for (const Edge& edge : mesh.topology->edges)
+      EXPECT_TRUE(edge.triangles[1] == kNone || mesh.topology->facets[edge.triangles[0]] !=
+                                                    mesh.topology->facets[edge.triangles[1]]);
   }
 }
 
@@ -117,27 +119,27 @@ TEST(Edges, AreBetweenFacetsOrWithinOne) {
 TEST(Edges, WithinFacetsAreAsFewAsJoinAllVertices) {
   for (const int n : {1, 2, 5}) {
     const Mesh mesh = build_mesh(test::soup_of(test::make_cube(1, n)));
-    EXPECT_EQ(mesh.edges.size(), static_cast<std::size_t>(12 * n));
-    EXPECT_EQ(mesh.flat_edges.size(), static_cast<std::size_t>(6 * (n - 1) * (n - 1)));
+    EXPECT_EQ(mesh.topology->edges.size(), static_cast<std::size_t>(12 * n));
+    EXPECT_EQ(mesh.topology->flat_edges.size(), static_cast<std::size_t>(6 * (n - 1) * (n - 1)));
   }
 }
 
 TEST(Edges, AreAllOfThemWithoutFacets) {
   for (const TriangleSoup& soup : manifolds()) {
     const Mesh rigid = build_mesh(soup);
-    const Edges edges = find_edges(rigid.vertices, half_edges_of(rigid.triangles), {});
+    const Edges edges = find_edges(rigid.vertices, half_edges_of(rigid.topology->triangles), {});
     EXPECT_EQ(edges.apart.size(), all_edges(rigid).size());
     EXPECT_TRUE(edges.flat.empty());
     const Mesh deformable = build_mesh(soup, {.deformable = true});
-    EXPECT_TRUE(deformable.facets.empty());
-    EXPECT_EQ(deformable.edges.size(), all_edges(deformable).size());
+    EXPECT_TRUE(deformable.topology->facets.empty());
+    EXPECT_EQ(deformable.topology->edges.size(), all_edges(deformable).size());
   }
 }
 
 TEST(Edges, OfASheetAreItsBorder) {
   const Mesh mesh = build_mesh(shapes::sheet(6));
-  EXPECT_EQ(mesh.edges.size(), 24u);
-  for (const Edge& edge : mesh.edges) EXPECT_EQ(edge.triangles[1], kNone);
+  EXPECT_EQ(mesh.topology->edges.size(), 24u);
+  for (const Edge& edge : mesh.topology->edges) EXPECT_EQ(edge.triangles[1], kNone);
 }
 
 // Each of the triangles that meet there is at one of the edges.
@@ -151,7 +153,7 @@ TEST(Edges, AreSeveralWhereMoreThanTwoTrianglesMeet) {
     const Mesh mesh = build_mesh(soup);
     std::multiset<std::uint32_t> at;
     std::size_t count = 0;
-    for (const Edge& edge : mesh.edges) {
+    for (const Edge& edge : mesh.topology->edges) {
       const Vec3f a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
       if (a.x != 0 || b.x != 0 || a.y != 0 || b.y != 0) continue;
       ++count;
@@ -167,7 +169,7 @@ TEST(Edges, AreSeveralWhereMoreThanTwoTrianglesMeet) {
 TEST(Edges, OfATriangleOfNoAreaAreCastToo) {
   TriangleSoup soup;
   shapes::append(soup, {0, 0, 0}, {1, 0, 0}, {2, 0, 0});
-  EXPECT_EQ(build_mesh(soup).edges.size(), 3u);
+  EXPECT_EQ(build_mesh(soup).topology->edges.size(), 3u);
 }
 
 // By where they are and what they are between.
@@ -175,12 +177,13 @@ TEST(Edges, DoNotDependOnTheOrderOfTheTriangles) {
   using Side = std::array<float, 9>;
   const auto described = [](const Mesh& mesh) {
     std::set<std::pair<std::set<Side>, std::array<float, 6>>> result;
-    for (const Edge& edge : mesh.edges) {
+    for (const Edge& edge : mesh.topology->edges) {
       std::set<Side> sides;
       for (const std::uint32_t t : edge.triangles) {
         if (t == kNone) continue;
         std::array<Vec3f, 3> corners;
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.vertices[mesh.triangles[t][k]];
+        for (std::size_t k = 0; k < 3; ++k)
+          corners[k] = mesh.vertices[mesh.topology->triangles[t][k]];
         std::sort(corners.begin(), corners.end(), [](Vec3f a, Vec3f b) {
           return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
         });

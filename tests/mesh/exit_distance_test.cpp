@@ -62,7 +62,7 @@ TEST(Exits, OfAnOpenMeshEndAtItsOtherSide) {
   TriangleSoup soup = shapes::box({0, 0, 0}, {1, 1, 0.01f}, 4);
   soup.resize(soup.size() - 3);
   const Mesh mesh = build_mesh(soup, {.open_thickness = 0.5f});
-  ASSERT_FALSE(mesh.closed);
+  ASSERT_FALSE(mesh.closed());
   int thin = 0;
   for (const float exit : mesh.exits) {
     EXPECT_LE(exit, 0.5f);
@@ -77,7 +77,7 @@ TEST(Exits, PassOverAFaceTheVertexLiesOn) {
   const TriangleSoup soup = shapes::joined(shapes::box({-4, -4, -1}, {4, 4, 0}),
                                            shapes::box({-1, -1.5f, 0}, {1, 0.5f, 2}));
   const Mesh mesh = build_mesh(soup);
-  ASSERT_TRUE(mesh.closed);
+  ASSERT_TRUE(mesh.closed());
   int checked = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].z != 0 || std::fabs(mesh.vertices[i].x) != 1) continue;

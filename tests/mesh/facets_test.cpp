@@ -21,7 +21,7 @@ using Place = std::array<std::array<float, 3>, 3>;
 Place place_of(const Mesh& mesh, std::size_t triangle) {
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3f p = mesh.vertices[mesh.triangles[triangle][k]];
+    const Vec3f p = mesh.vertices[mesh.topology->triangles[triangle][k]];
     place[k] = {p.x, p.y, p.z};
   }
   std::sort(place.begin(), place.end());
@@ -31,10 +31,10 @@ Place place_of(const Mesh& mesh, std::size_t triangle) {
 // By their numbers.
 std::vector<std::set<Place>> facets_of(const Mesh& mesh) {
   std::vector<std::set<Place>> facets;
-  EXPECT_EQ(mesh.facets.size(), mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.facets.size(); ++t) {
-    if (facets.size() <= mesh.facets[t]) facets.resize(mesh.facets[t] + 1);
-    facets[mesh.facets[t]].insert(place_of(mesh, t));
+  EXPECT_EQ(mesh.topology->facets.size(), mesh.topology->triangles.size());
+  for (std::size_t t = 0; t < mesh.topology->facets.size(); ++t) {
+    if (facets.size() <= mesh.topology->facets[t]) facets.resize(mesh.topology->facets[t] + 1);
+    facets[mesh.topology->facets[t]].insert(place_of(mesh, t));
   }
   for (const auto& facet : facets) EXPECT_FALSE(facet.empty()) << "a number that nobody has";
   return facets;
@@ -106,9 +106,9 @@ TEST(Facets, DoNotFollowAGentleCurve) {
   EXPECT_LT(facets_of(mesh).size(), 100u);
   // Of one of its triangles all differ by less than a tenth of a degree, so of one another by less
   // than two.
-  for (std::size_t t = 0; t < mesh.facets.size(); ++t)
+  for (std::size_t t = 0; t < mesh.topology->facets.size(); ++t)
     for (std::size_t other = 0; other < t; ++other) {
-      if (mesh.facets[t] != mesh.facets[other]) continue;
+      if (mesh.topology->facets[t] != mesh.topology->facets[other]) continue;
       const Vec3d away = Vec3d(mesh.face_normals[t]) - Vec3d(mesh.face_normals[other]);
       EXPECT_LT(length(away), 0.2 * kDegree);
     }
@@ -128,8 +128,8 @@ TEST(Facets, DoNotDependOnTheOrderOfTheTriangles) {
 TEST(Facets, AreNumberedFromThatOfTheLargestTriangleOn) {
   const Mesh mesh =
       build_mesh(shapes::joined(shapes::cube(), shapes::moved(shapes::cube(), 3, {2, 0, 0})));
-  for (std::size_t t = 0; t < 12; ++t) EXPECT_GE(mesh.facets[t], 6u);
-  for (std::size_t t = 12; t < 24; ++t) EXPECT_LT(mesh.facets[t], 6u);
+  for (std::size_t t = 0; t < 12; ++t) EXPECT_GE(mesh.topology->facets[t], 6u);
+  for (std::size_t t = 12; t < 24; ++t) EXPECT_LT(mesh.topology->facets[t], 6u);
 }
 
 TEST(Facets, AreConnected) {
@@ -159,9 +159,11 @@ TEST(Facets, OfTrianglesOfNoAreaAreTheirOwn) {
   shapes::append(soup, a, {1, -1, 0}, middle);
   shapes::append(soup, middle, {1, -1, 0}, b);
   const Mesh mesh = build_mesh(soup);
-  ASSERT_EQ(mesh.triangles.size(), 4u);
+  ASSERT_EQ(mesh.topology->triangles.size(), 4u);
   EXPECT_EQ(sizes_of(soup), (std::multiset<std::size_t>{1, 1, 2}));
-  EXPECT_EQ(std::count(mesh.facets.begin(), mesh.facets.end(), mesh.facets[1]), 1);
+  EXPECT_EQ(std::count(mesh.topology->facets.begin(), mesh.topology->facets.end(),
+                       mesh.topology->facets[1]),
+            1);
 }
 
 TEST(Facets, OfNothingAreNone) { EXPECT_TRUE(facets({}, {}, {}, {}).empty()); }

@@ -14,7 +14,7 @@ namespace {
 
 TEST(HalfEdges, AreAllSidesOfAllTrianglesEdgeByEdge) {
   for (const TriangleSoup& soup : {shapes::cube(), shapes::sheet(3), shapes::torus(1, 0.3, 7)}) {
-    const std::vector<Triangle> triangles = build_mesh(soup).triangles;
+    const std::vector<Triangle> triangles = build_mesh(soup).topology->triangles;
     const std::vector<HalfEdge> edges = half_edges_of(triangles);
     ASSERT_EQ(edges.size(), 3 * triangles.size());
     std::set<std::uint32_t> sides;

@@ -18,17 +18,19 @@ void expect_whole(const Mesh& mesh) {
   EXPECT_TRUE(mesh.finite);
   EXPECT_EQ(mesh.normals.size(), mesh.vertices.size());
   EXPECT_EQ(mesh.exits.size(), mesh.vertices.size());
-  EXPECT_EQ(mesh.face_normals.size(), mesh.triangles.size());
-  EXPECT_EQ(mesh.source_triangle.size(), mesh.triangles.size());
-  EXPECT_EQ(validate_bvh(mesh.bvh, mesh.vertices, mesh.triangles), "");
+  EXPECT_EQ(mesh.face_normals.size(), mesh.topology->triangles.size());
+  EXPECT_EQ(mesh.topology->source_triangle.size(), mesh.topology->triangles.size());
+  EXPECT_EQ(validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles), "");
 }
 
 bool is_empty(const Mesh& mesh) {
   return mesh.vertices.empty() && mesh.normals.empty() && mesh.exits.empty() &&
-         mesh.triangles.empty() && mesh.source_triangle.empty() && mesh.face_normals.empty() &&
-         mesh.bvh.nodes.empty() && mesh.bvh.order.empty() && mesh.chunks.empty() &&
+         mesh.topology->triangles.empty() && mesh.topology->source_triangle.empty() &&
+         mesh.face_normals.empty() && mesh.topology->bvh.nodes.empty() &&
+         mesh.topology->bvh.order.empty() && mesh.topology->chunks.empty() &&
          mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} && mesh.radius == 0 &&
-         mesh.mean_edge == 0 && !mesh.closed && !mesh.inverted && !mesh.reoriented;
+         mesh.mean_edge == 0 && !mesh.closed() && !mesh.topology->inverted &&
+         !mesh.topology->reoriented;
 }
 
 TEST(BuildMesh, RefusesCoordinatesThatAreNotFinite) {
@@ -54,7 +56,7 @@ TEST(BuildMesh, TakesAnEmptySoup) {
 TEST(BuildMesh, TakesASingleTriangle) {
   const Mesh mesh = build_mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}});
   expect_whole(mesh);
-  EXPECT_FALSE(mesh.closed);
+  EXPECT_FALSE(mesh.closed());
   EXPECT_EQ(mesh.mean_edge, 4);
   EXPECT_EQ(mesh.radius, 2.5f);
   EXPECT_EQ(mesh.exits, (std::vector<float>{4, 4, 4}));
@@ -75,7 +77,7 @@ TEST(BuildMesh, TakesAMeshOfSlivers) {
   }
   const Mesh mesh = build_mesh(soup);
   expect_whole(mesh);
-  EXPECT_EQ(mesh.triangles.size(), 100u);
+  EXPECT_EQ(mesh.topology->triangles.size(), 100u);
   for (const Vec3f& normal : mesh.normals) EXPECT_EQ(normal, Vec3f{});
   for (const float exit : mesh.exits) EXPECT_EQ(exit, 0);
 }
@@ -84,12 +86,15 @@ TEST(BuildMesh, KnowsTheProgramsNumbersOfTheTriangles) {
   const TriangleSoup soup = shapes::sphere(1, 10);
   const Mesh mesh = build_mesh(soup);
   expect_whole(mesh);
-  EXPECT_EQ(mesh.triangles.size(), soup.size() / 3 - 2 * 20);  // the poles' collapsed ones
-  const std::set<std::uint32_t> numbers(mesh.source_triangle.begin(), mesh.source_triangle.end());
-  EXPECT_EQ(numbers.size(), mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  EXPECT_EQ(mesh.topology->triangles.size(),
+            soup.size() / 3 - 2 * 20);  // the poles' collapsed ones
+  const std::set<std::uint32_t> numbers(mesh.topology->source_triangle.begin(),
+                                        mesh.topology->source_triangle.end());
+  EXPECT_EQ(numbers.size(), mesh.topology->triangles.size());
+  for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(mesh.vertices[mesh.triangles[i][k]], soup[3 * mesh.source_triangle[i] + k]);
+      EXPECT_EQ(mesh.vertices[mesh.topology->triangles[i][k]],
+                soup[3 * mesh.topology->source_triangle[i] + k]);
     }
   }
 }
@@ -119,12 +124,12 @@ TEST(BuildMesh, DoesNotDependOnTheOrderOfTheTriangles) {
     EXPECT_EQ(one.vertices, two.vertices);
     EXPECT_EQ(one.normals, two.normals);
     EXPECT_EQ(one.exits, two.exits);
-    EXPECT_EQ(one.closed, two.closed);
+    EXPECT_EQ(one.closed(), two.closed());
     EXPECT_EQ(one.radius, two.radius);
     EXPECT_EQ(one.face_normals, two.face_normals);
-    EXPECT_EQ(one.facets, two.facets);
+    EXPECT_EQ(one.topology->facets, two.topology->facets);
     for (std::size_t i = 0; i < order.size(); ++i)
-      EXPECT_EQ(order[two.source_triangle[i]], one.source_triangle[i]);
+      EXPECT_EQ(order[two.topology->source_triangle[i]], one.topology->source_triangle[i]);
   }
 }
 
@@ -133,9 +138,9 @@ TEST(BuildMesh, ScalesWithTheMesh) {
   for (const float scale : {0x1p-20f, 0x1p20f}) {  // powers of two, so that nothing is rounded
     const Mesh mesh = build_mesh(shapes::moved(shapes::torus(1, 0.3, 16), scale, {}));
     expect_whole(mesh);
-    EXPECT_TRUE(mesh.closed);
+    EXPECT_TRUE(mesh.closed());
     EXPECT_EQ(mesh.normals, unit.normals);
-    EXPECT_EQ(mesh.triangles, unit.triangles);
+    EXPECT_EQ(mesh.topology->triangles, unit.topology->triangles);
     EXPECT_EQ(mesh.radius, scale * unit.radius);
     for (std::size_t i = 0; i < unit.exits.size(); ++i) {
       EXPECT_EQ(mesh.exits[i], scale * unit.exits[i]);
@@ -147,8 +152,8 @@ TEST(BuildMesh, TakesAMeshFarFromItsOrigin) {
   const Vec3f far{1e6f, 2e6f, -1e6f};
   const Mesh mesh = build_mesh(shapes::moved(shapes::box({0, 0, 0}, {8, 8, 8}, 2), 1, far));
   expect_whole(mesh);
-  EXPECT_TRUE(mesh.closed);
-  EXPECT_FALSE(mesh.inverted);
+  EXPECT_TRUE(mesh.closed());
+  EXPECT_FALSE(mesh.topology->inverted);
   int corners = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3f from_middle = mesh.vertices[i] - far - Vec3f{4, 4, 4};
@@ -165,7 +170,7 @@ TEST(BuildMesh, TakesTheLargestAndSmallestFloats) {
   for (const float size : {kLargest, kSmallest}) {
     const Mesh mesh = build_mesh(shapes::moved(shapes::box({-1, -1, -1}, {1, 1, 1}), size, {}));
     expect_whole(mesh);
-    EXPECT_TRUE(mesh.closed);
+    EXPECT_TRUE(mesh.closed());
     EXPECT_EQ(mesh.vertices.size(), 8u);
     for (const Vec3f& normal : mesh.normals) EXPECT_NEAR(length(normal), 1, 1e-6f);
   }

@@ -53,7 +53,7 @@ std::uint32_t depth(const std::vector<MeshletNode>& tree, std::uint32_t n) {
 
 // Visits the meshlets below a node, in order.
 void expect_below(const Mesh& mesh, std::uint32_t n, std::uint32_t first, std::uint32_t end) {
-  const MeshletNode& node = mesh.meshlets.tree[n];
+  const MeshletNode& node = mesh.topology->meshlets.tree[n];
   ASSERT_GE(node.count, 1u);
   ASSERT_LE(node.count, kTreeWidth);
   EXPECT_EQ(node.first[0], first);
@@ -62,9 +62,9 @@ void expect_below(const Mesh& mesh, std::uint32_t n, std::uint32_t first, std::u
     ASSERT_LT(node.first[k], node.first[k + 1]);
     Box box = empty_box();
     for (std::uint32_t m = node.first[k]; m < node.first[k + 1]; ++m) {
-      const Meshlet& meshlet = mesh.meshlets.meshlets[m];
+      const Meshlet& meshlet = mesh.topology->meshlets.meshlets[m];
       for (std::uint32_t i = 0; i < meshlet.vertex_count; ++i)
-        box = grown(box, mesh.vertices[mesh.meshlets.vertices[meshlet.vertex_first + i]]);
+        box = grown(box, mesh.vertices[mesh.topology->meshlets.vertices[meshlet.vertex_first + i]]);
     }
     EXPECT_EQ(node.boxes[k].lo, box.lo);
     EXPECT_EQ(node.boxes[k].hi, box.hi);
@@ -78,14 +78,14 @@ void expect_below(const Mesh& mesh, std::uint32_t n, std::uint32_t first, std::u
 TEST(MeshletTree, HoldsEachMeshletOnceInTheTightestBoxes) {
   for (const TriangleSoup& soup : soups()) {
     const Mesh mesh = build_mesh(soup);
-    expect_below(mesh, 0, 0, static_cast<std::uint32_t>(mesh.meshlets.meshlets.size()));
+    expect_below(mesh, 0, 0, static_cast<std::uint32_t>(mesh.topology->meshlets.meshlets.size()));
   }
 }
 
 TEST(MeshletTree, NeverHasMoreChildrenWaitThanAKernelHasRoomFor) {
   for (const TriangleSoup& soup : soups()) {
     const Mesh mesh = build_mesh(soup);
-    EXPECT_LE(most_waiting(mesh.meshlets.tree, 0), kTreeStack);
+    EXPECT_LE(most_waiting(mesh.topology->meshlets.tree, 0), kTreeStack);
   }
 }
 
@@ -107,8 +107,8 @@ TEST(MeshletTree, OfADegenerateTreeOfTwoChildrenIsShallow) {
 
 TEST(MeshletTree, OfAFineMeshIsAsShallowAsItCanBeAlmost) {
   const Mesh mesh = build_mesh(test::soup_of(test::make_icosphere(1, 5)));
-  const double levels = std::log(mesh.meshlets.meshlets.size()) / std::log(kTreeWidth);
-  EXPECT_LE(depth(mesh.meshlets.tree, 0), std::ceil(levels) + 1);
+  const double levels = std::log(mesh.topology->meshlets.meshlets.size()) / std::log(kTreeWidth);
+  EXPECT_LE(depth(mesh.topology->meshlets.tree, 0), std::ceil(levels) + 1);
 }
 
 TEST(MeshletTree, OfNothingIsEmpty) { EXPECT_TRUE(build_meshlet_tree({}).empty()); }

@@ -35,7 +35,7 @@ TEST(Meshlets, HoldEachTriangleOnceAndItsVertices) {
   for (const TriangleSoup& soup : soups()) {
     const Mesh mesh = build_mesh(soup);
     std::uint32_t next = 0;
-    for (const Meshlet& meshlet : mesh.meshlets.meshlets) {
+    for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
       EXPECT_EQ(meshlet.triangle_first, next);
       EXPECT_GE(meshlet.triangle_count, 1u);
       EXPECT_LE(meshlet.triangle_count, kMeshletTriangles);
@@ -43,29 +43,29 @@ TEST(Meshlets, HoldEachTriangleOnceAndItsVertices) {
       next += meshlet.triangle_count;
       std::set<std::uint32_t> expected, held;
       for (std::uint32_t k = meshlet.triangle_first; k < next; ++k)
-        for (const std::uint32_t vertex : mesh.triangles[mesh.bvh.order[k]])
+        for (const std::uint32_t vertex : mesh.topology->triangles[mesh.topology->bvh.order[k]])
           expected.insert(vertex);
       for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k)
-        EXPECT_TRUE(held.insert(mesh.meshlets.vertices[meshlet.vertex_first + k]).second);
+        EXPECT_TRUE(held.insert(mesh.topology->meshlets.vertices[meshlet.vertex_first + k]).second);
       EXPECT_EQ(held, expected);
     }
-    EXPECT_EQ(next, mesh.triangles.size());
+    EXPECT_EQ(next, mesh.topology->triangles.size());
   }
 }
 
 TEST(Meshlets, OwnEachEdgeOnceWithItsEnds) {
   for (const TriangleSoup& soup : soups()) {
     const Mesh mesh = build_mesh(soup);
-    std::vector<Edge> edges = mesh.edges;
-    edges.insert(edges.end(), mesh.flat_edges.begin(), mesh.flat_edges.end());
+    std::vector<Edge> edges = mesh.topology->edges;
+    edges.insert(edges.end(), mesh.topology->flat_edges.begin(), mesh.topology->flat_edges.end());
     std::set<std::uint32_t> owned;
-    for (const Meshlet& meshlet : mesh.meshlets.meshlets) {
+    for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
       EXPECT_LE(meshlet.edge_count, kMeshletEdges);
       for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
-        const MeshletEdge& edge = mesh.meshlets.edges[meshlet.edge_first + k];
+        const MeshletEdge& edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
         EXPECT_TRUE(owned.insert(edge.edge).second);
         for (std::size_t end = 0; end < 2; ++end)
-          EXPECT_EQ(mesh.meshlets.vertices[meshlet.vertex_first + edge.ends[end]],
+          EXPECT_EQ(mesh.topology->meshlets.vertices[meshlet.vertex_first + edge.ends[end]],
                     edges[edge.edge].vertices[end]);
       }
     }
@@ -78,14 +78,15 @@ TEST(Meshlets, AreMoreThanHalfFull) {
   for (const TriangleSoup& soup : {test::soup_of(test::make_icosphere(1, 4)),
                                    test::soup_of(test::make_torus(1, 0.3, 64, 32))}) {
     const Mesh mesh = build_mesh(soup);
-    EXPECT_LT(mesh.meshlets.meshlets.size() * kMeshletTriangles, 2 * mesh.triangles.size());
+    EXPECT_LT(mesh.topology->meshlets.meshlets.size() * kMeshletTriangles,
+              2 * mesh.topology->triangles.size());
   }
 }
 
 TEST(Meshlets, OfNothingAreNone) {
   const Mesh mesh = build_mesh({});
-  EXPECT_TRUE(mesh.meshlets.meshlets.empty());
-  EXPECT_TRUE(mesh.meshlets.tree.empty());
+  EXPECT_TRUE(mesh.topology->meshlets.meshlets.empty());
+  EXPECT_TRUE(mesh.topology->meshlets.tree.empty());
 }
 
 }  // namespace

@@ -36,12 +36,12 @@ std::vector<Neighbours> neighbours_of(const std::vector<Triangle>& triangles) {
 
 void expect_as_the_slow_way(const TriangleSoup& soup) {
   const Mesh mesh = build_mesh(soup);
-  const std::vector<Neighbours> found = neighbours_of(mesh.triangles);
-  EXPECT_EQ(mesh.neighbours, found);
-  ASSERT_EQ(found.size(), mesh.triangles.size());
+  const std::vector<Neighbours> found = neighbours_of(mesh.topology->triangles);
+  EXPECT_EQ(mesh.topology->neighbours, found);
+  ASSERT_EQ(found.size(), mesh.topology->triangles.size());
   for (std::uint32_t i = 0; i < found.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      ASSERT_EQ(found[i][k], expected(mesh.triangles, i, k)) << i << " " << k;
+      ASSERT_EQ(found[i][k], expected(mesh.topology->triangles, i, k)) << i << " " << k;
     }
   }
 }
@@ -58,20 +58,20 @@ TEST(Neighbours, AreThoseAcrossTheEdges) {
   for (const TriangleSoup& soup :
        {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 8), shapes::torus(1, 0.3, 12)}) {
     expect_as_the_slow_way(soup);
-    EXPECT_EQ(missing(build_mesh(soup).neighbours), 0u);
+    EXPECT_EQ(missing(build_mesh(soup).topology->neighbours), 0u);
   }
 }
 
 TEST(Neighbours, EndAtTheRimOfAnOpenMesh) {
   expect_as_the_slow_way(shapes::sheet(5));
-  EXPECT_EQ(missing(build_mesh(shapes::sheet(5)).neighbours), 20u);
+  EXPECT_EQ(missing(build_mesh(shapes::sheet(5)).topology->neighbours), 20u);
   expect_as_the_slow_way({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
 
 TEST(Neighbours, AreNotToldWhereMoreThanTwoMeet) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
   expect_as_the_slow_way(two);
-  EXPECT_EQ(missing(build_mesh(two).neighbours), 4u);
+  EXPECT_EQ(missing(build_mesh(two).topology->neighbours), 4u);
 }
 
 TEST(Neighbours, MustRunTheEdgeTheOtherWay) {

@@ -42,8 +42,8 @@ TEST(Normals, FollowTheTurnedWindingOfAnInvertedMesh) {
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_GT(dot(mesh.normals[i], mesh.vertices[i] - Vec3f{0.5f, 0.5f, 0.5f}), 0.8f);
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const Vec3f corner = mesh.vertices[mesh.triangles[i][0]];
+  for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
+    const Vec3f corner = mesh.vertices[mesh.topology->triangles[i][0]];
     EXPECT_GT(dot(mesh.face_normals[i], corner - Vec3f{0.5f, 0.5f, 0.5f}), 0.4f);
   }
 }

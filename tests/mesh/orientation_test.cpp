@@ -35,25 +35,25 @@ TEST(Orientation, FindsClosedMeshesClosed) {
   for (const TriangleSoup& soup :
        {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 10), shapes::torus(1, 0.3, 12)}) {
     const Mesh mesh = built(soup);
-    EXPECT_TRUE(mesh.closed);
-    EXPECT_FALSE(mesh.inverted);
-    EXPECT_FALSE(mesh.reoriented);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_FALSE(mesh.topology->inverted);
+    EXPECT_FALSE(mesh.topology->reoriented);
     EXPECT_GT(shapes::volume(mesh), 0);
   }
 }
 
 TEST(Orientation, FindsAMeshWithAHoleOpen) {
   for (std::ptrdiff_t hole = 0; hole < 12; ++hole) {
-    EXPECT_FALSE(built(without_triangle(shapes::cube(), hole)).closed);
+    EXPECT_FALSE(built(without_triangle(shapes::cube(), hole)).closed());
   }
-  EXPECT_FALSE(built(shapes::sheet(4)).closed);
+  EXPECT_FALSE(built(shapes::sheet(4)).closed());
 }
 
 TEST(Orientation, TurnsAMeshOfNegativeVolume) {
   const Mesh mesh = built(shapes::turned(shapes::cube()));
-  EXPECT_TRUE(mesh.closed);
-  EXPECT_TRUE(mesh.inverted);
-  EXPECT_FALSE(mesh.reoriented);
+  EXPECT_TRUE(mesh.closed());
+  EXPECT_TRUE(mesh.topology->inverted);
+  EXPECT_FALSE(mesh.topology->reoriented);
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 1);
 }
 
@@ -61,17 +61,17 @@ TEST(Orientation, TurnsASmallMeshFarFromTheOrigin) {
   for (const float offset : {1e6f, 1.7e6f, 3.1e6f, 7.9e6f}) {
     const TriangleSoup far =
         shapes::moved(shapes::sphere(1, 12), 4, {offset, -1.3f * offset, 0.7f * offset});
-    EXPECT_FALSE(built(far).inverted);
-    EXPECT_TRUE(built(shapes::turned(far)).inverted);
+    EXPECT_FALSE(built(far).topology->inverted);
+    EXPECT_TRUE(built(shapes::turned(far)).topology->inverted);
   }
 }
 
 TEST(Orientation, MakesAnInconsistentWindingConsistent) {
   for (std::size_t triangle = 0; triangle < 12; ++triangle) {
     const Mesh mesh = built(with_turned(shapes::cube(), triangle));
-    EXPECT_TRUE(mesh.closed);
-    EXPECT_TRUE(mesh.reoriented);
-    EXPECT_FALSE(mesh.inverted);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_TRUE(mesh.topology->reoriented);
+    EXPECT_FALSE(mesh.topology->inverted);
     EXPECT_DOUBLE_EQ(shapes::volume(mesh), 1);
   }
 }
@@ -79,8 +79,8 @@ TEST(Orientation, MakesAnInconsistentWindingConsistent) {
 TEST(Orientation, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
   const TriangleSoup other = shapes::turned(shapes::box({5, 0, 0}, {6, 2, 1}));
   const Mesh mesh = built(shapes::joined(with_turned(shapes::cube(), 3), other));
-  EXPECT_TRUE(mesh.closed);
-  EXPECT_TRUE(mesh.reoriented);
+  EXPECT_TRUE(mesh.closed());
+  EXPECT_TRUE(mesh.topology->reoriented);
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 3);
 }
 
@@ -90,9 +90,9 @@ TEST(Orientation, LeavesACavityACavity) {
   const TriangleSoup hollow = shapes::joined(shapes::cube(), cavity);
   for (const bool turned : {false, true}) {
     const Mesh mesh = built(turned ? shapes::turned(hollow) : hollow);
-    EXPECT_TRUE(mesh.closed);
-    EXPECT_FALSE(mesh.reoriented);
-    EXPECT_EQ(mesh.inverted, turned);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_FALSE(mesh.topology->reoriented);
+    EXPECT_EQ(mesh.topology->inverted, turned);
     EXPECT_DOUBLE_EQ(shapes::volume(mesh), 0.875);
   }
 }
@@ -101,13 +101,13 @@ TEST(Orientation, FindsAnEdgeOfFourTrianglesOpen) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
   const Mesh mesh = built(two);
   EXPECT_EQ(mesh.vertices.size(), 14u);
-  EXPECT_FALSE(mesh.closed);
+  EXPECT_FALSE(mesh.closed());
 }
 
 TEST(Orientation, ClosesMeshesThatShareOnlyAVertex) {
   const Mesh mesh = built(shapes::joined(shapes::cube(), shapes::box({1, 1, 1}, {2, 2, 2})));
   EXPECT_EQ(mesh.vertices.size(), 15u);
-  EXPECT_TRUE(mesh.closed);
+  EXPECT_TRUE(mesh.closed());
 }
 
 TEST(Orientation, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
@@ -115,14 +115,14 @@ TEST(Orientation, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
   TriangleSoup soup = cube;
   shapes::append(soup, cube[0], cube[1], cube[2]);
   const Mesh mesh = built(soup);
-  EXPECT_EQ(mesh.triangles.size(), 13u);
-  EXPECT_FALSE(mesh.closed);
-  EXPECT_FALSE(built(shapes::joined(cube, cube)).closed);
+  EXPECT_EQ(mesh.topology->triangles.size(), 13u);
+  EXPECT_FALSE(mesh.closed());
+  EXPECT_FALSE(built(shapes::joined(cube, cube)).closed());
 }
 
 TEST(Orientation, FindsATriangleOfTwoSidesOpen) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-  EXPECT_FALSE(built({a, b, c, a, c, b}).closed);
+  EXPECT_FALSE(built({a, b, c, a, c, b}).closed());
 }
 
 TEST(Orientation, CountsSliversAsNeighbours) {
@@ -130,8 +130,8 @@ TEST(Orientation, CountsSliversAsNeighbours) {
   const Vec3f o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, m{0.5f, 0, 0};
   const TriangleSoup soup{o, y, m, m, y, x, o, m, x, o, x, z, o, z, y, x, y, z};
   const Mesh mesh = built(soup);
-  EXPECT_EQ(mesh.triangles.size(), 6u);
-  EXPECT_TRUE(mesh.closed);
+  EXPECT_EQ(mesh.topology->triangles.size(), 6u);
+  EXPECT_TRUE(mesh.closed());
   EXPECT_EQ(std::count(mesh.face_normals.begin(), mesh.face_normals.end(), Vec3f{}), 1);
 }
 
@@ -149,11 +149,12 @@ TEST(Orientation, LeavesASurfaceWithoutSidesAlone) {
                                              {2, 4, 5},
                                              {1, 3, 5}});
   const Mesh mesh = built(soup);
-  EXPECT_FALSE(mesh.closed);
-  EXPECT_FALSE(mesh.reoriented);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  EXPECT_FALSE(mesh.closed());
+  EXPECT_FALSE(mesh.topology->reoriented);
+  for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(mesh.vertices[mesh.triangles[i][k]], soup[3 * mesh.source_triangle[i] + k]);
+      EXPECT_EQ(mesh.vertices[mesh.topology->triangles[i][k]],
+                soup[3 * mesh.topology->source_triangle[i] + k]);
     }
   }
 }
@@ -168,11 +169,11 @@ RC_GTEST_PROP(OrientationProperty, UndoesAnyTurnedTriangles, ()) {
     if (turned[i]) soup = with_turned(std::move(soup), i);
   }
   const Mesh mesh = built(soup);
-  RC_ASSERT(mesh.closed);
+  RC_ASSERT(mesh.closed());
   RC_ASSERT(std::fabs(shapes::volume(mesh) - expected) < 1e-12);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::size_t source = 3 * mesh.source_triangle[i];
-    for (const std::uint32_t corner : mesh.triangles[i]) {
+  for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
+    const std::size_t source = 3 * mesh.topology->source_triangle[i];
+    for (const std::uint32_t corner : mesh.topology->triangles[i]) {
       const Vec3f place = mesh.vertices[corner];
       RC_ASSERT(place == soup[source] || place == soup[source + 1] || place == soup[source + 2]);
     }

@@ -23,7 +23,7 @@ using Joints = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 Joints sides_of(const Mesh& mesh) {
   Joints sides;
-  for (const Triangle& t : mesh.triangles)
+  for (const Triangle& t : mesh.topology->triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       sides.emplace(t[k], t[(k + 1) % 3]);
       sides.emplace(t[(k + 1) % 3], t[k]);
@@ -34,8 +34,9 @@ Joints sides_of(const Mesh& mesh) {
 Joints joints_of(const Mesh& mesh) {
   Joints joints;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    for (std::uint32_t k = mesh.rings.starts[v]; k < mesh.rings.starts[v + 1]; ++k)
-      joints.emplace(v, mesh.rings.neighbours[k].vertex);
+    for (std::uint32_t k = mesh.topology->rings.starts[v]; k < mesh.topology->rings.starts[v + 1];
+         ++k)
+      joints.emplace(v, mesh.topology->rings.neighbours[k].vertex);
   return joints;
 }
 
@@ -65,18 +66,20 @@ TEST(Rings, JoinByEdgesOfTrianglesAllThatTheseJoin) {
     const auto parts = parts_of(sides, mesh.vertices.size());
     EXPECT_EQ(parts_of(joints, mesh.vertices.size()), parts);
     EXPECT_EQ(std::set<std::uint32_t>(parts.begin(), parts.end()),
-              std::set<std::uint32_t>(mesh.rings.components.begin(), mesh.rings.components.end()));
+              std::set<std::uint32_t>(mesh.topology->rings.components.begin(),
+                                      mesh.topology->rings.components.end()));
   }
 }
 
 TEST(Rings, NameTheEdgeToEachNeighbour) {
   const Mesh mesh = build_mesh(soup_of(test::make_cube(1, 3)));
-  ASSERT_FALSE(mesh.flat_edges.empty());
-  std::vector<Edge> edges = mesh.edges;
-  edges.insert(edges.end(), mesh.flat_edges.begin(), mesh.flat_edges.end());
+  ASSERT_FALSE(mesh.topology->flat_edges.empty());
+  std::vector<Edge> edges = mesh.topology->edges;
+  edges.insert(edges.end(), mesh.topology->flat_edges.begin(), mesh.topology->flat_edges.end());
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    for (std::uint32_t k = mesh.rings.starts[v]; k < mesh.rings.starts[v + 1]; ++k) {
-      const RingNeighbour& neighbour = mesh.rings.neighbours[k];
+    for (std::uint32_t k = mesh.topology->rings.starts[v]; k < mesh.topology->rings.starts[v + 1];
+         ++k) {
+      const RingNeighbour& neighbour = mesh.topology->rings.neighbours[k];
       const auto& ends = edges.at(neighbour.edge).vertices;
       EXPECT_EQ(std::minmax(ends[0], ends[1]), std::minmax(v, neighbour.vertex));
     }
@@ -84,13 +87,13 @@ TEST(Rings, NameTheEdgeToEachNeighbour) {
 
 TEST(Rings, HaveAVertexOfEachComponent) {
   const test::TestMesh cube = test::make_cube(1, 2);
-  EXPECT_EQ(build_mesh(soup_of(cube)).rings.components.size(), 1u);
+  EXPECT_EQ(build_mesh(soup_of(cube)).topology->rings.components.size(), 1u);
   const auto three = test::merged(test::merged(cube, test::moved(cube, {3, 0, 0})),
                                   test::moved(test::make_icosphere(1, 1), {9, 0, 0}));
   const Mesh mesh = build_mesh(soup_of(three));
-  ASSERT_EQ(mesh.rings.components.size(), 3u);
+  ASSERT_EQ(mesh.topology->rings.components.size(), 3u);
   std::multiset<long> places;
-  for (const std::uint32_t v : mesh.rings.components)
+  for (const std::uint32_t v : mesh.topology->rings.components)
     places.insert(std::lround(mesh.vertices[v].x / 4));
   EXPECT_EQ(places.count(2), 1u);
 }

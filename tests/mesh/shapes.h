@@ -135,7 +135,7 @@ inline TriangleSoup random_soup(std::size_t triangles, std::uint32_t seed) {
 // [m^3]
 inline double volume(const Mesh& mesh) {
   double sum = 0;
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : mesh.topology->triangles) {
     sum += dot(Vec3d(mesh.vertices[t[0]]),
                cross(Vec3d(mesh.vertices[t[1]]), Vec3d(mesh.vertices[t[2]])));
   }

@@ -52,17 +52,17 @@ RC_GTEST_PROP(MeshProperty, IsWholeForAnySoup, ()) {
   const TriangleSoup soup = lattice_soup();
   const Mesh mesh = build_mesh(soup);
   RC_ASSERT(mesh.finite);
-  RC_ASSERT(validate_bvh(mesh.bvh, mesh.vertices, mesh.triangles) == "");
+  RC_ASSERT(validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles) == "");
   RC_ASSERT(mesh.normals.size() == mesh.vertices.size());
   RC_ASSERT(mesh.exits.size() == mesh.vertices.size());
-  RC_ASSERT(mesh.face_normals.size() == mesh.triangles.size());
-  RC_ASSERT(mesh.source_triangle.size() == mesh.triangles.size());
+  RC_ASSERT(mesh.face_normals.size() == mesh.topology->triangles.size());
+  RC_ASSERT(mesh.topology->source_triangle.size() == mesh.topology->triangles.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const float norm = length(mesh.normals[i]);
     RC_ASSERT(norm == 0 || std::fabs(norm - 1) < 1e-6f);
     RC_ASSERT(mesh.exits[i] >= 0);
     RC_ASSERT(norm > 0 || mesh.exits[i] == 0);
-    RC_ASSERT(mesh.closed || mesh.exits[i] <= mesh.mean_edge);
+    RC_ASSERT(mesh.closed() || mesh.exits[i] <= mesh.mean_edge);
   }
 }
 

@@ -43,7 +43,7 @@ class Places : public testing::Test {
     for (std::size_t i = 0; i < links.size(); ++i) {
       for (std::size_t side = 0; side < 2; ++side) {
         const Mesh& mesh = *scene_.meshes[scene_.objects[scene_.pairs[i][side]].mesh];
-        for (std::size_t k = 0; k < mesh.chunks.size(); ++k) {
+        for (std::size_t k = 0; k < mesh.topology->chunks.size(); ++k) {
           const std::size_t entry = links[i].directory[side] + k;
           if (entry >= owners.size() || owners[entry]++ != 0) ++wrong;
         }
@@ -63,7 +63,9 @@ TEST_F(Places, OfAMeshThatIsEditedInEveryStepAreTakenAgain) {
   step();
   const std::size_t entries = cache_.entries();
   for (int i = 0; i < 50; ++i) {
-    scene_.meshes[0] = std::make_shared<const Mesh>(*fine_);
+    const auto rebuilt = std::make_shared<Mesh>(*fine_);
+    rebuilt->topology = std::make_shared<const MeshTopology>(*fine_->topology);
+    scene_.meshes[0] = rebuilt;
     step();
   }
   EXPECT_EQ(cache_.entries(), entries);
@@ -120,7 +122,9 @@ TEST_F(Places, AreNotReadByANewOwnerInItsFirstStep) {
   fill(10);
   step();
   for (const ox_link& link : step()) EXPECT_EQ(link.known, 1u);
-  scene_.meshes[0] = std::make_shared<const Mesh>(*fine_);
+  const auto rebuilt = std::make_shared<Mesh>(*fine_);
+  rebuilt->topology = std::make_shared<const MeshTopology>(*fine_->topology);
+  scene_.meshes[0] = rebuilt;
   for (const ox_link& link : step()) EXPECT_EQ(link.known, 0u);
   for (const ox_link& link : step()) EXPECT_EQ(link.known, 1u);
 }

@@ -55,12 +55,13 @@ Curves find_curves(const TestScene& scene) {
   std::vector<ox_edge_crossing> crossings(data.lists.counted(std::size_t{OX_LIST_CROSSINGS}));
   data.lists.crossings().read(crossings.data(), crossings.size() * sizeof(ox_edge_crossing));
   std::size_t edge_count = 0;
-  for (const auto& mesh : meshes) edge_count += mesh->edges.size() + mesh->flat_edges.size();
+  for (const auto& mesh : meshes)
+    edge_count += mesh->topology->edges.size() + mesh->topology->flat_edges.size();
   std::vector<ox_edge> device_edges(edge_count);
   data.meshes.edges().read(device_edges.data(), edge_count * sizeof(ox_edge));
   device.finish();
   std::size_t triangle_count = 0;
-  for (const auto& mesh : meshes) triangle_count += mesh->triangles.size();
+  for (const auto& mesh : meshes) triangle_count += mesh->topology->triangles.size();
   std::vector<ox_u32> facets(triangle_count);
   data.meshes.facets().read(facets.data(), triangle_count * sizeof(ox_u32));
   device.finish();

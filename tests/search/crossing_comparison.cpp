@@ -9,9 +9,9 @@ namespace ode_ext::test {
 namespace {
 
 bool is_flat(const Mesh& mesh, std::uint32_t place, const ox_edge& edge) {
-  if (mesh.facets.empty() || edge.triangle[1] == OX_NONE) return false;
+  if (mesh.topology->facets.empty() || edge.triangle[1] == OX_NONE) return false;
   const auto facet = [&](std::size_t k) {
-    return mesh.facets.at(Rig::shared().local_triangle(place, edge.triangle[k]));
+    return mesh.topology->facets.at(Rig::shared().local_triangle(place, edge.triangle[k]));
   };
   return facet(0) == facet(1);
 }
@@ -35,7 +35,7 @@ std::map<CrossingKey, FoundCrossing> found_crossings(const TestScene& scene,
     const bool upward = from < to;
     const double t =
         upward ? static_cast<double>(c.t) : distance(from, to) - static_cast<double>(c.t);
-    const std::uint32_t triangle = scene.scene.meshes[target]->source_triangle.at(
+    const std::uint32_t triangle = scene.scene.meshes[target]->topology->source_triangle.at(
         Rig::shared().local_triangle(target, c.triangle));
     const CrossingKey key{pair, static_cast<int>(side), upward ? from : to, upward ? to : from,
                           static_cast<int>(triangle)};

@@ -32,7 +32,7 @@ std::vector<Vec3f> normals_of(const MeshRecords& records) {
 }
 
 void expect_triangles(const Mesh& mesh, const MeshRecords& records) {
-  const Mesh& built = topology(mesh);
+  const MeshTopology& built = *mesh.topology;
   for (std::size_t k = 0; k < records.triangles.size(); ++k) {
     const ox_triangle& triangle = records.triangles[k];
     const std::uint32_t index = built.bvh.order[k];
@@ -46,7 +46,7 @@ void expect_triangles(const Mesh& mesh, const MeshRecords& records) {
 }
 
 void expect_vertices(const Mesh& mesh, const MeshRecords& records) {
-  const Normals normals = compute_normals(mesh.vertices, topology(mesh).triangles);
+  const Normals normals = compute_normals(mesh.vertices, mesh.topology->triangles);
   for (std::size_t v = 0; v < records.vertices.size(); ++v) {
     EXPECT_EQ(vec(records.vertices[v].position), mesh.vertices[v]);
     EXPECT_LT(distance(-vec(records.vertices[v].direction), normals.vertices[v]), kVertexNormal);
@@ -55,7 +55,7 @@ void expect_vertices(const Mesh& mesh, const MeshRecords& records) {
 
 // The boxes over meshlets: tight but for the margin, which is that of a rigid mesh.
 void expect_nodes(const Mesh& mesh, const MeshRecords& records) {
-  const Mesh& built = topology(mesh);
+  const MeshTopology& built = *mesh.topology;
   const float margin = 0x1p-20f * records.mesh.extent;
   const Vec3f margins{margin, margin, margin};
   ASSERT_EQ(records.mesh.meshlet_node_count, built.meshlets.tree.size());
@@ -90,7 +90,7 @@ void expect_box(const Box& box, const ox_chunk& chunk) {
 }
 
 void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
-  const Mesh& built = topology(mesh);
+  const MeshTopology& built = *mesh.topology;
   float moved = 0;
   for (std::size_t i = 0; i < records.chunks.size(); ++i) {
     const ox_chunk& chunk = records.chunks[i];
@@ -112,7 +112,7 @@ void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
 }
 
 void expect_meshlets(const Mesh& mesh, const MeshRecords& records) {
-  const Mesh& built = topology(mesh);
+  const MeshTopology& built = *mesh.topology;
   ASSERT_EQ(records.mesh.meshlet_count, built.meshlets.meshlets.size());
   for (std::size_t i = 0; i < records.meshlets.size(); ++i) {
     const Meshlet& meshlet = built.meshlets.meshlets[i];
@@ -156,7 +156,7 @@ void expect_mesh(const Mesh& mesh, const MeshRecords& records) {
   EXPECT_EQ(records.mesh.radius, mesh.radius);
   EXPECT_EQ(records.mesh.mean_edge, mesh.mean_edge);
   EXPECT_EQ(records.mesh.flags,
-            OX_MESH_DEFORMABLE | (mesh.closed ? OX_MESH_CLOSED : OX_MESH_TWO_SIDED));
+            OX_MESH_DEFORMABLE | (mesh.closed() ? OX_MESH_CLOSED : OX_MESH_TWO_SIDED));
 }
 
 void expect_all(const Mesh& mesh, const MeshRecords& records) {
@@ -311,14 +311,14 @@ TEST(DeformStep, CastsTheExitsOfClosedMeshes) {
                                make_plate(1.4, 0.1, 6), make_cube(1, 4)}) {
     const TriangleSoup soup = soup_of(mesh);
     const auto base = deformable(soup), shape = deformed(base, bent(soup));
-    ASSERT_TRUE(shape->closed);
+    ASSERT_TRUE(shape->closed());
     rig.set({base});
     rig.set({shape});
     const MeshRecords records = rig.read(0);
     expect_all(*shape, records);
     const std::vector<float> exits =
-        exit_distances(shape->vertices, normals_of(records), base->triangles,
-                       build_bvh(shape->vertices, base->triangles));
+        exit_distances(shape->vertices, normals_of(records), base->topology->triangles,
+                       build_bvh(shape->vertices, base->topology->triangles));
     std::size_t finite = 0;
     for (std::size_t v = 0; v < exits.size(); ++v) {
       if (exits[v] == kInfinity) {
@@ -394,13 +394,13 @@ TEST(DeformStep, KeepsTheNormalsOfThinTriangles) {
   }
   DeformRig rig;
   const auto mesh = deformable(soup);
-  ASSERT_EQ(mesh->triangles.size(), 200u);
+  ASSERT_EQ(mesh->topology->triangles.size(), 200u);
   rig.set({mesh});
   const MeshRecords records = rig.read(0);
   expect_triangles(*mesh, records);
   // One face a vertex. (The host's sums, in fixed point, tell small angles less well.)
   for (std::size_t k = 0; k < records.triangles.size(); ++k)
-    for (const std::uint32_t corner : mesh->triangles[mesh->bvh.order[k]])
+    for (const std::uint32_t corner : mesh->topology->triangles[mesh->topology->bvh.order[k]])
       EXPECT_LT(
           distance(-vec(records.vertices[corner].direction), vec(records.triangles[k].normal)),
           0x1p-21);  // a product, a root, a division

@@ -61,7 +61,7 @@ class Flood : public testing::Test {
       const Vec3f vertex =
           scene.meshes[source]->vertices[Rig::shared().local_vertex(source, h.vertex)];
       const Mesh& mesh = *scene.meshes[source];
-      if (near_half && mesh.closed &&
+      if (near_half && mesh.closed() &&
           h.t > 0.5f * mesh.exits[Rig::shared().local_vertex(source, h.vertex)])
         continue;
       const double doubt = kDoubt * static_cast<double>(records.pairs[h.pair_side >> 1].epsilon);

@@ -20,8 +20,8 @@ namespace ode_ext::test {
 // Of a built mesh, rigid, or deformable in its first shape.
 class InsideOracle {
  public:
-  explicit InsideOracle(const Mesh& mesh) : closed_(mesh.closed) {
-    for (const Triangle& t : topology(mesh).triangles)
+  explicit InsideOracle(const Mesh& mesh) : closed_(mesh.closed()) {
+    for (const Triangle& t : mesh.topology->triangles)
       corners_.push_back({point_of(mesh.vertices[t[0]]), point_of(mesh.vertices[t[1]]),
                           point_of(mesh.vertices[t[2]])});
     low_ = point_of(mesh.box.lo);
@@ -67,7 +67,7 @@ class InsideOracle {
 // mesh any may.
 inline std::vector<bool> bounding_vertices(const Mesh& mesh, const Mesh& other) {
   std::vector<bool> bounds(mesh.vertices.size(), mesh.deformable || other.deformable);
-  for (const Edge& edge : topology(mesh).edges)
+  for (const Edge& edge : mesh.topology->edges)
     for (const std::uint32_t vertex : edge.vertices) bounds[vertex] = true;
   return bounds;
 }

@@ -55,7 +55,7 @@ inline double gap_between(const OrientedBox& a, const OrientedBox& b) {
 inline double reach_of_pair(const TestScene& scene, std::size_t pair) {
   double reach = 0;
   for (const std::size_t side : {0u, 1u}) {
-    if (scene.built_mesh_of(pair, side).closed) return 0;
+    if (scene.built_mesh_of(pair, side).closed()) return 0;
     for (const float exit : scene.built_mesh_of(pair, side).exits)
       if (std::isfinite(exit)) reach = std::max(reach, double{exit});
   }

@@ -144,7 +144,7 @@ bool has_ray_that_meets(const TestScene& scene, std::size_t pair, std::size_t si
     const Vec3d from(source.vertices[v]);
     const Vec3d to = from - double{source.exits[v]} * Vec3d(source.normals[v]);
     const Segment ray{in_target(from), in_target(to)};
-    for (const Triangle& t : target.triangles)
+    for (const Triangle& t : target.topology->triangles)
       if (crosses(ray, {Vec3d(target.vertices[t[0]]), Vec3d(target.vertices[t[1]]),
                         Vec3d(target.vertices[t[2]])}))
         return true;
@@ -169,16 +169,16 @@ Tasks tasks_of(const TestScene& scene, const std::vector<ox_pair>& pairs) {
       const Mesh& target = scene.built_mesh_of(i, 1 - side);
       const TestPose &ps = scene.pose_of(i, side), &pt = scene.pose_of(i, 1 - side);
       const OrientedBox whole = oriented_box(target.box, pt, pt.position);
-      for (std::uint32_t k = 0; k < source.chunks.size(); ++k) {
-        const VertexChunk& chunk = source.chunks[k];
+      for (std::uint32_t k = 0; k < source.topology->chunks.size(); ++k) {
+        const VertexChunk& chunk = source.topology->chunks[k];
         const OrientedBox box = oriented_box(chunk.box, ps, pt.position);
         double apart = -INFINITY;  // along the axes of the target only
         for (const Point& axis : whole.axes) apart = std::max(apart, gap_along(box, whole, axis));
-        if (!target.closed) apart -= longest_exit(source, chunk);  // its rays reach beyond it
+        if (!target.closed()) apart -= longest_exit(source, chunk);  // its rays reach beyond it
         if (gap < 2 * margin && apart < 2 * margin) tasks.possible.insert({i, side, k});
         if (gap < 0 && apart < 0 &&
-            (target.closed ? has_vertex_inside(scene, i, side, chunk)
-                           : has_ray_that_meets(scene, i, side, chunk)))
+            (target.closed() ? has_vertex_inside(scene, i, side, chunk)
+                             : has_ray_that_meets(scene, i, side, chunk)))
           tasks.certain.insert({i, side, k});
       }
     }
@@ -201,7 +201,8 @@ TEST(PairStep, MakesTasksOfAllChunksThatMayBeInsideAndReachTheTarget) {
   std::set<Task> tasks;
   std::vector<std::uint32_t> chunk_first{0};
   for (const auto& mesh : scene.scene.meshes)
-    chunk_first.push_back(chunk_first.back() + static_cast<std::uint32_t>(mesh->chunks.size()));
+    chunk_first.push_back(chunk_first.back() +
+                          static_cast<std::uint32_t>(mesh->topology->chunks.size()));
   for (const ox_chunk_task& task : records.tasks) {
     const std::size_t pair = task.pair_side >> 1;
     const std::uint32_t side = task.pair_side & 1;

@@ -30,7 +30,7 @@ std::map<Key, FoundHit> found_hits(const TestScene& scene, const StepRecords& re
     const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
     const Mesh& mesh = *scene.scene.meshes[source];
     const Point vertex = point_of(mesh.vertices.at(Rig::shared().local_vertex(source, hit.vertex)));
-    const std::uint32_t triangle = scene.scene.meshes[target]->source_triangle.at(
+    const std::uint32_t triangle = scene.scene.meshes[target]->topology->source_triangle.at(
         Rig::shared().local_triangle(target, hit.triangle));
     const FoundHit entry{hit.kind, static_cast<int>(triangle), static_cast<double>(hit.t),
                          static_cast<double>(hit.depth)};

@@ -103,10 +103,11 @@ double distance_to_box(const Box& box, const Point& p, const Point& d, double re
 bool meets(const Mesh& target, const Point& p, const Point& d, double exit) {
   const Vec3d from{p[0], p[1], p[2]};
   const Segment ray{from, from + exit * Vec3d{d[0], d[1], d[2]}};
-  return std::any_of(target.triangles.begin(), target.triangles.end(), [&](const Triangle& t) {
-    return crosses(ray, {Vec3d(target.vertices[t[0]]), Vec3d(target.vertices[t[1]]),
-                         Vec3d(target.vertices[t[2]])});
-  });
+  return std::any_of(
+      target.topology->triangles.begin(), target.topology->triangles.end(), [&](const Triangle& t) {
+        return crosses(ray, {Vec3d(target.vertices[t[0]]), Vec3d(target.vertices[t[1]]),
+                             Vec3d(target.vertices[t[2]])});
+      });
 }
 
 TEST(VertexStep, CastsARayAtAnOpenMeshWhereItMeetsItAndNoneThatDoesNotReachTheBox) {
@@ -132,7 +133,7 @@ TEST(VertexStep, CastsARayAtAnOpenMeshWhereItMeetsItAndNoneThatDoesNotReachTheBo
     const double margin = static_cast<double>(records.pairs[i].margin);
     const Mesh& source = scene.built_mesh_of(i, 0);
     const Mesh& target = scene.built_mesh_of(i, 1);
-    ASSERT_FALSE(target.closed);
+    ASSERT_FALSE(target.closed());
     const TestPose &ps = scene.pose_of(i, 0), &pt = scene.pose_of(i, 1);
     for (std::size_t v = 0; v < source.vertices.size(); ++v) {
       const Point p = in_target(scene, i, 0, point_of(source.vertices[v]));

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "mesh/deform.h"
 #include "search/device_meshes.h"
+#include "support/deformed.h"
 #include "support/test_scene.h"
 
 namespace ode_ext::test {
@@ -35,12 +35,11 @@ class DeformRig {
   DeviceMeshes& meshes() { return meshes_; }
 
   MeshRecords read(std::uint32_t i) {
-    const Mesh& built = topology(meshes_.mesh(i));
+    const MeshTopology& built = *meshes_.mesh(i).topology;
     MeshRecords records;
     meshes_.records().read(&records.mesh, sizeof(ox_mesh), i * sizeof(ox_mesh));
     device().finish();
-    read(meshes_.vertices(), records.vertices, meshes_.range(i).vertex_first,
-         built.vertices.size());
+    read(meshes_.vertices(), records.vertices, meshes_.range(i).vertex_first, built.vertex_count);
     read(meshes_.triangles(), records.triangles, records.mesh.triangle_first,
          built.triangles.size());
     read(meshes_.chunks(), records.chunks, records.mesh.chunk_first, built.chunks.size());

@@ -135,8 +135,8 @@ class Rig {
     return vertex - data_.meshes.range(mesh).vertex_first;
   }
   std::uint32_t local_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
-    return topology(data_.meshes.mesh(mesh))
-        .bvh.order[triangle - data_.meshes.range(mesh).triangle_first];
+    return data_.meshes.mesh(mesh)
+        .topology->bvh.order[triangle - data_.meshes.range(mesh).triangle_first];
   }
 
  private:
@@ -183,7 +183,7 @@ class Rig {
       first.push_back(chunks_);
       for (const std::uint32_t object : pair) {
         const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
-        chunks_ += static_cast<cl_uint>(topology(mesh).chunks.size());
+        chunks_ += static_cast<cl_uint>(mesh.topology->chunks.size());
       }
     }
     first.push_back(chunks_);
@@ -209,8 +209,8 @@ class Rig {
     meshes.set(scene.meshes);
     edge_count_ = meshlet_count_ = 0;
     for (const auto& mesh : scene.meshes) {
-      edge_count_ += topology(*mesh).edges.size() + topology(*mesh).flat_edges.size();
-      meshlet_count_ += topology(*mesh).meshlets.meshlets.size();
+      edge_count_ += mesh->topology->edges.size() + mesh->topology->flat_edges.size();
+      meshlet_count_ += mesh->topology->meshlets.meshlets.size();
     }
     std::uint64_t vertices = 1, edges = 1;
     bool deforms = false;  // then all candidates are contacts
@@ -220,7 +220,7 @@ class Rig {
         vertices += mesh.vertices.size();
         deforms = deforms || mesh.deformable;
         if (!with_edges) continue;
-        edges += topology(mesh).edges.size() + topology(mesh).flat_edges.size();
+        edges += mesh.topology->edges.size() + mesh.topology->flat_edges.size();
       }
     }
     const std::size_t count = scene.pairs.size();

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What of a mesh stays as it is while its vertices move: the triangles, and what is made of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/box.h"
+#include "mesh/bvh.h"
+#include "mesh/edges.h"
+#include "mesh/meshlets.h"
+#include "mesh/neighbours.h"
+#include "mesh/rings.h"
+#include "mesh/runs.h"
+#include "mesh/triangle.h"
+#include "mesh/vec.h"
+
+namespace ode_ext {
+
+// Corners of the triangles as the program holds them: 3 per triangle, local frame [m].
+using TriangleSoup = std::vector<Vec3f>;
+
+// A run of at most kChunkVertices consecutive vertices, near one another in space.
+struct VertexChunk {
+  std::uint32_t first;
+  std::uint32_t count;
+  Box box;
+};
+
+inline constexpr std::uint32_t kChunkVertices = kRunLength;
+
+// Vertices are welded by exact equality, in runs (runs.h), of deformable meshes in the order in
+// which the program lists them. Boxes are those of the mesh as it was built.
+struct MeshTopology {
+  std::size_t vertex_count = 0;
+  // Of deformable meshes: what it was made of.
+  TriangleSoup soup;
+  // Oriented as `inverted` says; without collapsed triangles. By their vertices; of deformable
+  // meshes in the program's order.
+  std::vector<Triangle> triangles;
+  // For each triangle its index in the program's mesh.
+  std::vector<std::uint32_t> source_triangle;
+  // Of deformable meshes: as in WeldedMesh.
+  std::vector<std::uint32_t> corner_vertex;
+  // The triangles across each triangle's edges.
+  std::vector<Neighbours> neighbours;
+  // For each triangle the number of its facet (facets.h); empty for a deformable mesh, whose
+  // triangles are facets each.
+  std::vector<std::uint32_t> facets;
+  // As in edges.h. Indices of edges count those between facets first, then those within one.
+  std::vector<Edge> edges, flat_edges;
+  Meshlets meshlets;  // of `bvh`, with these edges
+  Rings rings;        // of these edges
+
+  Bvh bvh;                          // over `triangles`
+  std::vector<VertexChunk> chunks;  // of the vertices
+
+  bool closed = false;      // every edge has exactly two triangles, of opposite direction
+  bool inverted = false;    // the winding was turned: the closed mesh had a negative volume
+  bool reoriented = false;  // the winding was made consistent: each part now faces outward
+};
+
+}  // namespace ode_ext
