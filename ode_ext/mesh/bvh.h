@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "mesh/triangle.h"
@@ -29,10 +28,5 @@ struct Bvh {
 
 // Binned surface area heuristic (Wald 2007), top down, deterministic.
 Bvh build_bvh(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);
-
-// "" if every triangle is in exactly one leaf, every box holds its triangles and children, and
-// every skip link leaves its subtree; else the first fault in words.
-std::string validate_bvh(const Bvh& bvh, const std::vector<Vec3f>& vertices,
-                         const std::vector<Triangle>& triangles);
 
 }  // namespace ode_ext

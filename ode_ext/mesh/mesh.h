@@ -13,7 +13,7 @@
 
 namespace ode_ext {
 
-// A topology with its vertices somewhere: a mesh as it was built, or a shape that it has taken since.
+// A topology and where its vertices are: a mesh as it was built, or a shape it has taken since.
 struct Mesh {
   std::shared_ptr<const MeshTopology> topology = std::make_shared<const MeshTopology>();
   // What it was made of, bit for bit: by this it is known to be unchanged, or the same as another.

@@ -26,8 +26,6 @@ void Device::settle() noexcept {
   clFinish(queue_.get());  // a queue that cannot even be waited for runs nothing any more
 }
 
-void Device::flush() { check_call(clFlush(queue_.get()), "clFlush"); }
-
 void Device::finish() {
   ++synchronizations_;
   check_call(clFinish(queue_.get()), "clFinish");

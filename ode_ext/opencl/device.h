@@ -76,7 +76,6 @@ class Device {
   }
   void settle() noexcept;  // waits for the queue, and does not mind if that fails
 
-  void flush();
   void finish();  // waits for everything enqueued; counts as one synchronization
   long long synchronizations() const { return synchronizations_; }
   void count_synchronization() { ++synchronizations_; }

@@ -10,6 +10,7 @@
 
 #include "mesh/weld.h"
 #include "shapes.h"
+#include "support/validate_bvh.h"
 
 namespace ode_ext {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 struct Tree {
   WeldedMesh mesh;
   Bvh bvh;
-  std::string fault() const { return validate_bvh(bvh, mesh.vertices, mesh.triangles); }
+  std::string fault() const { return test::validate_bvh(bvh, mesh.vertices, mesh.triangles); }
 };
 
 Tree tree_of(const TriangleSoup& soup) {

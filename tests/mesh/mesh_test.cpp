@@ -10,6 +10,7 @@
 #include <set>
 
 #include "shapes.h"
+#include "support/validate_bvh.h"
 
 namespace ode_ext {
 namespace {
@@ -20,7 +21,7 @@ void expect_whole(const Mesh& mesh) {
   EXPECT_EQ(mesh.exits.size(), mesh.vertices.size());
   EXPECT_EQ(mesh.face_normals.size(), mesh.topology->triangles.size());
   EXPECT_EQ(mesh.topology->source_triangle.size(), mesh.topology->triangles.size());
-  EXPECT_EQ(validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles), "");
+  EXPECT_EQ(test::validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles), "");
 }
 
 bool is_empty(const Mesh& mesh) {

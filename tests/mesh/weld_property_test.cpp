@@ -8,6 +8,7 @@
 
 #include "mesh/mesh.h"
 #include "mesh/weld.h"
+#include "support/validate_bvh.h"
 
 namespace ode_ext {
 namespace {
@@ -52,7 +53,7 @@ RC_GTEST_PROP(MeshProperty, IsWholeForAnySoup, ()) {
   const TriangleSoup soup = lattice_soup();
   const Mesh mesh = build_mesh(soup);
   RC_ASSERT(mesh.finite);
-  RC_ASSERT(validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles) == "");
+  RC_ASSERT(test::validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles) == "");
   RC_ASSERT(mesh.normals.size() == mesh.vertices.size());
   RC_ASSERT(mesh.exits.size() == mesh.vertices.size());
   RC_ASSERT(mesh.face_normals.size() == mesh.topology->triangles.size());

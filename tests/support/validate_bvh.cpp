@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "support/validate_bvh.h"
+
 #include <algorithm>
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "mesh/bvh.h"
-
-namespace ode_ext {
+namespace ode_ext::test {
 namespace {
 
 // Written so that a NaN is outside.
@@ -95,4 +93,4 @@ std::string validate_bvh(const Bvh& bvh, const std::vector<Vec3f>& vertices,
   return Validator(bvh, vertices, triangles).run();
 }
 
-}  // namespace ode_ext
+}  // namespace ode_ext::test
