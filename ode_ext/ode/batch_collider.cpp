@@ -2,16 +2,13 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
 #include "ode/contact_export.h"
 #include "ode/contact_ids.h"
 #include "ode/messages.h"
 #include "ode/pass_stats.h"
-#include "ode/pose_of.h"
 #include "ode/program_callbacks.h"
-#include "ode/stock_collider.h"
 #include "ode/stopwatch.h"
 #include "ode/trace.h"
 #include "opencl/error.h"
@@ -26,23 +23,9 @@ constexpr std::size_t kAhead = 8;
 // How many answers computed outside of any pass are kept, for programs that never make one.
 constexpr std::uint64_t kAnswersOutside = 65536;
 
-// So many questions in one pass, of so many pairs that nobody asked for of late, are taken for a
-// pile that wakes up: what else was not computed ahead then is, in one batch. A few of very many
-// are what a program picks that filters its pairs.
-bool is_a_pile_that_wakes(std::uint64_t questions, std::size_t pairs) {
-  return questions >= std::max<std::uint64_t>(4, pairs / 256);
-}
-
 // Temporal data of spaces beside the one that is collided: what a device can easily spare.
 std::size_t most_temporal_bytes(const DeviceInfo& info) {
   return static_cast<std::size_t>(info.largest_buffer / 16);
-}
-
-PlacedGeom placed(dGeomID geom) { return {geom, geom}; }
-
-// What dCollide itself checks before it asks a collider.
-bool can_collide(dGeomID g1, dGeomID g2) {
-  return g1 != g2 && (dGeomGetBody(g1) == nullptr || dGeomGetBody(g1) != dGeomGetBody(g2));
 }
 
 // Whoever waits is told for what: a driver that has not seen the kernels before takes seconds.
@@ -58,12 +41,10 @@ const ColliderOptions& announced(const ColliderOptions& options) {
 
 BatchCollider::BatchCollider(const ColliderOptions& options, float open_thickness,
                              bool trust_meshes, bool triangle_callbacks)
-    : collider_(announced(options)),
-      meshes_({.open_thickness = open_thickness}, trust_meshes),
-      triangle_callbacks_(triangle_callbacks) {
-  const DeviceInfo& info = collider_.device_info();
+    : known_(announced(options), open_thickness, trust_meshes, stats_),
+      triangle_callbacks_(triangle_callbacks),
+      device_name_(known_.collider().device_info().name) {
   log(LogLevel::kInfo, "the kernels are ready");
-  device_name_ = info.name;
 }
 
 bool BatchCollider::claim() {
@@ -73,12 +54,10 @@ bool BatchCollider::claim() {
         "another thread runs a pass of this collider; give each thread a collider of its own");
   pass_thread_ = std::this_thread::get_id();
   if (depth_++ == 0) {
-    ++pass_;
-    asked_unasked_ = 0;
-    unasked_pairs_.clear();
-    unasked_members_.clear();
+    known_.begin_pass();
+    unasked_.clear();
   }
-  ++look_;
+  known_.look_again();
   return failed_;
 }
 
@@ -99,7 +78,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
 
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
-  ++look_;
+  known_.look_again();
   failed_ = false;
   asked_outside_ = 0;
   begin_stats(depth_ > 1);  // this pass is one of them
@@ -115,11 +94,9 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
       fail(error);
     }
   }
-  answers_.prune(pass_);
-  members_.prune(pass_);
-  meshes_.prune(pass_);
-  memories_.prune(pass_, most_temporal_bytes(collider_.device_info()));
-  stats_.meshes = static_cast<std::int64_t>(meshes_.size());
+  known_.prune();
+  memories_.prune(known_.pass(), most_temporal_bytes(known_.collider().device_info()));
+  stats_.meshes = static_cast<std::int64_t>(known_.meshes().size());
   stats_.ms_pass = whole.milliseconds();
   stats_.sum_up();
   trace_pass(whole.start(), stats_);
@@ -128,10 +105,11 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
 
 void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root) {
   const Stopwatch reading;
-  scene_.begin();
+  known_.begin_batch();
   std::vector<Answer*> entries;
   for (const GatheredPair& pair : pairs)
-    entries.push_back(&answers_.entry(pair.first.geom, pair.second.geom));
+    entries.push_back(&known_.entry(pair.first.geom, pair.second.geom));
+  const std::uint64_t pass = known_.pass();
   std::size_t gathered = 0;
   long long unasked_colliding = 0;  // as far as is known
   bool familiar = pairs.empty();
@@ -139,127 +117,34 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch();
     const GatheredPair& pair = pairs[i];
     Answer& answer = *entries[i];
-    if (answer.gathering == look_) continue;
-    answer.gathering = look_;
+    if (answer.gathering == known_.look()) continue;
+    answer.gathering = known_.look();
     ++gathered;
     familiar = familiar || answer.gathered_pass != 0;
-    if (answer.gathered_pass != pass_) ++answer.passes_unasked;
-    answer.gathered_pass = answer.last_pass = pass_;
+    if (answer.gathered_pass != pass) ++answer.passes_unasked;
+    answer.gathered_pass = answer.last_pass = pass;
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
     if (answer.passes_unasked <= kPassesRemembered) {
-      add(answer, member_of(pair.first), member_of(pair.second));
+      known_.add(answer, pair);
     } else {
-      note_unasked(answer, pair);
+      unasked_.note(answer, pair, known_);
       unasked_colliding += answer.valid && !answer.contacts.empty() ? 1 : 0;
     }
   }
   stats_.pairs = static_cast<long long>(gathered);
   stats_.ms_meshes = reading.milliseconds();
-  collide_scene(&memories_.of(root, pass_, familiar));
+  known_.compute(&memories_.of(root, pass, familiar));
   note_report();
-  stats_.pairs_colliding = scene_.colliding() + unasked_colliding;
-}
-
-// Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
-// was last read: where it has changed since, the answer will not hold.
-void BatchCollider::note_unasked(Answer& answer, const GatheredPair& pair) {
-  if (answer.noted_pass == pass_) return;  // in a pass around this one
-  answer.noted_pass = pass_;
-  for (const PlacedGeom& placed : {pair.first, pair.second}) {
-    const auto [place, is_new] = unasked_members_.try_emplace(placed.geom);
-    if (!is_new) continue;
-    members_.find(placed.geom, pass_);  // its answers may be asked for again
-    const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-    place->second.data = data;
-    place->second.mesh = meshes_.keep(data, pass_);
-    place->second.given = pose_of(placed);
-  }
-  unasked_pairs_.push_back({pair.first.geom, pair.second.geom});
-}
-
-void BatchCollider::compute_unasked() {
-  scene_.begin();
-  for (const auto& [first, second] : unasked_pairs_) {
-    const PairMember &a = unasked_members_.at(first), &b = unasked_members_.at(second);
-    if (meshes_.is_as_known(a.data, a.mesh) && meshes_.is_as_known(b.data, b.mesh))
-      add(answers_.entry(first, second), members_.note(first, a.data, a.mesh, a.given, pass_),
-          members_.note(second, b.data, b.mesh, b.given, pass_));
-  }
-  unasked_pairs_.clear();
-  unasked_members_.clear();
-  collide_scene(nullptr);
-  stats_.count_more(static_cast<std::int64_t>(collider_.report().pairs));
+  stats_.pairs_colliding = known_.colliding() + unasked_colliding;
 }
 
 // Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
 void BatchCollider::count_outside(std::size_t pairs) {
-  if (depth_ != 0) return;  // a pass forgets by itself, and needs what it has
+  if (is_within_a_pass()) return;  // a pass forgets by itself, and needs what it has
   asked_outside_ += pairs;
   if (asked_outside_ <= kAnswersOutside) return;
-  answers_.clear();
-  members_.clear();
-  meshes_.clear();
+  known_.clear();
   asked_outside_ = 0;
-}
-
-void BatchCollider::compute_alone(Answer& answer, const GatheredPair& pair) {
-  if (depth_ == 0) ++look_;
-  scene_.begin();
-  add(answer, member_of(pair.first), member_of(pair.second));
-  collide_scene(nullptr);
-}
-
-void BatchCollider::add(Answer& answer, PairMember& a, PairMember& b) {
-  scene_.add(
-      answer, a, b,
-      a.is_placed && b.is_placed && !meshes_.is_refused(a.data) && !meshes_.is_refused(b.data));
-}
-
-PairMember& BatchCollider::member_of(const PlacedGeom& placed) {
-  PairMember* seen = members_.find(placed.geom, pass_);
-  if (seen != nullptr && seen->scene == scene_.number()) return *seen;
-  const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-  const auto& mesh = meshes_.refresh(data, look_, pass_);
-  PairMember& member = members_.note(placed.geom, data, mesh, pose_of(placed), pass_);
-  member.scene = scene_.number();
-  if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
-  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
-  if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
-  return member;
-}
-
-// Within a pass every mesh is looked at once.
-const PairMember* BatchCollider::current_member(dGeomID geom) {
-  const dTriMeshDataID data = dGeomTriMeshGetData(geom);
-  const std::shared_ptr<const Mesh> mesh =
-      depth_ != 0 ? meshes_.refresh(data, look_, pass_)
-                  : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
-  if (mesh == nullptr) return nullptr;
-  return members_.find_same(geom, data, mesh.get(), pose_of(geom), pass_);
-}
-
-bool BatchCollider::holds(const Answer& answer, dGeomID g1, dGeomID g2) {
-  const PairMember* a = current_member(g1);
-  const PairMember* b = a != nullptr ? current_member(g2) : nullptr;
-  return b != nullptr && answer.holds(*a, *b);
-}
-
-// Of one that holds.
-AnswerCopy BatchCollider::copy_of(const Answer& answer) {
-  return {{members_.at(answer.geoms[0], answer.stamps[0]),
-           members_.at(answer.geoms[1], answer.stamps[1])},
-          answer.contacts};
-}
-
-void BatchCollider::collide_scene(PassMemory* memory) {
-  const PairContacts& found = scene_.collide(collider_, meshes_, memory);
-  if (collider_.report().backtracked) {  // nothing to keep
-    scene_.drop();
-    return;
-  }
-  const Stopwatch storing;
-  scene_.store(found);
-  if (memory != nullptr) stats_.ms_export = storing.milliseconds();
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
@@ -275,7 +160,7 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
     if (!has_callbacks(g1, g2, triangle_callbacks_))
       return stats_.totals.note_answer(
           export_contacts(known->contacts, known->geoms[0], g1, g2, limit, contacts, skip));
-    asked = copy_of(*known);
+    asked = known_.copy_of(*known);
   }
   const int count = export_asked(asked, g1, g2, limit, contacts, skip);
   const std::lock_guard lock(mutex_);
@@ -284,28 +169,34 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
 
 // Null: the device fails.
 const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
-  Answer* known = answers_.find(g1, g2);
+  const std::uint64_t pass = known_.pass();
+  Answer* known = known_.find(g1, g2);
   bool was_unasked = false;
   if (known != nullptr) {
-    was_unasked = depth_ != 0 && known->noted_pass == pass_;
-    known->last_pass = pass_;
+    was_unasked = is_within_a_pass() && known->noted_pass == pass;
+    known->last_pass = pass;
     known->passes_unasked = 0;
   }
-  const auto holds_now = [&] { return known != nullptr && holds(*known, g1, g2); };
+  const auto holds_now = [&] {
+    return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
+  };
   if (holds_now()) return known;
-  if (depth_ != 0 && failed_) return nullptr;
+  if (is_within_a_pass() && failed_) return nullptr;
   try {
-    if (was_unasked && is_a_pile_that_wakes(++asked_unasked_, unasked_pairs_.size()) &&
-        !unasked_pairs_.empty()) {
-      compute_unasked();
+    if (was_unasked && unasked_.wakes_by_question()) {
+      unasked_.compute(known_);
+      stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs));
       if (holds_now()) return known;
     }
     count_outside(1);
-    known = &answers_.entry(g1, g2);
-    known->last_pass = pass_;
-    compute_alone(*known, {placed(g1), placed(g2)});
+    known = &known_.entry(g1, g2);
+    known->last_pass = pass;
+    if (!is_within_a_pass()) known_.look_again();
+    known_.begin_batch();
+    known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});
+    known_.compute(nullptr);
   } catch (const std::exception& error) {
-    if (depth_ != 0) failed_ = true;  // one attempt is enough for this pass
+    if (is_within_a_pass()) failed_ = true;  // one attempt is enough for this pass
     fail(error);
     return nullptr;
   }
@@ -322,8 +213,8 @@ int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2,
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
-  const Answer* known = answers_.find(g1, g2);
-  return known != nullptr && holds(*known, g1, g2);
+  const Answer* known = known_.find(g1, g2);
+  return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
 }
 
 int BatchCollider::contact_ids(const dContactGeom* contacts, int count, int skip,
@@ -337,7 +228,7 @@ int BatchCollider::contact_ids(const dContactGeom* contacts, int count, int skip
     const auto& contact =
         *reinterpret_cast<const dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * skip);
     if (before == nullptr || before->g1 != contact.g1 || before->g2 != contact.g2) {
-      const Answer* known = answers_.find(contact.g1, contact.g2);
+      const Answer* known = known_.find(contact.g1, contact.g2);
       of_pair =
           known == nullptr ? ContactIds({}, nullptr) : ContactIds(known->contacts, known->geoms[0]);
     }
@@ -348,94 +239,8 @@ int BatchCollider::contact_ids(const dContactGeom* contacts, int count, int skip
   return found;
 }
 
-int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dContactGeom* contacts,
-                                 int skip, int* counts) {
-  const Stopwatch whole;
-  const std::size_t pair_count = geoms.size() / 2;
-  const int limit = flags & 0xffff;
-  int total = 0;
-  long long colliding = 0;
-  const auto target = [&](std::size_t pair) {
-    auto* bytes = reinterpret_cast<unsigned char*>(contacts);
-    return reinterpret_cast<dContactGeom*>(bytes +
-                                           static_cast<std::ptrdiff_t>(pair) * limit * skip);
-  };
-  const auto note_count = [&](std::size_t pair, int count) {
-    if (counts != nullptr) counts[pair] = count;
-    total += count;
-    colliding += count > 0;
-  };
-
-  // What the program's code has a part in waits until the lock is gone: callbacks, and ODE's own
-  // collider, which calls them.
-  std::vector<std::pair<std::size_t, AnswerCopy>> to_ask;
-  bool stock = false;
-  {
-    const HeldMessages held;
-    const std::lock_guard lock(mutex_);
-    begin_stats(depth_ != 0);
-    try {
-      compute_pairs(geoms);
-      if (stats_.pairs_computed != 0) failure_said_ = false;
-    } catch (const std::exception& error) {
-      fail(error);
-      stock = true;
-    }
-    for (std::size_t i = 0; i < pair_count && !stock; ++i) {
-      const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
-      if (!can_collide(g1, g2)) {
-        note_count(i, 0);
-        continue;
-      }
-      const Answer& answer = answers_.entry(g1, g2);
-      if (has_callbacks(g1, g2, triangle_callbacks_))
-        to_ask.emplace_back(i, copy_of(answer));
-      else
-        note_count(
-            i, export_contacts(answer.contacts, answer.geoms[0], g1, g2, limit, target(i), skip));
-    }
-  }
-  for (const auto& [i, answer] : to_ask)
-    note_count(i, export_asked(answer, geoms[2 * i], geoms[2 * i + 1], limit, target(i), skip));
-  long long answered_by_stock = 0;
-  for (std::size_t i = 0; i < pair_count && stock; ++i) {
-    const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
-    if (!can_collide(g1, g2)) {
-      note_count(i, 0);
-      continue;
-    }
-    ++answered_by_stock;
-    note_count(i, stock_collide(g1, g2, flags, target(i), skip));
-  }
-
-  const std::lock_guard lock(mutex_);
-  stats_.pairs_colliding = colliding;
-  stats_.pairs_stock += answered_by_stock;
-  stats_.meshes = static_cast<std::int64_t>(meshes_.size());
-  stats_.ms_pass = whole.milliseconds();
-  return total;
-}
-
-void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
-  if (depth_ == 0) ++look_;
-  count_outside(geoms.size() / 2);
-  scene_.begin();
-  for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
-    const dGeomID g1 = geoms[2 * i];
-    const dGeomID g2 = geoms[2 * i + 1];
-    if (!can_collide(g1, g2)) continue;
-    Answer& answer = answers_.entry(g1, g2);
-    answer.last_pass = pass_;
-    answer.passes_unasked = 0;
-    add(answer, member_of(placed(g1)), member_of(placed(g2)));
-  }
-  stats_.pairs = static_cast<long long>(geoms.size() / 2);
-  collide_scene(nullptr);
-  note_report();
-}
-
 void BatchCollider::fail(const std::exception& error) {
-  scene_.drop();
+  known_.drop_batch();
   stats_.status |= dBatchStatusDeviceFailed;
   set_last_error(error.what());
   if (!failure_said_)
@@ -447,7 +252,7 @@ void BatchCollider::begin_stats(bool within_a_pass) {
   PassStats fresh{};
   if (within_a_pass)
     fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};
-  fresh.passes = static_cast<long long>(pass_);
+  fresh.passes = static_cast<long long>(known_.pass());
   fresh.pairs_alone = stats_.pairs_alone;
   fresh.pairs_stock = stats_.pairs_stock;
   fresh.totals = stats_.totals;
@@ -455,23 +260,23 @@ void BatchCollider::begin_stats(bool within_a_pass) {
 }
 
 void BatchCollider::note_report() {
-  ode_ext::note_report(collider_.report(), stats_);
-  stats_.deformed = static_cast<long long>(meshes_.take_deformed());
+  ode_ext::note_report(known_.collider().report(), stats_);
+  stats_.deformed = static_cast<long long>(known_.meshes().take_deformed());
 }
 
 void BatchCollider::announce_change(dTriMeshDataID data) {
   const std::lock_guard lock(mutex_);
-  meshes_.announce_change(data);
+  known_.meshes().announce_change(data);
 }
 
 void BatchCollider::set_deformable(dTriMeshDataID data, bool deformable) {
   const std::lock_guard lock(mutex_);
-  meshes_.set_deformable(data, deformable);
+  known_.meshes().set_deformable(data, deformable);
 }
 
 void BatchCollider::forget(dTriMeshDataID data) {
   const std::lock_guard lock(mutex_);
-  meshes_.forget(data);
+  known_.meshes().forget(data);
 }
 
 PassStats BatchCollider::stats() {

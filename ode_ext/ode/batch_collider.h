@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is behind a dBatchColliderID: gathers the mesh pairs of a pass, has the pipeline collide
-// those that have no valid answer yet, keeps the answers, and gives them out when dCollide asks.
+// What is behind a dBatchColliderID: the lock, passes, and answers to dCollide. What it knows of
+// pairs is in KnownPairs.
 #pragma once
 
 #include <ode/ode.h>
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <span>
 #include <string>
 #include <thread>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
-#include "collide/collider.h"
-#include "ode/answers.h"
-#include "ode/members.h"
-#include "ode/mesh_store.h"
-#include "ode/pair_gather.h"
-#include "ode/pair_scene.h"
+#include "ode/known_pairs.h"
+#include "ode/pair_output.h"
 #include "ode/pass_stats.h"
 #include "ode/space_memories.h"
+#include "ode/unasked_pairs.h"
 #include "ode_ext/ode_ext.h"
 
 namespace ode_ext {
@@ -62,60 +58,44 @@ class BatchCollider {
   void forget(dTriMeshDataID data);
   PassStats stats();
   const std::string& device_name() const { return device_name_; }
-  const void* identity() const { return &collider_; }  // by which a capture knows it
+  const void* identity() const { return &known_.collider(); }  // by which a capture knows it
 
  private:
+  // An answer of which the program's callbacks are to be asked.
+  using PairToAsk = std::pair<std::size_t, AnswerCopy>;
+
+  // False: the device fails, and nothing is answered.
+  bool collide_batch(std::span<const dGeomID> geoms, PairOutput& output,
+                     std::vector<PairToAsk>& to_ask);
   // All of these under the lock.
   void compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root);
-  void note_unasked(Answer& answer, const GatheredPair& pair);
-  void compute_unasked();
   void compute_pairs(std::span<const dGeomID> geoms);
   const Answer* find_or_compute(dGeomID g1, dGeomID g2);
   void count_outside(std::size_t pairs);
-  void compute_alone(Answer& answer, const GatheredPair& pair);
-  // The geom, if it is as it was when last seen.
-  const PairMember* current_member(dGeomID geom);
-  bool holds(const Answer& answer, dGeomID g1, dGeomID g2);
-  AnswerCopy copy_of(const Answer& answer);
-  // An answer after the program's callbacks had their say; without the lock.
-  int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
-                   dContactGeom* contacts, int skip) const;
-
-  // To the scene, unless it is answered.
-  void add(Answer& answer, PairMember& a, PairMember& b);
-  void collide_scene(PassMemory* memory);
-  // A geom as it is, looked at once for each scene.
-  PairMember& member_of(const PlacedGeom& placed);
-
+  bool is_within_a_pass() const { return depth_ != 0; }
   void begin_stats(bool within_a_pass);
   void note_report();
   void fail(const std::exception& error);
 
+  // An answer after the program's callbacks had their say; without the lock.
+  int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
+                   dContactGeom* contacts, int skip) const;
+
   // Never held while code of the program runs: its callbacks, the box functions of its geom
   // classes, its message handler.
   std::mutex mutex_;
-  Collider collider_;
-  MeshStore meshes_;
-  Members members_;
-  Answers answers_;
+  PassStats stats_;
+  KnownPairs known_;
+  UnaskedPairs unasked_;    // by the outermost pass
+  SpaceMemories memories_;  // of the collider of known_, and gone before it
   const bool triangle_callbacks_;
-  SpaceMemories memories_;  // of collider_, and gone before it
+  std::string device_name_;
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
-  std::uint64_t pass_ = 0;  // outermost passes
-  std::uint64_t look_ = 0;  // meshes are read anew when it changes
   std::uint64_t asked_outside_ = 0;
-  // What the outermost pass met and did not compute ahead, and how often it was asked for.
-  std::vector<std::array<dGeomID, 2>> unasked_pairs_;
-  std::unordered_map<dGeomID, PairMember> unasked_members_;  // data, mesh and given pose
-  std::uint64_t asked_unasked_ = 0;
   bool failed_ = false;        // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;  // one message per run of failures
-
-  PairScene scene_;  // that is being built
-  PassStats stats_;
-  std::string device_name_;
 };
 
 }  // namespace ode_ext

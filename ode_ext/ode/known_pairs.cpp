@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/known_pairs.h"
+
+#include <memory>
+
+#include "ode/pose_of.h"
+#include "ode/stopwatch.h"
+
+namespace ode_ext {
+
+KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
+                       PassStats& stats)
+    : stats_(stats),
+      collider_(options),
+      meshes_({.open_thickness = open_thickness}, trust_meshes) {}
+
+bool KnownPairs::holds(const Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
+  const PairMember* a = current_member(g1, within_a_pass);
+  const PairMember* b = a != nullptr ? current_member(g2, within_a_pass) : nullptr;
+  return b != nullptr && answer.holds(*a, *b);
+}
+
+// Within a pass every mesh is looked at once.
+const PairMember* KnownPairs::current_member(dGeomID geom, bool within_a_pass) {
+  const dTriMeshDataID data = dGeomTriMeshGetData(geom);
+  const std::shared_ptr<const Mesh> mesh =
+      within_a_pass ? meshes_.refresh(data, look_, pass_)
+                    : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
+  if (mesh == nullptr) return nullptr;
+  return members_.find_same(geom, data, mesh.get(), pose_of(geom), pass_);
+}
+
+AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
+  return {{members_.at(answer.geoms[0], answer.stamps[0]),
+           members_.at(answer.geoms[1], answer.stamps[1])},
+          answer.contacts};
+}
+
+void KnownPairs::add(Answer& answer, const GatheredPair& pair) {
+  add(answer, member_of(pair.first), member_of(pair.second));
+}
+
+void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
+  scene_.add(
+      answer, a, b,
+      a.is_placed && b.is_placed && !meshes_.is_refused(a.data) && !meshes_.is_refused(b.data));
+}
+
+PairMember& KnownPairs::member_of(const PlacedGeom& placed) {
+  PairMember* seen = members_.find(placed.geom, pass_);
+  if (seen != nullptr && seen->scene == scene_.number()) return *seen;
+  const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
+  const auto& mesh = meshes_.refresh(data, look_, pass_);
+  PairMember& member = members_.note(placed.geom, data, mesh, pose_of(placed), pass_);
+  member.scene = scene_.number();
+  if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
+  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
+  if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
+  return member;
+}
+
+void KnownPairs::compute(PassMemory* memory) {
+  const PairContacts& found = scene_.collide(collider_, meshes_, memory);
+  if (collider_.report().backtracked) {  // nothing to keep
+    scene_.drop();
+    return;
+  }
+  const Stopwatch storing;
+  scene_.store(found);
+  if (memory != nullptr) stats_.ms_export = storing.milliseconds();
+}
+
+void KnownPairs::prune() {
+  answers_.prune(pass_);
+  members_.prune(pass_);
+  meshes_.prune(pass_);
+}
+
+void KnownPairs::clear() {
+  answers_.clear();
+  members_.clear();
+  meshes_.clear();
+}
+
+}  // namespace ode_ext

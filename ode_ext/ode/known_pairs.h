@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// All that is known of pairs: their meshes, their geoms as they were last seen, and their answers;
+// and how answers come to be, a batch at a time. Not locked: a BatchCollider is.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstdint>
+
+#include "collide/collider.h"
+#include "ode/answers.h"
+#include "ode/members.h"
+#include "ode/mesh_store.h"
+#include "ode/pair_gather.h"
+#include "ode/pair_scene.h"
+#include "ode/pass_stats.h"
+
+namespace ode_ext {
+
+class KnownPairs {
+ public:
+  // What is found out is noted in `stats`.
+  KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
+             PassStats& stats);
+
+  const Collider& collider() const { return collider_; }
+  MeshStore& meshes() { return meshes_; }
+  Members& members() { return members_; }
+
+  // The number of the outermost pass.
+  std::uint64_t pass() const { return pass_; }
+  void begin_pass() { ++pass_; }
+  // Meshes are read anew when this number changes.
+  std::uint64_t look() const { return look_; }
+  void look_again() { ++look_; }
+
+  Answer* find(dGeomID g1, dGeomID g2) { return answers_.find(g1, g2); }
+  Answer& entry(dGeomID g1, dGeomID g2) { return answers_.entry(g1, g2); }
+  // Whether an answer is of the geoms as they are now.
+  bool holds(const Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass);
+  // Of one that holds.
+  AnswerCopy copy_of(const Answer& answer) const;
+
+  // A batch begins, pairs are added that are not answered yet, and are computed.
+  void begin_batch() { scene_.begin(); }
+  // With its geoms as they are, each looked at once for a batch.
+  void add(Answer& answer, const GatheredPair& pair);
+  void add(Answer& answer, PairMember& a, PairMember& b);
+  // Throws DeviceError; the batch is to be dropped then.
+  void compute(PassMemory* memory);
+  void drop_batch() { scene_.drop(); }
+  // Answers of the batch with contacts, those that were there before among them.
+  long long colliding() const { return scene_.colliding(); }
+
+  // Forgets what no pass met of late; all.
+  void prune();
+  void clear();
+
+ private:
+  PairMember& member_of(const PlacedGeom& placed);
+  const PairMember* current_member(dGeomID geom, bool within_a_pass);
+
+  PassStats& stats_;
+  Collider collider_;
+  MeshStore meshes_;
+  Members members_;
+  Answers answers_;
+  PairScene scene_;  // that is being built
+  std::uint64_t pass_ = 0;
+  std::uint64_t look_ = 0;
+};
+
+}  // namespace ode_ext

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ode/unasked_pairs.h"
+
+#include <algorithm>
+
+#include "ode/pose_of.h"
+
+namespace ode_ext {
+
+void UnaskedPairs::clear() {
+  questions_ = 0;
+  pairs_.clear();
+  members_.clear();
+}
+
+// Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
+// was last read: where it has changed since, the answer will not hold.
+void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& known) {
+  if (answer.noted_pass == known.pass()) return;  // in a pass around this one
+  answer.noted_pass = known.pass();
+  for (const PlacedGeom& placed : {pair.first, pair.second}) {
+    const auto [place, is_new] = members_.try_emplace(placed.geom);
+    if (!is_new) continue;
+    known.members().find(placed.geom, known.pass());  // its answers may be asked for again
+    const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
+    place->second.data = data;
+    place->second.mesh = known.meshes().keep(data, known.pass());
+    place->second.given = pose_of(placed);
+  }
+  pairs_.push_back({pair.first.geom, pair.second.geom});
+}
+
+// A few of very many are what a program picks that filters its pairs.
+bool UnaskedPairs::wakes_by_question() {
+  return ++questions_ >= std::max<std::uint64_t>(4, pairs_.size() / 256) && !pairs_.empty();
+}
+
+void UnaskedPairs::compute(KnownPairs& known) {
+  known.begin_batch();
+  for (const auto& [first, second] : pairs_) {
+    const PairMember &a = members_.at(first), &b = members_.at(second);
+    if (known.meshes().is_as_known(a.data, a.mesh) && known.meshes().is_as_known(b.data, b.mesh))
+      known.add(known.entry(first, second),
+                known.members().note(first, a.data, a.mesh, a.given, known.pass()),
+                known.members().note(second, b.data, b.mesh, b.given, known.pass()));
+  }
+  pairs_.clear();
+  members_.clear();
+  known.compute(nullptr);
+}
+
+}  // namespace ode_ext
