@@ -45,7 +45,7 @@ void Collider::collide_tile(Step& step) {
   try {
     do {
       report_.work = work;
-      run(step);
+      attempt(step);
     } while (!step.workload.is_settled());
     read_back_.read_rest(data_);
   } catch (const DeviceError& error) {
@@ -58,11 +58,11 @@ void Collider::collide_tile(Step& step) {
 }
 
 // Between launches nobody waits, unless pairs are left to the kernels, or for exact workloads.
-void Collider::run(Step& step) {
+void Collider::attempt(Step& step) {
   Workload& workload = step.workload;
-  workload.begin_run();
+  workload.begin_attempt();
   data_.pairs.upload_pairs(step.scene, workload.tile());
-  if (paper_) paper_->begin_run(data_, step);
+  if (paper_) paper_->begin_attempt(data_, step);
   read_back_.reserve(data_);
 
   if (whole_step_) {

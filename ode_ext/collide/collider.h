@@ -37,7 +37,7 @@ class Collider {
  private:
   void upload(Step& step);
   void collide_tile(Step& step);
-  void run(Step& step);
+  void attempt(Step& step);
   void launch_steps(Step& step);
   void deliver(Step& step);
   void forget_uploads();

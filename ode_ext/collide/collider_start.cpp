@@ -80,7 +80,7 @@ void Collider::warm_up() {
   const Scene scene;
   Step step{scene, nullptr, report_,
             Workload(options_, device_, data_.lists, scene, nullptr, report_)};
-  step.workload.begin_run();
+  step.workload.begin_attempt();
   data_.meshes.set({});
   data_.pairs.upload_objects(scene);
   data_.pairs.upload_pairs(scene, {0, 0});

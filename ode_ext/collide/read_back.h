@@ -14,7 +14,7 @@ class ReadBack {
  public:
   explicit ReadBack(Device& device) : device_(device), ranges_(device), contacts_(device) {}
 
-  // Before the first launch of a run: host memory for all that it may give.
+  // Before the first launch of an attempt: host memory for all that it may give.
   void reserve(const StepData& data);
   // After the last: the contacts of each pair, as many in all as are expected, and what was
   // counted. Waits.

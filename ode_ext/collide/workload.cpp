@@ -63,7 +63,7 @@ bool Workload::next() {
   return true;
 }
 
-void Workload::begin_run() {
+void Workload::begin_attempt() {
   reserve(needed_);
   lists_.begin(most_);
 }
@@ -93,10 +93,10 @@ bool Workload::is_settled() {
   const ListCounts counts = stored();
   if (!may_lose() && lists_.overflowed(counts)) {
     // What comes after a list that overflowed has not seen everything, so its count is only a lower
-    // bound and may overflow in the next run; each run mends at least one list.
+    // bound and may overflow in the next attempt; each mends at least one list.
     for (std::size_t i = 0; i < kListCount; ++i) needed_[i] = std::max(needed_[i], counts[i]);
     measured_ = true;
-    // To backtrack, the true counts have to be known: it is run again, for them alone.
+    // To backtrack, the true counts have to be known: it is tried again, for them alone.
     if (misprediction_ == Misprediction::kBacktrack)
       report_.backtracked = true;
     else
@@ -180,8 +180,8 @@ void Workload::settle_launches() {
   if (options_.launches == LaunchRule::kExact) lists_.count();
 }
 
-// Of what the last run counted, what was to be stored: the monolithic organization has no lists of
-// chunks and of rays, and pairs of meshlets that are not stored are crossed at once
+// Of what the last attempt counted, what was to be stored: the monolithic organization has no lists
+// of chunks and of rays, and pairs of meshlets that are not stored are crossed at once
 // (kernels/match.cl).
 ListCounts Workload::stored() const {
   ListCounts counts;

@@ -29,18 +29,19 @@ class Workload {
 
   // Whether all pairs of the step fit into one tile, as far as is known now.
   bool is_whole() const { return tiles_.size() == 1; }
-  // Goes on to the next tile to be run; false: there is none.
+  // Goes on to the next tile; false: there is none.
   bool next();
   const Tile& tile() const { return tile_.tile; }
-  // Before a run: room in the lists for what is expected of the tile, or was found in its last run.
-  void begin_run();
-  // After a run, its records counted: whether none was lost. If one was, the tile is to be run
+  // Before an attempt at it: room in the lists for what is expected of it, or was found in the last
+  // attempt.
+  void begin_attempt();
+  // After it, its records counted: whether none was lost. If one was, the tile is to be tried
   // again, with more room.
   bool is_settled();
   // Once it is settled: adds the tile to the report.
   void report_tile();
-  // After a run that failed since the device had no room: whether a smaller one is to be tried, as
-  // the next tile.
+  // After an attempt that failed since the device had no room: whether a smaller one is to be
+  // tried, as the next tile.
   bool try_smaller(int code);
 
   // Of a kernel that takes so many items.
@@ -85,12 +86,12 @@ class Workload {
   PassMemory* memory_;
   StepReport& report_;
   Misprediction misprediction_;
-  std::vector<ExpectedTile> tiles_;  // to be run, the last one first
+  std::vector<ExpectedTile> tiles_;  // to be collided, the last one first
   ExpectedTile tile_{};
   ListCounts most_{};       // that the tile can append
   ListCounts predicted_{};  // of the tile
-  ListCounts needed_{};     // of its next run
-  bool measured_ = false;   // `needed_` is what a run had, not what was expected of it
+  ListCounts needed_{};     // of the next attempt
+  bool measured_ = false;   // `needed_` is what an attempt had, not what was expected of it
 };
 
 }  // namespace ode_ext

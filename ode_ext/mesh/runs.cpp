@@ -19,7 +19,7 @@ using Iterator = std::vector<Point>::iterator;
 constexpr std::size_t kPointsAThread = 32768;
 
 // Halves the points across the longest side of their box until a run is left, as a k-d tree
-// (Bentley 1975) does, but at multiples of a run, and of a group of runs as long as there are
+// (Bentley 1975) does, but at multiples of a run, and of so many runs together as long as there are
 // several: the order decides between equal contacts, so it stays as it was.
 void split(Iterator first, Iterator last, std::size_t threads) {
   for (;;) {
@@ -29,8 +29,8 @@ void split(Iterator first, Iterator last, std::size_t threads) {
       std::sort(first, last, [](const Point& a, const Point& b) { return a.index < b.index; });
       return;
     }
-    const std::uint32_t group = kRunLength * kRunsPerGroup;
-    const std::uint32_t unit = count > group ? group : kRunLength;
+    const std::uint32_t several = kRunLength * kRunsTogether;
+    const std::uint32_t unit = count > several ? several : kRunLength;
     // The nearest to a half that leaves something on both sides.
     const std::uint32_t left = std::max(1u, (count / 2 + unit / 2) / unit) * unit;
     Box box = empty_box();

@@ -10,7 +10,7 @@
 namespace ode_ext {
 
 inline constexpr std::uint32_t kRunLength = 16;    // one work-group, or a part of it
-inline constexpr std::uint32_t kRunsPerGroup = 8;  // so many runs are near one another, too
+inline constexpr std::uint32_t kRunsTogether = 8;  // so many runs are near one another, too
 
 // The indices of the points in that order: place i holds point order[i]. Depends on nothing but the
 // points, and between equal ones on their indices.

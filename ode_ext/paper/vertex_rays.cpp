@@ -28,7 +28,7 @@ void VertexRays::begin_step(const Step& step) {
   step.memory->temporal->begin(step.scene);
 }
 
-void VertexRays::begin_run(StepData& data, const Step& step) {
+void VertexRays::begin_attempt(StepData& data, const Step& step) {
   if (is_dense()) {
     place_chunks(step);
     data.lists.tasks().reserve(chunks_ * sizeof(ox_chunk_task));
@@ -105,7 +105,7 @@ void VertexRays::run_rays(Kernel& rays, List list, CountedKernel kernel, StepDat
 }
 
 void VertexRays::warm_up(Launch wide, StepData& data, const Step& step) {
-  begin_run(data, step);
+  begin_attempt(data, step);
   works_.reserve(1);
   kernels_.list_chunks(wide, data, nothing_, false, places());
   for (const List category : {List::kChunksSmall, List::kChunks, List::kChunksDeformable})

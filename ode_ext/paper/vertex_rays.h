@@ -20,10 +20,10 @@ class VertexRays {
  public:
   VertexRays(Program& program, const ColliderOptions& options);
 
-  // Before the first run of a step: finds its temporal data, where it is to have some.
+  // Before the first attempt at a step: finds its temporal data, where it is to have some.
   void begin_step(const Step& step);
-  // Before a run: what it needs beside lists and pairs.
-  void begin_run(StepData& data, const Step& step);
+  // Before an attempt: what it needs beside lists and pairs.
+  void begin_attempt(StepData& data, const Step& step);
   void run(StepData& data, Step& step);
   // The device lost what was uploaded.
   void forget() { nothing_.forget_links(); }
