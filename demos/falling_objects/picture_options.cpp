@@ -2,6 +2,7 @@
 #include "falling_objects/picture_options.h"
 
 #include <sstream>
+#include <vector>
 
 namespace falling_objects {
 namespace {
@@ -17,6 +18,12 @@ bool read_size(const std::string& text, PictureOptions& options) {
   options.width = width;
   options.height = height;
   return true;
+}
+
+std::vector<std::string> overlay_names() {
+  std::vector<std::string> names(kOverlays.begin(), kOverlays.end());
+  names.emplace_back("none");
+  return names;
 }
 
 }  // namespace
@@ -51,9 +58,12 @@ void add_picture_options(CLI::App& app, PictureOptions& o) {
   app.add_option("--overlay", o.overlays,
                  "What is drawn over the objects: any of caption (default), contacts (arrows along "
                  "their normals, as long as they are deep), touched (the triangles that contacts "
-                 "name), boxes (as ODE's broad phase has them); or none")
+                 "name), regions (of overlap, each a color, as its contacts span it), meshlets "
+                 "(clusters of triangles that ode_ext collides at a time), inside (what is wholly "
+                 "inside something, through what it is in), boxes (as ODE's broad phase has them); "
+                 "or none")
       ->delimiter(',')
-      ->check(CLI::IsMember({"caption", "contacts", "touched", "boxes", "none"}))
+      ->check(CLI::IsMember(overlay_names()))
       ->group("Pictures");
   app.add_option_function<std::string>(
          "--beside", [&o](const std::string&) { o.beside_ode = true; },

@@ -3,10 +3,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <set>
 #include <string>
 
 namespace falling_objects {
+
+// What may be drawn over the objects.
+inline constexpr std::array kOverlays{"caption",  "contacts", "touched", "regions",
+                                      "meshlets", "inside",   "boxes"};
 
 struct PictureOptions {
   std::string frames;  // a file's name, perhaps with a number in it: "out/%04d.png"

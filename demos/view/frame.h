@@ -39,13 +39,22 @@ struct Box {
   Color color;
 };
 
+// Triangles that are marked, as bright as their color: in front of the surface that they lie on, or
+// over everything, fainter where something is in front.
+struct Patch {
+  std::vector<glm::vec3> corners;  // three a triangle
+  Color color;
+  bool over_all = false;
+};
+
 struct Frame {
   std::vector<Instance> grounds;  // do not move, and carry a grid of 1 m
   std::vector<Instance> objects;
   std::vector<Cloth> cloths;
   std::vector<Arrow> arrows;
   std::vector<Box> boxes;
-  std::vector<glm::vec3> touched;  // corners of triangles that are marked, three each
+  std::vector<Patch> patches;
+  std::vector<Instance> shown_through;  // drawn once more, faint, where something is in front
   // The ball in which shadows fall.
   glm::vec3 center{0};
   float radius = 1;

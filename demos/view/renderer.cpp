@@ -17,7 +17,6 @@ namespace {
 const glm::vec3 kToSun = glm::normalize(glm::vec3(0.62F, -0.25F, 0.85F));
 constexpr float kSmall = 56;     // [pixels] across, below which nobody sees a mesh's every triangle
 constexpr float kHidden = 0.5F;  // opacity of marks behind something
-constexpr Color kTouched{1.0F, 0.85F, 0.1F};
 
 void set(const GlObject& program, const char* name, const glm::mat4& value) {
   glUniformMatrix4fv(uniform(program, name), 1, GL_FALSE, glm::value_ptr(value));
@@ -62,8 +61,7 @@ Renderer::Renderer(const Quality& quality)
       instance_buffer_(make_buffer()),
       empty_array_(make_vertex_array()),
       arrow_(make_mesh(arrow_mesh(), true)),
-      box_(make_mesh(box_mesh(), false)),
-      touched_(make_mesh({}, false)) {
+      box_(make_mesh(box_mesh(), false)) {
   glBindTexture(GL_TEXTURE_2D, shadow_map_.id());
   glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadow_size_, shadow_size_, 0,
                GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
@@ -165,17 +163,22 @@ Renderer::Batches Renderer::queue_boxes(const std::vector<Box>& boxes) {
   return {batch};
 }
 
-Renderer::Batches Renderer::queue_touched(const std::vector<glm::vec3>& corners) {
-  ShadedMesh mesh;
-  for (const glm::vec3& corner : corners) {
-    mesh.triangles.push_back(static_cast<unsigned>(mesh.vertices.size()));
-    mesh.vertices.push_back({corner, glm::vec3(0, 0, 1)});
+Renderer::Batches Renderer::queue_patches(const std::vector<Patch>& patches, bool over_all) {
+  while (patches_.size() < patches.size()) patches_.push_back(make_mesh({}, false));
+  Batches batches;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches[i].over_all != over_all) continue;
+    ShadedMesh mesh;
+    for (const glm::vec3& corner : patches[i].corners) {
+      mesh.triangles.push_back(static_cast<unsigned>(mesh.vertices.size()));
+      mesh.vertices.push_back({corner, glm::vec3(0, 0, 1)});
+    }
+    glBindVertexArray(patches_[i].array.id());
+    refill(patches_[i], mesh);
+    batches.push_back({&patches_[i], instances_.size(), 1});
+    instances_.push_back({Pose(1), glm::vec4(patches[i].color, 1)});
   }
-  glBindVertexArray(touched_.array.id());
-  refill(touched_, mesh);
-  const Batch batch{&touched_, instances_.size(), 1};
-  instances_.push_back({Pose(1), glm::vec4(kTouched, 1)});
-  return {batch};
+  return batches;
 }
 
 void Renderer::draw_batches(const Batches& batches, GLenum primitive) const {
@@ -226,15 +229,13 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
     return static_cast<float>(std::min(viewport.size.width, viewport.size.height)) /
            camera.extent_at(place);
   };
-  const Scale in_shadow = [&](glm::vec3) {
-    return static_cast<float>(shadow_size_) / (2 * frame.radius);
-  };
   const Batches grounds = queue(frame.grounds, in_picture);
   const Batches objects = queue(frame.objects, in_picture);
-  const Batches shadows = queue(frame.objects, in_shadow);
   const Batches cloths = queue_cloths(frame.cloths), boxes = queue_boxes(frame.boxes);
   const Batches arrows = queue_arrows(frame.arrows, 0.003F * camera.distance);
-  const Batches touched = queue_touched(frame.touched);
+  const Batches touched = queue_patches(frame.patches, false);
+  const Batches over_all = queue_patches(frame.patches, true);
+  const Batches shown_through = queue(frame.shown_through, in_picture);
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   fill(GL_ARRAY_BUFFER, instances_, GL_STREAM_DRAW);
 
@@ -244,7 +245,8 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   const glm::mat4 sun = sun_from_world(frame);
-  draw_shadows({shadows, cloths}, sun);
+  // The same triangles as are seen: others would throw shadows on them.
+  draw_shadows({objects, cloths}, sun);
 
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(canvas));
   const auto [x, y, size] = viewport;
@@ -279,15 +281,19 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   glDisable(GL_POLYGON_OFFSET_FILL);
   draw_batches(boxes, GL_LINES);
   // Arrows point into things: faint through what is in front, then as they are where they are seen.
+  // Patches are where things touch, and what is inside something is hidden by it.
   glEnable(GL_BLEND);
   glBlendColor(0, 0, 0, kHidden);
   glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
+  draw_batches(shown_through);
+  draw_batches(over_all);
   draw_batches(arrows);
   glDisable(GL_BLEND);
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
+  draw_batches(over_all);
   set(mesh_program_, "lit", 1);
   draw_batches(arrows);
   glDisable(GL_SCISSOR_TEST);

@@ -64,7 +64,7 @@ class Renderer {
   Batches queue_cloths(const std::vector<Cloth>& cloths);
   Batches queue_arrows(const std::vector<Arrow>& arrows, float thickness);
   Batches queue_boxes(const std::vector<Box>& boxes);
-  Batches queue_touched(const std::vector<glm::vec3>& corners);
+  Batches queue_patches(const std::vector<Patch>& patches, bool over_all);
   void draw_batches(const Batches& batches, GLenum primitive = GL_TRIANGLES) const;
   void draw_shadows(const std::vector<Batches>& all, const glm::mat4& clip_from_world) const;
   void draw_sky() const;
@@ -74,8 +74,8 @@ class Renderer {
   GlObject shadow_map_, shadow_buffer_;
   GlObject instance_buffer_, empty_array_;
   std::vector<Kind> kinds_;
-  Mesh arrow_, box_, touched_;
-  std::vector<Mesh> cloths_;
+  Mesh arrow_, box_;
+  std::vector<Mesh> cloths_, patches_;  // filled anew for each frame
   std::vector<GpuInstance> instances_;  // of the frame that is being drawn
 };
 

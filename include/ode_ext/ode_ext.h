@@ -198,6 +198,53 @@ typedef struct dBatchContactId {
 ODE_EXT_API int dBatchColliderGetContactIds(dBatchColliderID collider, const dContactGeom *contacts,
                                             int count, int skip, dBatchContactId *ids);
 
+/** How two meshes overlap in a region. */
+enum {
+  dBatchOverlapNone = 0,        /**< not known */
+  dBatchOverlapCrossing = 1,    /**< their surfaces cross */
+  dBatchOverlapFirstInside = 2, /**< nothing crosses: a part of the mesh of g1, or all of it, is
+                                     inside that of g2, or behind its faces if it is open */
+  dBatchOverlapSecondInside = 3 /**< a part of the mesh of g2 is inside that of g1 */
+};
+
+/** In which region of overlap a contact is: what two meshes have in common may be of several
+    pieces, each of which has a contact as far as max_contacts allows. */
+typedef struct dBatchContactRegion {
+  int region;  /**< number within the pair: 0 is that of the first of the pair's contacts, the
+                    deepest, 1 that of the first in another, and so on; -1: not known. In the next
+                    step a region may have another number */
+  int overlap; /**< dBatchOverlap...; exchanged arguments exchange the two that are inside */
+} dBatchContactRegion;
+
+/**
+ * Writes the regions of contacts, to draw or to count in how many places bodies touch, and to tell
+ * what is wholly inside something from what is partly so. Contacts are known as those that
+ * dBatchColliderGetContactIds knows, and as long; costs nothing unless it is called. With
+ * config "edges=off" crossings are not looked for, and all overlaps are dBatchOverlapNone.
+ * @param contacts  `count` contacts
+ * @param skip      byte stride of `contacts`, >= sizeof(dContactGeom)
+ * @param regions   count regions, written
+ * @return how many are known, or -1
+ */
+ODE_EXT_API int dBatchColliderGetContactRegions(dBatchColliderID collider,
+                                                const dContactGeom *contacts, int count, int skip,
+                                                dBatchContactRegion *regions);
+
+/**
+ * Writes into which meshlet, a cluster of up to 16 neighboring triangles that are collided at a
+ * time, each triangle of a mesh was put, to draw them. The mesh is known from its first pass or
+ * question on, as it was when last met, until it is announced to have changed or no pass meets it
+ * for a long time; the handle is not dereferenced. A collider of 0 knows none.
+ * @param triangle_count  of the mesh: dGeomTriMeshGetTriangleCount of a geom of it
+ * @param meshlets        triangle_count numbers from 0, written: neighbors have numbers near
+ *                        one another. -1: not known, or two of the triangle's corners are in one
+ *                        place
+ * @return how many meshlets there are, 0 if the mesh is not known or has another number of
+ *         triangles, or -1
+ */
+ODE_EXT_API int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDataID data,
+                                          int triangle_count, int *meshlets);
+
 /**
  * Announces that the vertices of a mesh moved or that it was rebuilt (after the change, and after
  * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, unless

@@ -44,8 +44,8 @@ typedef struct {
 } ox_region;
 OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 
-#define OX_REGION_CROSSED 1u  // it has crossings
-#define OX_REGION_VALLEY 2u   // one of its features has a valley
+// OX_REGION_CROSSED: it has crossings
+#define OX_REGION_VALLEY 2u  // one of its features has a valley
 
 // The members of a region, features of it; where it is not whole some begin a unit: a vertex, or a
 // chord, the stretch of an edge that is inside. Each field lies for itself (contacts/fields.h).
@@ -93,9 +93,9 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 #define OX_CANDIDATE_VERTEX 9u     // of a point: the triangle of the source, over all triangles
 #define OX_CANDIDATE_TRIANGLE 10u
 #define OX_CANDIDATE_MANIFOLD 11u  // the plane that it is a contact of, among all
-#define OX_CANDIDATE_REGION 12u
-#define OX_CANDIDATE_TAKEN 13u    // contacts/reduce.cl
-#define OX_CANDIDATE_FEATURE 14u  // two, of A and B: OX_OF
+#define OX_CANDIDATE_REGION 12u    // OX_REGION_KEY
+#define OX_CANDIDATE_TAKEN 13u     // contacts/reduce.cl
+#define OX_CANDIDATE_FEATURE 14u   // two, of A and B: OX_OF
 #define OX_CANDIDATE_WORDS 16u
 
 // Places in the table of features for each of them: a crossing has an edge and, with another, two

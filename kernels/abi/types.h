@@ -335,6 +335,10 @@ OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
 #define OX_OF_SHIFT 30u
 #define OX_OF(kind, index) ((kind) << OX_OF_SHIFT | (index))
 
+// What tells regions of overlap apart: which it is, and whether the surfaces cross in it.
+#define OX_REGION_CROSSED 1u
+#define OX_REGION_KEY(index, flags) ((index) << 1 | ((flags)&OX_REGION_CROSSED))
+
 typedef struct {
   ox_u32 side_kind;  // as of a candidate (abi/contacts.h), and so are the others
   ox_u32 vertex;
@@ -343,8 +347,9 @@ typedef struct {
   ox_f32 position[3];
   ox_f32 normal[3];
   ox_u32 feature[2];
+  ox_u32 region;  // OX_REGION_KEY: which contacts of a pair are of one. Numbers are as they come
 } ox_contact;
-OX_STATIC_ASSERT(sizeof(ox_contact) == 48, ox_contact_is_48_bytes);
+OX_STATIC_ASSERT(sizeof(ox_contact) == 52, ox_contact_is_52_bytes);
 
 // The contacts of a pair: `count` from `first` on. first is meaningless where count is 0.
 typedef struct {

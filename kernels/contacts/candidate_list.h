@@ -25,6 +25,7 @@ static inline void ox_store_contact(const ox_fields* list, uint i, __global ox_c
   vstore3(ox_vector_of(list, OX_CANDIDATE_NORMAL, i), 0, contact->normal);
   for (uint k = 0u; k < 2u; ++k)
     contact->feature[k] = ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i];
+  contact->region = ox_words_of(list, OX_CANDIDATE_REGION)[i];
 }
 
 // Room for `count` contacts of a pair; less where the list is full.

@@ -40,7 +40,7 @@ static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice*
   ox_words_of(list, OX_CANDIDATE_VERTEX)[i] = source;
   ox_words_of(list, OX_CANDIDATE_TRIANGLE)[i] = target;
   ox_words_of(list, OX_CANDIDATE_MANIFOLD)[i] = m->manifold;
-  ox_words_of(list, OX_CANDIDATE_REGION)[i] = m->region->index;
+  ox_words_of(list, OX_CANDIDATE_REGION)[i] = OX_REGION_KEY(m->region->index, m->region->flags);
   ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[i] = INFINITY;
   ox_words_of(list, OX_CANDIDATE_TAKEN)[i] = 0u;
   for (uint k = 0u; k < 2u; ++k) ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i] = touch.feature[k];

@@ -11,7 +11,7 @@
 #include "api/params.h"
 #include "ode/batch_collider.h"
 #include "ode/capture.h"
-#include "ode/contact_ids.h"
+#include "ode/known_contacts.h"
 #include "ode/override.h"
 #include "ode/pass.h"
 #include "ode/trace.h"
@@ -69,6 +69,19 @@ void check_skip(int skip) {
   if (skip < static_cast<int>(sizeof(dContactGeom)))
     refuse("skip is " + std::to_string(skip) +
            ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)));
+}
+
+// Null: one that knows nothing.
+std::shared_ptr<BatchCollider> asked_of(dBatchColliderID handle) {
+  return handle == nullptr || is_dead(handle) ? nullptr : live(handle);
+}
+
+// Of functions that write something of each contact; `no_room` says what of that is NULL.
+void check_contacts(const dContactGeom* contacts, int count, int skip, const char* no_room) {
+  if (count < 0) refuse("count is " + std::to_string(count));
+  if (count > 0 && contacts == nullptr) refuse("contacts is NULL");
+  if (count > 0 && no_room != nullptr) refuse(no_room);
+  check_skip(skip);
 }
 
 // CollidePairs without a collider: what dCollide gives for each pair.
@@ -165,7 +178,7 @@ int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g1, dGeomID g
 int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, int pair_count,
                                int flags, dContactGeom* contacts, int skip, int* contact_counts) {
   return guarded("dBatchColliderCollidePairs", -1, [&] {
-    const auto found = collider == nullptr || is_dead(collider) ? nullptr : live(collider);
+    const auto found = asked_of(collider);
     if (pair_count < 0) refuse("pair_count is " + std::to_string(pair_count));
     if (pair_count > 0 && (pairs == nullptr || contacts == nullptr))
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
@@ -187,13 +200,34 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
 int dBatchColliderGetContactIds(dBatchColliderID collider, const dContactGeom* contacts, int count,
                                 int skip, dBatchContactId* ids) {
   return guarded("dBatchColliderGetContactIds", -1, [&] {
-    const auto found = collider == nullptr || is_dead(collider) ? nullptr : live(collider);
-    if (count < 0) refuse("count is " + std::to_string(count));
-    if (count > 0 && (contacts == nullptr || ids == nullptr))
-      refuse(contacts == nullptr ? "contacts is NULL" : "ids is NULL");
-    check_skip(skip);
+    const auto found = asked_of(collider);
+    check_contacts(contacts, count, skip, ids == nullptr ? "ids is NULL" : nullptr);
     if (found != nullptr) return found->contact_ids(contacts, count, skip, ids);
     std::fill_n(ids, count, ode_ext::kNoContactId);
+    return 0;
+  });
+}
+
+int dBatchColliderGetContactRegions(dBatchColliderID collider, const dContactGeom* contacts,
+                                    int count, int skip, dBatchContactRegion* regions) {
+  return guarded("dBatchColliderGetContactRegions", -1, [&] {
+    const auto found = asked_of(collider);
+    check_contacts(contacts, count, skip, regions == nullptr ? "regions is NULL" : nullptr);
+    if (found != nullptr) return found->contact_regions(contacts, count, skip, regions);
+    std::fill_n(regions, count, ode_ext::kNoContactRegion);
+    return 0;
+  });
+}
+
+int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDataID data, int triangle_count,
+                              int* meshlets) {
+  return guarded("dBatchColliderGetMeshlets", -1, [&] {
+    const auto found = asked_of(collider);
+    if (data == nullptr) refuse("the mesh is NULL");
+    if (triangle_count < 0) refuse("triangle_count is " + std::to_string(triangle_count));
+    if (triangle_count > 0 && meshlets == nullptr) refuse("meshlets is NULL");
+    if (found != nullptr) return found->meshlets(data, triangle_count, meshlets);
+    std::fill_n(meshlets, triangle_count, -1);
     return 0;
   });
 }

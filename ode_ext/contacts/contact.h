@@ -18,6 +18,10 @@ struct Contact {
   double depth;
   std::array<std::uint32_t, 2> triangles;
   std::array<std::uint32_t, 2> features;  // what it is of in each mesh (contact_features.h)
+  // Of overlap: one number for all contacts of the pair in one region, another in every run.
+  std::uint32_t region = 0;
+  // Where nothing crosses in the region: of which mesh, 1 or 2, a part is inside the other; else 0.
+  std::uint32_t within = 0;
 };
 
 // What is found of the pairs of a scene.

@@ -81,6 +81,9 @@ Contact to_named_contact(const Scene& scene, const DeviceMeshes& meshes,
   Contact result = to_contact(scene, meshes, pair, contact);
   for (std::size_t k = 0; k < 2; ++k)
     result.features[k] = feature_of(meshes, scene.objects[pair[k]].mesh, contact.feature[k]);
+  result.region = contact.region;
+  if ((contact.region & OX_REGION_CROSSED) == 0)
+    result.within = (contact.side_kind & OX_HIT_SIDE) != 0 ? 2 : 1;
   return result;
 }
 

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "ode/contact_export.h"
-#include "ode/contact_ids.h"
 #include "ode/messages.h"
 #include "ode/pass_stats.h"
 #include "ode/program_callbacks.h"
@@ -43,6 +42,7 @@ BatchCollider::BatchCollider(const ColliderOptions& options, float open_thicknes
                              bool trust_meshes, bool triangle_callbacks)
     : known_(announced(options), open_thickness, trust_meshes, stats_),
       triangle_callbacks_(triangle_callbacks),
+      finds_crossings_(options.edges),
       device_name_(known_.collider().device_info().name) {
   log(LogLevel::kInfo, "the kernels are ready");
 }
@@ -215,28 +215,6 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const std::lock_guard lock(mutex_);
   const Answer* known = known_.find(g1, g2);
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
-}
-
-int BatchCollider::contact_ids(const dContactGeom* contacts, int count, int skip,
-                               dBatchContactId* ids) {
-  const std::lock_guard lock(mutex_);
-  const auto* bytes = reinterpret_cast<const unsigned char*>(contacts);
-  const dContactGeom* before = nullptr;
-  ContactIds of_pair({}, nullptr);
-  int found = 0;
-  for (int i = 0; i < count; ++i) {
-    const auto& contact =
-        *reinterpret_cast<const dContactGeom*>(bytes + static_cast<std::ptrdiff_t>(i) * skip);
-    if (before == nullptr || before->g1 != contact.g1 || before->g2 != contact.g2) {
-      const Answer* known = known_.find(contact.g1, contact.g2);
-      of_pair =
-          known == nullptr ? ContactIds({}, nullptr) : ContactIds(known->contacts, known->geoms[0]);
-    }
-    before = &contact;
-    ids[i] = of_pair.id_of(contact);
-    found += ids[i].feature1 != dBatchFeatureNone ? 1 : 0;
-  }
-  return found;
 }
 
 void BatchCollider::fail(const std::exception& error) {

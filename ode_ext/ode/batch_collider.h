@@ -50,6 +50,11 @@ class BatchCollider {
   // The ids of contacts of any pairs; returns how many are known. Nothing is computed, and no geom
   // dereferenced.
   int contact_ids(const dContactGeom* contacts, int count, int skip, dBatchContactId* ids);
+  // Likewise of which regions of overlap they are.
+  int contact_regions(const dContactGeom* contacts, int count, int skip,
+                      dBatchContactRegion* regions);
+  // Of each triangle the meshlet; returns how many there are, 0: the mesh is not known.
+  int meshlets(dTriMeshDataID data, int triangle_count, int* meshlets);
 
   bool is_passing() const { return depth_ != 0; }
 
@@ -73,6 +78,10 @@ class BatchCollider {
   const Answer* find_or_compute(dGeomID g1, dGeomID g2);
   void count_outside(std::size_t pairs);
   bool is_within_a_pass() const { return depth_ != 0; }
+  // visit(i, what is known of the pair of the i-th contact, it).
+  template <class Visit>
+  void for_each_known(const dContactGeom* contacts, int count, int skip, Visit visit);
+
   void begin_stats(bool within_a_pass);
   void note_report();
   void fail(const std::exception& error);
@@ -89,6 +98,7 @@ class BatchCollider {
   UnaskedPairs unasked_;    // by the outermost pass
   SpaceMemories memories_;  // of the collider of known_, and gone before it
   const bool triangle_callbacks_;
+  const bool finds_crossings_;
   std::string device_name_;
 
   std::atomic<int> depth_{0};

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "ode/contact_export.h"
-#include "ode/contact_ids.h"
+#include "ode/known_contacts.h"
 #include "opencl/error.h"
 
 namespace ode_ext::test {
@@ -130,7 +130,7 @@ TEST_F(ApiContactIds, AreFoundInAnyOrderAndWhereOthersAreMissing) {
             keys({ids[1], ids[4], ids[5], ids[2]}));
 }
 
-TEST(ContactIds, OfContactsInOnePlaceGoByTheirSides) {
+TEST(KnownContacts, OfContactsInOnePlaceGoByTheirSides) {
   Contact known{{1, 2, 3}, {0, 0, 1}, 0.25, {4, 5}, {6, 7}};
   std::vector<Contact> both{known, known};
   both[1].triangles[1] = 8;
@@ -138,10 +138,10 @@ TEST(ContactIds, OfContactsInOnePlaceGoByTheirSides) {
   const dGeomID g1 = reinterpret_cast<dGeomID>(1), g2 = reinterpret_cast<dGeomID>(2);
   Contacts asked(2);
   export_contacts(both, g1, g1, g2, 2, asked.data(), sizeof(dContactGeom));
-  EXPECT_EQ(key(ContactIds(both, g1).id_of(asked[1])), std::pair(9u, 10u));
-  EXPECT_EQ(key(ContactIds(both, g1).id_of(asked[0])), std::pair(6u, 7u));
+  EXPECT_EQ(key(KnownContacts(both, g1).id_of(asked[1])), std::pair(9u, 10u));
+  EXPECT_EQ(key(KnownContacts(both, g1).id_of(asked[0])), std::pair(6u, 7u));
   asked[0].side2 = asked[1].side2 = -1;  // a callback made them: the order tells
-  ContactIds ids(both, g1);
+  KnownContacts ids(both, g1);
   EXPECT_EQ(key(ids.id_of(asked[0])), std::pair(6u, 7u));
   EXPECT_EQ(key(ids.id_of(asked[1])), std::pair(9u, 10u));
 }

@@ -206,6 +206,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_contact, position),
     OFFSET_OF(ox_contact, normal),
     OFFSET_OF(ox_contact, feature),
+    OFFSET_OF(ox_contact, region),
     SIZE_OF(ox_move),
     OFFSET_OF(ox_move, shape),
     OFFSET_OF(ox_move, mesh),

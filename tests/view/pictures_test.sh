@@ -19,7 +19,7 @@ expected=$(hash_of)
 ! grep -q pictures: "$out/log" || fail "pictures were drawn that nobody asked for"
 
 # 30 steps at 60 Hz, 30 pictures a second and the start: 16.
-draw --frames "$out/a/%02d.png" --overlay caption,contacts,touched,boxes > "$out/log"
+draw --frames "$out/a/%02d.png" --overlay caption,contacts,touched,regions,meshlets,inside,boxes > "$out/log"
 [[ $(hash_of) == "$expected" ]] || fail "drawing changed the contacts"
 grep -q "pictures: $out/a/00.png to $out/a/15.png (16 pictures" "$out/log" || fail "$(cat "$out/log")"
 [[ $(find "$out/a" -name '*.png' | wc -l) == 16 ]] || fail "not 16 pictures: $(ls "$out/a")"

@@ -8,7 +8,8 @@
 namespace view_tests {
 namespace {
 
-constexpr view::Color kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kGrey{0.7F, 0.7F, 0.7F};
+constexpr view::Color kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kGrey{0.7F, 0.7F, 0.7F},
+    kYellow{1, 0.85F, 0.1F};
 
 view::Pose at(float x, float y, float z, float size = 1) {
   return view::Pose(glm::vec3(size, 0, 0), glm::vec3(0, size, 0), glm::vec3(0, 0, size),
@@ -104,7 +105,7 @@ TEST(Renderer, ShowsTheEdgesOfBoxesAndTouchedTriangles) {
   view::Frame frame;
   const view::Camera camera = view::looking_at(glm::vec3(0), 2);
   frame.boxes.push_back({glm::vec3(-1), glm::vec3(1), kRed});
-  frame.touched = {{-0.5F, 0, 0}, {0.5F, 0, 0}, {0, 0, 0.5F}};
+  frame.patches.push_back({{{-0.5F, 0, 0}, {0.5F, 0, 0}, {0, 0, 0.5F}}, kYellow});
   const view::Image image = draw(studio, frame, camera);
   EXPECT_GT(area(image, is_red), 200);
   for (const float x : {-1.0F, 1.0F}) {
@@ -130,6 +131,27 @@ TEST(Renderer, ShowsArrowsThroughWhatIsInFrontOfThemFainter) {
   EXPECT_EQ(area(hidden, is_pure), 0);
   const auto is_reddish = [](const Pixel& p) { return p.red > p.green + 30; };
   EXPECT_TRUE(is_near(hidden, is_reddish, camera, {0, 0, 0}, 3));
+}
+
+TEST(Renderer, ShowsPatchesAndObjectsThroughWhatIsInFrontOfThemFainterIfAsked) {
+  view::Studio studio({320, 240});
+  const view::MeshId cube = add_cube(studio.renderer());
+  const view::Camera camera = view::looking_at(glm::vec3(0), 2);
+  const auto is_reddish = [](const Pixel& p) { return p.red > p.green + 30; };
+  const auto is_bluish = [](const Pixel& p) { return p.blue > p.green + 30; };
+  const auto is_pure = [](const Pixel& p) { return p.red > 150 && p.green < 30; };
+  for (const bool through : {false, true}) {
+    view::Frame frame;
+    frame.objects.push_back({cube, at(0, 0, 0, 1.5F), kGrey});
+    const view::Instance inner{cube, at(0, 0, 0.3F, 0.3F), kBlue};
+    frame.objects.push_back(inner);
+    if (through) frame.shown_through.push_back(inner);
+    frame.patches.push_back({{{-0.3F, 0, -0.5F}, {0.3F, 0, -0.5F}, {0, 0, -0.1F}}, kRed, through});
+    const view::Image image = draw(studio, frame, camera);
+    EXPECT_EQ(is_near(image, is_reddish, camera, {0, 0, -0.4F}, 2), through);
+    EXPECT_EQ(is_near(image, is_bluish, camera, {0, 0, 0.3F}, 2), through);
+    EXPECT_EQ(area(image, is_pure), 0);
+  }
 }
 
 TEST(Renderer, ShowsClothsFromBothSides) {

@@ -86,7 +86,7 @@ TEST_F(Space, ShowsContactsAsArrowsThatAreLongerTheDeeperTheyAre) {
   const view::Frame frame = view.frame(space_, nullptr, contacts, {true, true, true});
   ASSERT_EQ(frame.arrows.size(), 2U);
   EXPECT_EQ(frame.boxes.size(), 2U);
-  EXPECT_TRUE(frame.touched.empty());  // no contact says which triangle
+  EXPECT_TRUE(frame.patches.empty());  // no contact says which triangle
   const auto length = [&](std::size_t i) {
     return glm::distance(frame.arrows[i].from, frame.arrows[i].to);
   };
@@ -108,7 +108,8 @@ TEST_F(Space, NamesTheTrianglesThatContactsTouch) {
   contact.side1 = 3;
   contact.side2 = 1000000;  // there is none
   const view::Frame frame = view.frame(space_, nullptr, {&contact, 1}, {false, true, false});
-  EXPECT_EQ(frame.touched.size(), 3U);
+  ASSERT_EQ(frame.patches.size(), 1U);
+  EXPECT_EQ(frame.patches[0].corners.size(), 3U);
 }
 
 TEST_F(Space, HasBodiesThatAHandTakesPullsAndThrows) {

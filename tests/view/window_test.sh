@@ -32,7 +32,7 @@ DISPLAY=:$(cat "$out/number")
 export DISPLAY
 
 # No option asks for the window: there is a display.
-"$program" --objects 24 --size 1200x640 --beside ode --overlay caption,contacts,boxes \
+"$program" --objects 24 --size 1200x640 --beside ode --overlay caption,contacts,regions,boxes \
   > "$out/log" 2>&1 &
 window=$!
 focus() { xdotool windowfocus "$(xdotool search --onlyvisible --name '^falling_objects$')"; }

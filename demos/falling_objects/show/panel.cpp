@@ -89,7 +89,7 @@ void draw_light(bool redone) {
 
 void draw_overlays(PictureOptions& pictures) {
   int count = 0;
-  for (const char* name : {"caption", "contacts", "touched", "boxes"}) {
+  for (const char* name : kOverlays) {
     if (count++ % 2 == 1) ImGui::SameLine(150);
     bool shown = pictures.shows(name);
     if (ImGui::Checkbox(name, &shown)) {

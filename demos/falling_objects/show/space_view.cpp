@@ -4,26 +4,32 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
+#include "falling_objects/show/coats.h"
 #include "falling_objects/show/mesh_of_geom.h"
+#include "falling_objects/show/region_marks.h"
 
 namespace falling_objects {
 namespace {
 
 constexpr view::Color kGround{0.74F, 0.72F, 0.68F}, kFixed{0.45F, 0.47F, 0.50F};
 // Far apart in hue and not far in lightness.
-constexpr std::array<view::Color, 8> kShapes{{{0.86F, 0.33F, 0.25F},
-                                              {0.22F, 0.47F, 0.75F},
-                                              {0.93F, 0.68F, 0.20F},
-                                              {0.25F, 0.60F, 0.42F},
-                                              {0.58F, 0.39F, 0.70F},
-                                              {0.16F, 0.64F, 0.69F},
-                                              {0.88F, 0.50F, 0.60F},
-                                              {0.55F, 0.55F, 0.30F}}};
+constexpr std::array<view::Color, kCoats> kShapes{{{0.86F, 0.33F, 0.25F},
+                                                   {0.22F, 0.47F, 0.75F},
+                                                   {0.93F, 0.68F, 0.20F},
+                                                   {0.25F, 0.60F, 0.42F},
+                                                   {0.58F, 0.39F, 0.70F},
+                                                   {0.16F, 0.64F, 0.69F},
+                                                   {0.88F, 0.50F, 0.60F},
+                                                   {0.55F, 0.55F, 0.30F}}};
 constexpr std::array<view::Color, 3> kCloths{
     {{0.90F, 0.86F, 0.76F}, {0.78F, 0.34F, 0.36F}, {0.38F, 0.55F, 0.68F}}};
 constexpr view::Color kShallow{0.05F, 0.05F, 0.09F}, kDeep{0.95F, 0.03F, 0.12F};
 constexpr view::Color kBox{0.25F, 0.28F, 0.35F};
+constexpr view::Color kTouched{1.0F, 0.85F, 0.1F};
+constexpr view::Color kInside{1.0F, 0.1F, 0.85F};
+constexpr float kSpot = 0.007F;  // of the radius of the scene: a contact of a region
 
 // A contact of no depth is an arrow nevertheless.
 constexpr float kPerDepth = 50;
@@ -108,6 +114,31 @@ void keep_top(IndexedMesh& mesh) {
   mesh.triangles = top;
 }
 
+// Spaces list geoms in any order; a shape's color is not to depend on it.
+std::vector<dGeomID> meshes_in(dSpaceID space) {
+  std::vector<dGeomID> geoms;
+  const int count = dSpaceGetNumGeoms(space);
+  for (int i = 0; i < count; ++i) {
+    dGeomID geom = dSpaceGetGeom(space, i);
+    if (dGeomGetClass(geom) == dTriMeshClass && (dGeomGetCategoryBits(geom) & kMeshBit) != 0) {
+      geoms.push_back(geom);
+    }
+  }
+  std::stable_sort(geoms.begin(), geoms.end(),
+                   [](dGeomID a, dGeomID b) { return index_of(a) < index_of(b); });
+  return geoms;
+}
+
+std::set<dGeomID> inside_others(std::span<const dContactGeom> contacts,
+                                std::span<const dBatchContactRegion> regions) {
+  std::set<dGeomID> inside;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (regions[i].overlap == dBatchOverlapFirstInside) inside.insert(contacts[i].g1);
+    if (regions[i].overlap == dBatchOverlapSecondInside) inside.insert(contacts[i].g2);
+  }
+  return inside;
+}
+
 }  // namespace
 
 const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving) {
@@ -117,7 +148,7 @@ const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving)
   IndexedMesh mesh = mesh_of(data);
   const bool ground = mesh.closed && is_ground(geom, moving);
   if (ground) keep_top(mesh);
-  Kind kind{renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground};
+  Kind kind{renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground, {}};
   if (moves(geom)) {
     kind.color = kShapes[moving_kinds_++ % kShapes.size()];
   } else if (!ground) {
@@ -138,29 +169,70 @@ void SpaceView::tell_apart(view::Frame& frame) const {
   }
 }
 
-void SpaceView::add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame) {
-  const Kind& kind = kind_of(geom, moving);
-  auto& list = kind.ground ? frame.grounds : frame.objects;
-  list.push_back({kind.mesh, pose_of(geom), kind.color});
+void SpaceView::dress(view::Frame& frame, const std::vector<dGeomID>& geoms,
+                      dBatchColliderID collider) {
+  std::vector<view::Instance> dressed;
+  for (std::size_t i = 0; i < geoms.size(); ++i) {
+    dTriMeshDataID data = dGeomTriMeshGetTriMeshDataID(geoms[i]);
+    std::vector<view::MeshId>& coats = kinds_.at(data).coats;
+    if (coats.empty()) {
+      std::vector<int> meshlets(static_cast<std::size_t>(dGeomTriMeshGetTriangleCount(geoms[i])));
+      if (dBatchColliderGetMeshlets(collider, data, static_cast<int>(meshlets.size()),
+                                    meshlets.data()) > 0) {
+        const IndexedMesh mesh = mesh_of(data);
+        for (const auto& triangles : coats_of(mesh, meshlets)) {
+          coats.push_back(renderer_.add_mesh(mesh.positions, triangles, mesh.closed));
+        }
+      }
+    }
+    if (coats.empty()) dressed.push_back(frame.objects[i]);
+    for (std::size_t k = 0; k < coats.size(); ++k) {
+      dressed.push_back({coats[k], frame.objects[i].pose, kShapes[k]});
+    }
+  }
+  frame.objects = std::move(dressed);
+}
+
+void SpaceView::mark_contacts(view::Frame& frame, const std::vector<dGeomID>& geoms,
+                              std::span<const dContactGeom> contacts, const Overlays& overlays,
+                              dBatchColliderID collider) const {
+  std::vector<dBatchContactRegion> regions;
+  if (overlays.regions || overlays.inside) regions = regions_of(collider, contacts);
+  view::Patch touched{{}, kTouched};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const dContactGeom& contact = contacts[i];
+    if (overlays.contacts) {
+      frame.arrows.push_back(arrow_of(contact, radius_));
+      if (overlays.regions && regions[i].region >= 0) {
+        frame.arrows.back().color = color_of(contact, regions[i]);
+      }
+    }
+    if (overlays.touched) {
+      add_touched(contact.g1, contact.side1, touched.corners);
+      add_touched(contact.g2, contact.side2, touched.corners);
+    }
+  }
+  if (!touched.corners.empty()) frame.patches.push_back(std::move(touched));
+  if (overlays.regions) mark_regions(contacts, regions, kSpot * radius_, frame.patches);
+  if (overlays.inside) {
+    const std::set<dGeomID> inside = inside_others(contacts, regions);
+    for (std::size_t i = 0; i < geoms.size(); ++i) {
+      if (!inside.contains(geoms[i])) continue;
+      frame.objects[i].color = kInside;
+      frame.shown_through.push_back(frame.objects[i]);
+    }
+  }
 }
 
 view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
-                             std::span<const dContactGeom> contacts, const Overlays& overlays) {
+                             std::span<const dContactGeom> contacts, const Overlays& overlays,
+                             dBatchColliderID collider) {
   view::Frame frame;
-  std::vector<dGeomID> geoms;
+  const std::vector<dGeomID> geoms = meshes_in(space);
   std::vector<view::Box> moving;
-  const int count = dSpaceGetNumGeoms(space);
-  for (int i = 0; i < count; ++i) {
-    dGeomID geom = dSpaceGetGeom(space, i);
-    if (dGeomGetClass(geom) != dTriMeshClass || (dGeomGetCategoryBits(geom) & kMeshBit) == 0) {
-      continue;
-    }
-    geoms.push_back(geom);
+  for (dGeomID geom : geoms) {
     if (moves(geom)) moving.push_back(box_of(geom));
   }
-  // Spaces list geoms in any order; a shape's color is not to depend on it.
-  std::stable_sort(geoms.begin(), geoms.end(),
-                   [](dGeomID a, dGeomID b) { return index_of(a) < index_of(b); });
   if (sheets != nullptr) {
     for (std::size_t i = 0; i < sheets->all().size(); ++i) {
       const Sheet& sheet = *sheets->all()[i];
@@ -169,7 +241,12 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
     }
   }
   const view::Box all = around(moving);
-  for (dGeomID geom : geoms) add_geom(geom, all, frame);
+  std::vector<dGeomID> of_objects;
+  for (dGeomID geom : geoms) {
+    const Kind& kind = kind_of(geom, all);
+    (kind.ground ? frame.grounds : frame.objects).push_back({kind.mesh, pose_of(geom), kind.color});
+    if (!kind.ground) of_objects.push_back(geom);
+  }
   tell_apart(frame);
   if (!(radius_ > 0)) {
     center_ = (all.low + all.high) / 2.0F;
@@ -177,13 +254,8 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
   }
   frame.center = center_;
   frame.radius = radius_;
-  for (const dContactGeom& contact : contacts) {
-    if (overlays.contacts) frame.arrows.push_back(arrow_of(contact, radius_));
-    if (overlays.touched) {
-      add_touched(contact.g1, contact.side1, frame.touched);
-      add_touched(contact.g2, contact.side2, frame.touched);
-    }
-  }
+  mark_contacts(frame, of_objects, contacts, overlays, collider);
+  if (overlays.meshlets) dress(frame, of_objects, collider);
   if (overlays.boxes) frame.boxes = std::move(moving);
   return frame;
 }

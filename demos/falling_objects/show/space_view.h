@@ -3,9 +3,11 @@
 #pragma once
 
 #include <ode/ode.h>
+#include <ode_ext/ode_ext.h>
 
 #include <map>
 #include <span>
+#include <vector>
 
 #include "falling_objects/sheets.h"
 #include "view/camera.h"
@@ -16,25 +18,33 @@ namespace falling_objects {
 
 struct Overlays {
   bool contacts = false, touched = false, boxes = false;
+  bool regions = false, meshlets = false, inside = false;  // as far as the collider tells
 };
 
 class SpaceView {
  public:
   explicit SpaceView(view::Renderer& renderer) : renderer_(renderer) {}
 
-  // The meshes (kMeshBit) and sheets of a space, without a caption. `sheets` may be null.
+  // The meshes (kMeshBit) and sheets of a space, without a caption. `sheets` may be null, and so
+  // may `collider`, which the contacts are of.
   view::Frame frame(dSpaceID space, const Sheets* sheets, std::span<const dContactGeom> contacts,
-                    const Overlays& overlays);
+                    const Overlays& overlays, dBatchColliderID collider = nullptr);
 
  private:
   struct Kind {
     view::MeshId mesh;
     view::Color color;
     bool ground;
+    std::vector<view::MeshId> coats;  // of its meshlets, a color each; empty: not known yet
   };
   const Kind& kind_of(dGeomID geom, const view::Box& moving);
   void tell_apart(view::Frame& frame) const;
-  void add_geom(dGeomID geom, const view::Box& moving, view::Frame& frame);
+  // `geoms` are those of the frame's objects.
+  void mark_contacts(view::Frame& frame, const std::vector<dGeomID>& geoms,
+                     std::span<const dContactGeom> contacts, const Overlays& overlays,
+                     dBatchColliderID collider) const;
+  // In place of objects their meshlets.
+  void dress(view::Frame& frame, const std::vector<dGeomID>& geoms, dBatchColliderID collider);
 
   view::Renderer& renderer_;
   std::map<dTriMeshDataID, Kind> kinds_;

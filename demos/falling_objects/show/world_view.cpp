@@ -13,9 +13,12 @@ void WorldView::note(const StepRecord& record) {
 
 view::Frame WorldView::frame(const PictureOptions& options) {
   const Overlays overlays{options.shows("contacts"), options.shows("touched"),
-                          options.shows("boxes")};
-  view::Frame frame = view_.frame(world_.scene().space(), world_.sheets(),
-                                  world_.simulation().contacts(), overlays);
+                          options.shows("boxes"),    options.shows("regions"),
+                          options.shows("meshlets"), options.shows("inside")};
+  const bool batch = world_.options().collider == Collider::kBatch;
+  view::Frame frame =
+      view_.frame(world_.scene().space(), world_.sheets(), world_.simulation().contacts(), overlays,
+                  batch ? world_.collision().batch() : nullptr);
   if (options.shows("caption")) frame.caption = caption(world_.options(), record_, deepest_);
   return frame;
 }
