@@ -2,6 +2,7 @@
 #include "falling_objects/penetration.h"
 
 #include <algorithm>
+#include <array>
 
 #include "falling_objects/pose.h"
 
@@ -10,7 +11,6 @@ namespace {
 
 using ode_ext::oracle::Mesh;
 using ode_ext::oracle::Pose;
-using ode_ext::oracle::Vector;
 
 Mesh oracle_mesh(const TriangleMesh& mesh) { return Mesh(mesh.vertices, mesh.indices); }
 
@@ -30,22 +30,30 @@ std::vector<Pose> PenetrationMeter::poses() const {
   return poses;
 }
 
+std::vector<Ball> PenetrationMeter::balls(const std::vector<Pose>& poses) const {
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    balls.push_back({poses[i].position, shapes_[scene_.objects()[i].shape].radius()});
+  }
+  return balls;
+}
+
 template <class Visit>
 void PenetrationMeter::for_each_pair(const std::vector<Pose>& poses, Visit visit) const {
   const std::size_t count = scene_.objects().size();
+  const auto pairs = near_pairs(balls(poses));
+  auto pair = pairs.begin();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t shape_i = scene_.objects()[i].shape;
-    const Mesh& mesh = shapes_[shape_i];
-    if (!mesh.closed()) continue;
-    if (ground_) visit(i, count, *ground_, Pose{}, half_thinnest_[shape_i]);
-    for (std::size_t j = i + 1; j < count; ++j) {
+    const bool closed = shapes_[shape_i].closed();
+    if (closed && ground_) visit(i, count, *ground_, Pose{}, half_thinnest_[shape_i]);
+    for (; pair != pairs.end() && (*pair)[0] == i; ++pair) {
+      const std::size_t j = (*pair)[1];
       const std::size_t shape_j = scene_.objects()[j].shape;
-      const Mesh& other = shapes_[shape_j];
-      const Vector apart = poses[i].position - poses[j].position;
-      const double reach = mesh.radius() + other.radius();
+      if (!closed || !shapes_[shape_j].closed()) continue;
       if (!can_move(scene_.objects()[i]) && !can_move(scene_.objects()[j])) continue;
-      if (!other.closed() || dot(apart, apart) > reach * reach) continue;
-      visit(i, j, other, poses[j], std::min(half_thinnest_[shape_i], half_thinnest_[shape_j]));
+      visit(i, j, shapes_[shape_j], poses[j],
+            std::min(half_thinnest_[shape_i], half_thinnest_[shape_j]));
     }
   }
 }

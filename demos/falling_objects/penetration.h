@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "falling_objects/near_pairs.h"
 #include "falling_objects/scene.h"
 #include "support/mesh_oracle.h"
 
@@ -38,6 +39,7 @@ class PenetrationMeter {
   template <class Visit>
   void for_each_pair(const std::vector<ode_ext::oracle::Pose>& poses, Visit visit) const;
   std::vector<ode_ext::oracle::Pose> poses() const;
+  std::vector<Ball> balls(const std::vector<ode_ext::oracle::Pose>& poses) const;
 
   const Scene& scene_;
   std::vector<ode_ext::oracle::Mesh> shapes_;

@@ -58,11 +58,10 @@ void Mesh::sort_into_clusters() {
       high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
     }
     const Vector size = high - low;
-    if (last - first <= kClusterVertices) {
-      clusters_.push_back({0.5 * (low + high), 0, static_cast<std::uint32_t>(first),
-                           static_cast<std::uint32_t>(last - first)});
-      return;
-    }
+    const std::size_t cluster = clusters_.size();
+    clusters_.push_back({0.5 * (low + high), 0, static_cast<std::uint32_t>(first),
+                         static_cast<std::uint32_t>(last - first), cluster + 1});
+    if (last - first <= kClusterVertices) return;
     double Vector::*axis = &Vector::x;
     if (size.y > size.*axis) axis = &Vector::y;
     if (size.z > size.*axis) axis = &Vector::z;
@@ -73,6 +72,7 @@ void Mesh::sort_into_clusters() {
     });
     self(self, first, half);
     self(self, half, last);
+    clusters_[cluster].next = clusters_.size();
   };
   if (!vertices_.empty()) split(split, 0, vertices_.size());
 
@@ -248,10 +248,15 @@ double deepest_vertex(const Mesh& source, const Pose& source_pose, const Mesh& t
     Vector point;
   };
   std::vector<Candidate> candidates;
-  for (const Mesh::Cluster& cluster : source.clusters()) {
-    if (-target.lower_bound(in_target(cluster.middle), cluster.radius) <= best) continue;
-    for (std::uint32_t i = cluster.first; i < cluster.first + cluster.count; ++i) {
-      const Vector p = in_target(source.vertices()[i]);
+  const std::vector<Mesh::Cluster>& clusters = source.clusters();
+  for (std::size_t i = 0; i < clusters.size();) {
+    const Mesh::Cluster& cluster = clusters[i];
+    const bool may_be = -target.lower_bound(in_target(cluster.middle), cluster.radius) > best;
+    const bool halved = cluster.next > i + 1;
+    i = may_be ? i + 1 : cluster.next;
+    if (!may_be || halved) continue;
+    for (std::uint32_t v = cluster.first; v < cluster.first + cluster.count; ++v) {
+      const Vector p = in_target(source.vertices()[v]);
       const double at_most = -target.lower_bound(p, 0);
       if (at_most > best) candidates.push_back({at_most, p});
     }

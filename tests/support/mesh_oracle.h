@@ -45,11 +45,13 @@ class Mesh {
   // would be zero wherever two faces meet at a sharp angle.)
   double thinnest_part() const;
 
-  // Vertices close together, in runs.
+  // Vertices close together, in runs. Where they are many, two clusters with a half of them each
+  // follow, and so on, up to `next`.
   struct Cluster {
     Vector middle;
     double radius;
     std::uint32_t first, count;
+    std::size_t next;
   };
   const std::vector<Cluster>& clusters() const { return clusters_; }
 
