@@ -194,4 +194,18 @@ std::size_t BodyReader::body_named(const char* key, TomlTable& table) const {
   return static_cast<std::size_t>(found - bodies.begin());
 }
 
+std::vector<std::size_t> BodyReader::bodies_named(const char* key, TomlTable& table) const {
+  const std::string first = table.text(key) + " 1";
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+    const std::string& name = scene_.bodies[i].name;
+    if (name == first ||
+        (!numbers.empty() && name == table.text(key) + ' ' + std::to_string(numbers.size() + 1))) {
+      numbers.push_back(i);
+    }
+  }
+  if (numbers.empty()) numbers.push_back(body_named(key, table));
+  return numbers;
+}
+
 }  // namespace falling_objects

@@ -22,6 +22,8 @@ class BodyReader {
   // as it is without parameters.
   std::size_t mesh_named(const std::string& name, const char* key, const TomlTable& table);
   std::size_t body_named(const char* key, TomlTable& table) const;
+  // The one of this name, or all that a [[body]] of this name made.
+  std::vector<std::size_t> bodies_named(const char* key, TomlTable& table) const;
 
  private:
   void add_mesh(const std::string& name, TriangleMesh mesh);

@@ -33,14 +33,16 @@ double distance(const Point& a, const Point& b) {
 
 Expectations::Expectations(const Scene& scene, double hz) : scene_(scene), hz_(hz) {
   for (const Expectation& what : scene.description().expectations) {
-    Watch watch{what, {}, {}, {}, 0, {}};
-    for (std::size_t i = 0; i < scene.objects().size(); ++i) {
-      if (what.all ? can_move(scene.objects()[i]) : i == what.body) watch.bodies.push_back(i);
+    Watch watch;
+    watch.what = what;
+    watch.bodies = what.bodies;
+    for (std::size_t i = 0; what.bodies.empty() && i < scene.objects().size(); ++i) {
+      if (can_move(scene.objects()[i])) watch.bodies.push_back(i);
     }
     if (what.kind == Kind::kRatio) {
-      watch.turnings = {turning_of(what.body), turning_of(what.other)};
+      watch.turnings = {turning_of(what.bodies[0]), turning_of(what.other)};
     } else if (what.kind == Kind::kScrew) {
-      watch.turnings = {turning_of(what.body)};
+      watch.turnings = {turning_of(what.bodies[0])};
     }
     watches_.push_back(std::move(watch));
   }
@@ -62,6 +64,12 @@ void Expectations::after_step() {
   for (Watch& watch : watches_) look(watch, steps_ / hz_);
 }
 
+void Expectations::after_measurement(double deepest) {
+  for (Watch& watch : watches_) {
+    if (steps_ / hz_ >= watch.what.after) watch.deepest = std::max(watch.deepest, deepest);
+  }
+}
+
 void Expectations::look(Watch& watch, double time) const {
   const auto second = static_cast<std::size_t>((steps_ - 1) / hz_);
   for (Turning& turning : watch.turnings) {
@@ -77,23 +85,27 @@ void Expectations::look(Watch& watch, double time) const {
     fastest = std::max(fastest, std::hypot(v[0], v[1], v[2]));
   }
   watch.speeds.push_back(fastest);
-  if (time < watch.what.after) return;
+  if (time < watch.what.after || time > watch.what.until) return;
   const bool first = watch.start.empty();
   for (std::size_t k = 0; k < watch.bodies.size(); ++k) {
     const Point now = position_of(scene_.objects()[watch.bodies[k]]);
     if (first) watch.start.push_back(now);
     double off = distance(now, watch.start[k]);
     if (watch.what.kind == Kind::kScrew) {
-      const Point& at = scene_.description().bodies[watch.what.body].position;
+      const Point& at = scene_.description().bodies[watch.bodies[k]].position;
       off = std::abs(now[2] - at[2] - watch.what.value * watch.turnings[0].in_all / kTurn);
     }
     // What is not a number is far off.
     watch.farthest = off >= 0 ? std::max(watch.farthest, off) : INFINITY;
+    watch.lowest = std::isnan(now[2]) ? -INFINITY : std::min(watch.lowest, now[2]);
   }
 }
 
 std::string Expectations::name_of(const Watch& watch) const {
-  return watch.what.all ? "all" : scene_.description().bodies[watch.what.body].name;
+  if (watch.what.bodies.empty()) return "all";
+  const std::string& first = scene_.description().bodies[watch.bodies[0]].name;
+  if (watch.bodies.size() == 1) return first;
+  return first + " to " + scene_.description().bodies[watch.bodies.back()].name;
 }
 
 std::vector<Outcome> Expectations::outcomes() const {
@@ -103,7 +115,8 @@ std::vector<Outcome> Expectations::outcomes() const {
 }
 
 Outcome Expectations::judge(const Watch& watch) const {
-  const double needed = std::ceil(watch.what.after) + (watch.turnings.empty() ? 0 : 1);
+  const double last = std::isfinite(watch.what.until) ? watch.what.until : watch.what.after;
+  const double needed = std::ceil(last) + (watch.turnings.empty() ? 0 : 1);
   if (steps_ < needed * hz_) {
     return {format("%s: a run of %.1f s is too short to tell, %.0f s are needed",
                    name_of(watch).c_str(), steps_ / hz_, needed),
@@ -117,9 +130,14 @@ Outcome Expectations::judge(const Watch& watch) const {
     case Kind::kStill:
       return judge_still(watch);
     case Kind::kStays:
+    case Kind::kMoves:
+      return judge_way(watch);
+    case Kind::kAbove:
+      return judge_above(watch);
+    case Kind::kApart:
       break;
   }
-  return judge_stays(watch);
+  return judge_apart(watch);
 }
 
 // Of each whole second, since what two gears do in a step is up to their play.
@@ -170,10 +188,25 @@ Outcome Expectations::judge_still(const Watch& watch) const {
           fastest <= watch.what.value};
 }
 
-Outcome Expectations::judge_stays(const Watch& watch) const {
-  return {format("%s: at most %.4f m from where it was at %.1f s, allowed %.4f",
-                 name_of(watch).c_str(), watch.farthest, watch.what.after, watch.what.value),
-          watch.farthest <= watch.what.value};
+Outcome Expectations::judge_way(const Watch& watch) const {
+  const bool stays = watch.what.kind == Kind::kStays;
+  return {format("%s: at most %.4f m from where it was at %.1f s, %s %.4f", name_of(watch).c_str(),
+                 watch.farthest, watch.what.after, stays ? "allowed" : "expected at least",
+                 watch.what.value),
+          stays ? watch.farthest <= watch.what.value
+                : watch.farthest >= watch.what.value && std::isfinite(watch.farthest)};
+}
+
+Outcome Expectations::judge_above(const Watch& watch) const {
+  return {format("%s: at %.4f m at the lowest, allowed %.4f", name_of(watch).c_str(), watch.lowest,
+                 watch.what.value),
+          watch.lowest >= watch.what.value};
+}
+
+Outcome Expectations::judge_apart(const Watch& watch) const {
+  return {format("all: at most %.4f m deep in one another after %.1f s, allowed %.4f",
+                 watch.deepest, watch.what.after, watch.what.value),
+          watch.deepest >= 0 && watch.deepest <= watch.what.value};
 }
 
 }  // namespace falling_objects

@@ -2,6 +2,7 @@
 // Whether what a scene is to show comes to pass ([[expect]] of its file).
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Expectations {
   Expectations(const Scene& scene, double hz);
 
   void after_step();
+  // How deep the deepest are in one another now, as measured on the meshes [m].
+  void after_measurement(double deepest);
   std::vector<Outcome> outcomes() const;
 
  private:
@@ -36,7 +39,9 @@ class Expectations {
     std::vector<Turning> turnings;    // of them, for ratios and screws
     std::vector<Point> start;         // where they were when it began to hold [m]
     double farthest = 0;              // from there, or off a screw's thread [m]
-    std::vector<double> speeds;       // of the fastest, in each step [m/s]
+    double lowest = std::numeric_limits<double>::infinity();  // center of one [m]
+    double deepest = -1;         // in one another [m]; negative: not measured yet
+    std::vector<double> speeds;  // of the fastest, in each step [m/s]
   };
   Turning turning_of(std::size_t body) const;
   void look(Watch& watch, double time) const;
@@ -44,7 +49,9 @@ class Expectations {
   Outcome judge_ratio(const Watch& watch) const;
   Outcome judge_screw(const Watch& watch) const;
   Outcome judge_still(const Watch& watch) const;
-  Outcome judge_stays(const Watch& watch) const;
+  Outcome judge_way(const Watch& watch) const;
+  Outcome judge_above(const Watch& watch) const;
+  Outcome judge_apart(const Watch& watch) const;
   std::string name_of(const Watch& watch) const;
 
   const Scene& scene_;

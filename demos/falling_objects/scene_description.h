@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,14 +78,16 @@ struct JointDescription {
 
 // What the scene is to show; falling_objects --check judges it.
 struct Expectation {
-  enum class Kind { kRatio, kScrew, kStill, kStays };
+  enum class Kind { kRatio, kScrew, kStill, kStays, kMoves, kAbove, kApart };
   Kind kind = Kind::kStill;
-  std::size_t body = 0, other = 0;  // `other`: of a ratio
-  bool all = false;                 // of all bodies that can move
-  double value = 0;   // ratio: of the two speeds; screw: pitch [m]; still: speed [m/s]; stays: [m]
+  std::vector<std::size_t> bodies;  // empty: all that can move
+  std::size_t other = 0;            // of a ratio
+  // Ratio: of the two speeds; screw: pitch [m]; still: speed [m/s]; stays, moves: [m];
+  // above: height [m]; apart: depth [m].
+  double value = 0;
   double within = 0;  // ratio: a share of it; screw: a share of a pitch
   double turns = 0;   // screw: so many at least
-  double after = 0;   // [s] from which on it holds
+  double after = 0, until = std::numeric_limits<double>::infinity();  // [s] while it holds
 };
 
 struct SceneDescription {

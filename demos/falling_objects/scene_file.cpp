@@ -98,9 +98,13 @@ JointDescription read_joint(TomlTable& table, const SceneDescription& scene,
 Expectation read_expectation(TomlTable& table, const BodyReader& bodies) {
   Expectation e;
   using Kind = Expectation::Kind;
-  const std::string kind = table.choice("kind", "still", {"ratio", "screw", "still", "stays"});
-  e.all = (kind == "still" || kind == "stays") && table.text("body", "").empty();
-  if (!e.all) e.body = bodies.body_named("body", table);
+  const std::string kind = table.choice(
+      "kind", "still", {"ratio", "screw", "still", "stays", "moves", "above", "apart"});
+  if (kind == "ratio" || kind == "screw") {
+    e.bodies = {bodies.body_named("body", table)};
+  } else if (kind != "apart" && !table.text("body", "").empty()) {
+    e.bodies = bodies.bodies_named("body", table);
+  }
   if (kind == "ratio") {
     e.kind = Kind::kRatio;
     e.other = bodies.body_named("other", table);
@@ -111,11 +115,21 @@ Expectation read_expectation(TomlTable& table, const BodyReader& bodies) {
     e.value = table.number("pitch");
     e.within = table.number("within", 0.25, kNotNegative);
     e.turns = table.number("turns", 0, kNotNegative);
+  } else if (kind == "still") {
+    e.kind = Kind::kStill;
+    e.value = table.number("speed");
+  } else if (kind == "above") {
+    e.kind = Kind::kAbove;
+    e.value = table.number("height");
+  } else if (kind == "apart") {
+    e.kind = Kind::kApart;
+    e.value = table.number("depth");
   } else {
-    e.kind = kind == "still" ? Kind::kStill : Kind::kStays;
-    e.value = table.number(kind == "still" ? "speed" : "distance");
+    e.kind = kind == "stays" ? Kind::kStays : Kind::kMoves;
+    e.value = table.number("distance");
   }
   e.after = table.number("after", 0, kNotNegative);
+  if (kind == "stays") e.until = table.number("until", e.until, kNotNegative);
   table.finish();
   return e;
 }

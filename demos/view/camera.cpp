@@ -55,6 +55,19 @@ float Camera::extent_at(glm::vec3 place) const {
   return 2 * glm::length(place - eye()) * std::tan(kFieldOfView / 2);
 }
 
+Camera seeing(Camera camera, std::span<const glm::vec3> places, float aspect) {
+  constexpr int kMostSteps = 60;  // ten times as far
+  constexpr float kStep = 1.04F, kRim = 0.97F;
+  const auto sees = [&](const glm::mat4& clip_from_world) {
+    return std::all_of(places.begin(), places.end(), [&](const glm::vec3& place) {
+      const glm::vec4 clip = clip_from_world * glm::vec4(place, 1);
+      return std::max(std::abs(clip.x), std::abs(clip.y)) <= kRim * clip.w;
+    });
+  };
+  for (int i = 0; i < kMostSteps && !sees(camera.clip_from_world(aspect)); ++i) camera.zoom(kStep);
+  return camera;
+}
+
 glm::vec3 Camera::right() const { return {-std::sin(azimuth), std::cos(azimuth), 0}; }
 
 glm::vec3 Camera::up() const {

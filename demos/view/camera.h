@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace view {
@@ -33,6 +34,10 @@ struct Camera {
 
 // A camera that sees a whole ball.
 Camera looking_at(glm::vec3 center, float radius);
+
+// The camera, or one as far behind it as it takes to see all these places in a picture that is
+// `aspect` times as wide as high.
+Camera seeing(Camera camera, std::span<const glm::vec3> places, float aspect);
 
 // `target` must be elsewhere than `eye`.
 Camera camera_at(glm::vec3 eye, glm::vec3 target);

@@ -141,7 +141,7 @@ Agreement compare(const TestScene& scene, bool are_convex = false) {
     }
     std::map<std::size_t, Deepest> found, should;
     for (const Candidate& c : records.candidates_of(i)) {
-      Deepest& deepest = found[same->at(c.region)];
+      Deepest& deepest = found[same->at(c.region >> 1)];
       if (static_cast<double>(c.depth) > deepest.depth)
         deepest = {static_cast<double>(c.depth), point_of(c.normal)};
     }

@@ -16,7 +16,7 @@ struct Candidate {
   ox_f32 normal[3];
   ox_f32 depth;
   ox_f32 distance2;
-  ox_u32 side_kind, vertex, triangle, manifold, region, taken;
+  ox_u32 side_kind, vertex, triangle, manifold, region, taken;  // region: OX_REGION_KEY
   ox_u32 feature[2];
 };
 
@@ -41,7 +41,7 @@ inline Candidate candidate_at(const Fields& list, std::size_t i) {
   c.vertex = list.word(OX_CANDIDATE_VERTEX, i);
   c.triangle = list.word(OX_CANDIDATE_TRIANGLE, i);
   c.manifold = list.word(OX_CANDIDATE_MANIFOLD, i);
-  c.region = list.word(OX_CANDIDATE_REGION, i) >> 1;
+  c.region = list.word(OX_CANDIDATE_REGION, i);
   c.taken = list.word(OX_CANDIDATE_TAKEN, i);
   for (ox_u32 k = 0; k < 2; ++k) c.feature[k] = list.word(OX_CANDIDATE_FEATURE + k, i);
   return c;
@@ -66,7 +66,7 @@ inline std::vector<ox_u32> words_of(const std::vector<Candidate>& candidates) {
     set(OX_CANDIDATE_VERTEX, c.vertex);
     set(OX_CANDIDATE_TRIANGLE, c.triangle);
     set(OX_CANDIDATE_MANIFOLD, c.manifold);
-    set(OX_CANDIDATE_REGION, OX_REGION_KEY(c.region, 0u));
+    set(OX_CANDIDATE_REGION, c.region);
     set(OX_CANDIDATE_TAKEN, c.taken);
     for (ox_u32 k = 0; k < 2; ++k) set(OX_CANDIDATE_FEATURE + k, c.feature[k]);
   }

@@ -32,7 +32,7 @@ Words words_of(const Candidate& c) {
   std::copy_n(c.position, 3, contact.position);
   std::copy_n(c.normal, 3, contact.normal);
   std::copy_n(c.feature, 2, contact.feature);
-  contact.region = OX_REGION_KEY(c.region, 0u);
+  contact.region = c.region;
   return words_of(contact);
 }
 

@@ -122,6 +122,70 @@ TEST_F(Expecting, StaysLooksAtEveryStepAfterItsTime) {
   EXPECT_FALSE(holds());
 }
 
+TEST_F(Expecting, StaysLooksAtNothingAfterItsEnd) {
+  expect("kind = \"stays\"\ndistance = 0.5\nuntil = 1\n");
+  move(0, 0, 0.4, 1);
+  move(0, 0, 9, 1);
+  EXPECT_TRUE(holds()) << words();
+}
+
+TEST_F(Expecting, MovesWantsOneThatGetsFarEnough) {
+  expect("kind = \"moves\"\ndistance = 0.5\nafter = 1\n");
+  move(0, 0, 3, 1);
+  EXPECT_FALSE(holds());
+  move(0, 0, 0.6, 1);
+  move(0, 0, -0.6, 1);  // back again
+  EXPECT_TRUE(holds()) << words();
+  dBodySetPosition(body(1), 0, std::nan(""), 0);
+  move(0, 0, 0, 0.1);
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, AboveFailsWithOneThatWasLower) {
+  expect("kind = \"above\"\nheight = -0.5\n");
+  move(0, 0, -0.4, 1);
+  EXPECT_TRUE(holds()) << words();
+  dBodySetPosition(body(1), 5, 0, -0.6);
+  move(0, 0, 0, 0.1);
+  dBodySetPosition(body(1), 5, 0, 0);
+  move(0, 0, 0, 1);
+  EXPECT_FALSE(holds());
+  dBodySetPosition(body(1), 5, 0, std::nan(""));
+  move(0, 0, 0, 0.1);
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, ApartFailsWithOneMeasurementThatIsDeeper) {
+  expect("kind = \"apart\"\ndepth = 0.1\nafter = 1\n");
+  move(0, 0, 0, 0.5);
+  expectations_->after_measurement(0.3);
+  move(0, 0, 0, 0.5);
+  EXPECT_FALSE(holds()) << "nothing was measured in its time";
+  expectations_->after_measurement(0.09);
+  EXPECT_TRUE(holds()) << words();
+  expectations_->after_measurement(0.11);
+  expectations_->after_measurement(0);
+  EXPECT_FALSE(holds());
+}
+
+TEST_F(Expecting, BodiesOfOneNameAreMeantTogether) {
+  scene_ = std::make_unique<Scene>(
+      read_scene("[[body]]\nmesh = \"cube\"\ncount = [12, 1, 1]\nspacing = [2, 1, 1]\n"
+                 "[[body]]\nname = \"other\"\nmesh = \"cube\"\nat = [0, 9, 0]\n"
+                 "[[expect]]\nkind = \"stays\"\nbody = \"cube\"\ndistance = 0.1\n",
+                 "test.toml"),
+      1, warnings_);
+  expectations_ = std::make_unique<Expectations>(*scene_, kHz);
+  expectations_->after_step();
+  dBodySetPosition(body(12), 0, 0, 7);
+  expectations_->after_step();
+  EXPECT_TRUE(holds()) << words();
+  EXPECT_THAT(words(), testing::HasSubstr("cube 1 to cube 12"));
+  dBodySetPosition(body(11), 0, 0, 7);
+  expectations_->after_step();
+  EXPECT_FALSE(holds());
+}
+
 TEST_F(Expecting, NothingHoldsOfARunThatIsTooShortToTell) {
   for (const char* what : {kRatio, "kind = \"stays\"\ndistance = 0.5\nafter = 2\n"}) {
     expect(what);

@@ -197,8 +197,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[mesh.a]\nfile = \"none.obj\"\n", "2: ", "cannot read the mesh"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[joint]]\nbody = \"cub\"\n",
               "4: ", "there is no body 'cub'; there are cube"},
-        Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"luck\"\n",
-              "4: ", "'kind' is 'luck', expected one of ratio, screw, still, stays"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"luck\"\n", "4: ",
+              "'kind' is 'luck', expected one of ratio, screw, still, stays, moves, above, apart"},
         Wrong{"[drop]\nobjects = 3\nmeshes = []\n", "3: ", "'meshes' must be texts in brackets"},
         Wrong{"[drop]\nmeshes = [\"plate\"]\n", "1: ", "must fit into a ball of radius 0.5"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[drop]\nmeshes = [\"jack\"]\n", "3: ", "not both"}));

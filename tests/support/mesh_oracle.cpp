@@ -2,6 +2,7 @@
 #include "support/mesh_oracle.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kClusterVertices = 32;
-constexpr double kMostCells = 1 << 20;  // 8 MiB of doubles
+constexpr double kMostCells = 1 << 26;
 
 double angle_between(Vector a, Vector b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
@@ -155,11 +156,11 @@ double Mesh::signed_distance(Vector p, const ClosestPoint& closest) const {
 
 // What is closest to the middle of p's cell is nearly as close to p: a good start for the search.
 double Mesh::signed_distance(Vector p) const {
-  return signed_distance(p, tree_.closest(p, filled(sample_near(p)).triangle));
+  return signed_distance(p, tree_.closest(p, sample_of(cell_near(p)).triangle));
 }
 
 double Mesh::depth(Vector p, double floor) const {
-  const ClosestPoint closest = tree_.closest(p, filled(sample_near(p)).triangle, floor * floor);
+  const ClosestPoint closest = tree_.closest(p, sample_of(cell_near(p)).triangle, floor * floor);
   return std::max(floor, -signed_distance(p, closest));
 }
 
@@ -170,31 +171,36 @@ void Mesh::lay_out_table() {
   const Vector size = tree_.high() - tree_.low();
   cell_ = std::max(0.5 * edges / static_cast<double>(triangles_.size()),
                    std::cbrt(size.x * size.y * size.z / kMostCells));
-  cells_ = {static_cast<std::size_t>(size.x / cell_) + 1,
-            static_cast<std::size_t>(size.y / cell_) + 1,
-            static_cast<std::size_t>(size.z / cell_) + 1};
-  table_.resize(cells_[0] * cells_[1] * cells_[2]);
+  const auto blocks = [&](double extent) {
+    return static_cast<std::size_t>(extent / cell_) / kBlock + 1;
+  };
+  blocks_ = {blocks(size.x), blocks(size.y), blocks(size.z)};
+  table_.resize(blocks_[0] * blocks_[1] * blocks_[2]);
 }
 
-Mesh::Sample& Mesh::sample_near(Vector p) const {
+Mesh::Cell Mesh::cell_near(Vector p) const {
   const Vector low = tree_.low(), high = tree_.high();
   const auto cell = [&](double Vector::*axis) {
     const double inside = std::clamp(p.*axis, low.*axis, high.*axis) - low.*axis;
     return static_cast<std::size_t>(inside / cell_);
   };
-  return table_[(cell(&Vector::z) * cells_[1] + cell(&Vector::y)) * cells_[0] + cell(&Vector::x)];
+  return {cell(&Vector::x), cell(&Vector::y), cell(&Vector::z)};
 }
 
-Vector Mesh::middle_of(const Sample& sample) const {
-  const auto index = static_cast<std::size_t>(&sample - table_.data());
-  const auto at = [](std::size_t cell) { return static_cast<double>(cell) + 0.5; };
-  return tree_.low() + cell_ * Vector{at(index % cells_[0]), at(index / cells_[0] % cells_[1]),
-                                      at(index / cells_[0] / cells_[1])};
+Vector Mesh::middle_of(const Cell& cell) const {
+  const auto at = [](std::size_t index) { return static_cast<double>(index) + 0.5; };
+  return tree_.low() + cell_ * Vector{at(cell[0]), at(cell[1]), at(cell[2])};
 }
 
-const Mesh::Sample& Mesh::filled(Sample& sample) const {
+const Mesh::Sample& Mesh::sample_of(const Cell& cell) const {
+  const auto index = [&cell](std::size_t unit, const Cell& counts, auto of) {
+    return (of(cell[2], unit) * counts[1] + of(cell[1], unit)) * counts[0] + of(cell[0], unit);
+  };
+  auto& block = table_[index(kBlock, blocks_, std::divides<>())];
+  if (block == nullptr) block = std::make_unique<Block>();
+  Sample& sample = (*block)[index(kBlock, {kBlock, kBlock, kBlock}, std::modulus<>())];
   if (std::isnan(sample.distance)) {
-    const Vector middle = middle_of(sample);
+    const Vector middle = middle_of(cell);
     const ClosestPoint closest = tree_.closest(middle);
     sample = {signed_distance(middle, closest), closest.triangle};
   }
@@ -210,8 +216,8 @@ double Mesh::lower_bound(Vector p, double reach) const {
                        std::max({low.z - p.z, p.z - high.z, 0.0})};
   const double beyond = length(outside);
   if (beyond > reach) return beyond - reach;
-  const Sample& sample = filled(sample_near(p));
-  return sample.distance - length(p - middle_of(sample)) - reach;
+  const Cell cell = cell_near(p);
+  return sample_of(cell).distance - length(p - middle_of(cell)) - reach;
 }
 
 double Mesh::thinnest_part() const {

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -79,13 +80,17 @@ class Mesh {
     double distance = std::numeric_limits<double>::quiet_NaN();  // signed; NaN: not yet computed
     std::uint32_t triangle = 0;                                  // the closest
   };
-  Sample& sample_near(Vector p) const;  // p is clamped to the grid
-  Vector middle_of(const Sample& sample) const;
-  const Sample& filled(Sample& sample) const;
+  using Cell = std::array<std::size_t, 3>;
+  Cell cell_near(Vector p) const;  // p is clamped to the grid
+  Vector middle_of(const Cell& cell) const;
+  const Sample& sample_of(const Cell& cell) const;
   double signed_distance(Vector p, const ClosestPoint& closest) const;
 
-  mutable std::vector<Sample> table_;
-  std::array<std::size_t, 3> cells_{};
+  // Blocks of cells, of which most are never asked about and do not exist.
+  static constexpr std::size_t kBlock = 8;  // cells along an edge
+  using Block = std::array<Sample, kBlock * kBlock * kBlock>;
+  mutable std::vector<std::unique_ptr<Block>> table_;
+  Cell blocks_{};
   double cell_ = 0;  // edge of a cell [m]
 };
 

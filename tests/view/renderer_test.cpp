@@ -165,6 +165,23 @@ TEST(Renderer, ShowsClothsFromBothSides) {
   EXPECT_GT(area(draw(studio, frame, camera), is_green), 1000);
 }
 
+TEST(Camera, GoesBackUntilAllIsSeenAndStaysWhereItIs) {
+  const view::Camera start = view::looking_at(glm::vec3(0), 1);
+  const std::vector<glm::vec3> near{{0, 0, 0}, {0.3F, 0, 0}}, far{{-3, 0, 0}, {3, 0, 0}};
+  EXPECT_EQ(view::seeing(start, near, 1).distance, start.distance);
+  const auto x_of = [&](const view::Camera& camera, float aspect) {
+    const glm::vec4 clip = camera.clip_from_world(aspect) * glm::vec4(far[1], 1);
+    return std::abs(clip.x) / clip.w;
+  };
+  for (const float aspect : {0.5F, 1.0F, 2.0F}) {
+    const view::Camera camera = view::seeing(start, far, aspect);
+    EXPECT_GT(x_of(start, aspect), 1);
+    EXPECT_LT(x_of(camera, aspect), 1);
+    EXPECT_GT(x_of(camera, aspect), 0.6F);
+    EXPECT_EQ(camera.target, start.target);
+  }
+}
+
 TEST(Studio, DrawsWorldsSideBySideWithTheirCaptions) {
   view::Studio studio({640, 240});
   const view::MeshId cube = add_cube(studio.renderer());

@@ -16,6 +16,11 @@ namespace {
 
 view::Size size_of(const PictureOptions& options) { return {options.width, options.height}; }
 
+// Of what one world is drawn into.
+float aspect_of(const PictureOptions& options) {
+  return view::side_by_side(size_of(options), options.beside_ode ? 2 : 1)[0].aspect();
+}
+
 class FilmOfRun : public Spectator {
  public:
   explicit FilmOfRun(const World& world)
@@ -24,7 +29,7 @@ class FilmOfRun : public Spectator {
         studio_(size_of(options_)),
         view_(world, studio_.renderer()),
         film_(options_.frames, options_.video, size_of(options_), options_.fps),
-        camera_(camera_of(world.options(), view_.frame(options_))) {
+        camera_(camera_of(world.options(), view_, aspect_of(options_))) {
     if (options_.beside_ode) {
       beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
       beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());

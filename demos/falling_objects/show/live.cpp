@@ -4,6 +4,7 @@
 #include <imgui/imgui.h>
 
 #include <chrono>
+#include <cmath>
 #include <iostream>
 
 #include "falling_objects/measured_world.h"
@@ -48,7 +49,7 @@ class Live {
   }
 
   void run() {
-    auto last = Clock::now();
+    auto last = opened_ = Clock::now();
     while (window_.open()) {
       window_.poll();
       gui_.begin();
@@ -69,7 +70,8 @@ class Live {
     out << "closed after " << pane().view.record().step + 1 << " steps with "
         << world.scene().objects().size() << " objects, driven by "
         << (world.options().collider == Collider::kBatch ? "the batch" : "ODE's own collider")
-        << ", drawn by " << view::renderer_name() << '\n';
+        << ", drawn by " << view::renderer_name() << ", "
+        << std::lround(drawn_ / seconds_since(opened_)) << " pictures a second\n";
   }
 
  private:
@@ -88,7 +90,10 @@ class Live {
     panes_.push_back(std::make_unique<Pane>(options_, both, *renderer_));
   }
 
-  void home() { camera_ = camera_of(options_, pane().view.frame(pictures_)); }
+  void home() {
+    camera_ = camera_of(options_, pane().view,
+                        view::side_by_side(window_.pixels(), panes_.size())[0].aspect());
+  }
 
   void take_keys() {
     if (ImGui::GetIO().WantTextInput) return;
@@ -197,6 +202,7 @@ class Live {
     canvas_->show();
     gui_.end();
     window_.swap();
+    ++drawn_;
   }
 
   Options options_;
@@ -212,6 +218,8 @@ class Live {
   std::size_t held_ = 0;
   Wishes wishes_;
   double owed_ = 0;  // [s] that the worlds are behind
+  Clock::time_point opened_;
+  int drawn_ = 0;  // pictures since then
 };
 
 }  // namespace

@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/show/world_view.h"
 
+#include <vector>
+
 #include "falling_objects/show/caption.h"
 #include "falling_objects/usage_error.h"
 
 namespace falling_objects {
+namespace {
+
+std::vector<glm::vec3> corners_of(const std::vector<view::Box>& boxes) {
+  std::vector<glm::vec3> corners;
+  for (const view::Box& box : boxes) {
+    for (unsigned i = 0; i < 8; ++i) {
+      corners.push_back(glm::mix(box.low, box.high, glm::vec3(i & 1U, (i >> 1U) & 1U, i >> 2U)));
+    }
+  }
+  return corners;
+}
+
+}  // namespace
 
 void WorldView::note(const StepRecord& record) {
   record_ = record;
@@ -23,14 +38,17 @@ view::Frame WorldView::frame(const PictureOptions& options) {
   return frame;
 }
 
-view::Camera camera_of(const Options& options, const view::Frame& frame) {
+view::Camera camera_of(const Options& options, WorldView& world, float aspect) {
+  PictureOptions with_boxes;
+  with_boxes.overlays = {"boxes"};
+  const view::Frame frame = world.frame(with_boxes);
   view::Camera start = overview(frame);
   if (const auto& hint = options.description.camera) {
     const auto place = [](const Point& p) { return glm::vec3(glm::dvec3(p[0], p[1], p[2])); };
     start = view::camera_at(place(hint->eye), place(hint->target));
   }
   const std::string& text = options.pictures.camera;
-  if (text.empty()) return start;
+  if (text.empty()) return view::seeing(start, corners_of(frame.boxes), aspect);
   const auto camera = view::parse_camera(text, start);
   if (!camera) {
     throw UsageError("--camera wants x,y,z:x,y,z or azimuth,elevation[,distance], not '" + text +

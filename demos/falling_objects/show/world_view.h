@@ -25,8 +25,9 @@ class WorldView {
   double deepest_ = 0;
 };
 
-// As the options say, else as the scene does, else so that all is seen. Throws UsageError where the
+// As the options say, else as the scene does, or from so much farther that all that moves is seen
+// at first in a picture that is `aspect` times as wide as high. Throws UsageError where the
 // options' text is none.
-view::Camera camera_of(const Options& options, const view::Frame& frame);
+view::Camera camera_of(const Options& options, WorldView& world, float aspect);
 
 }  // namespace falling_objects
