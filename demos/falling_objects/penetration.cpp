@@ -17,7 +17,13 @@ Mesh oracle_mesh(const TriangleMesh& mesh) { return Mesh(mesh.vertices, mesh.ind
 }  // namespace
 
 PenetrationMeter::PenetrationMeter(const Scene& scene) : scene_(scene) {
-  if (!scene.ground().empty()) ground_.emplace(oracle_mesh(scene.ground().mesh()));
+  if (const Ground& ground = scene.ground(); !ground.empty()) {
+    ground_.emplace(oracle_mesh(ground.mesh()));
+    // Its vertices are rounded to floats, its heights are not.
+    constexpr double kRounding = 1e-4;  // [m]
+    ground_->know_outside(
+        [&ground](ode_ext::oracle::Vector p) { return p.z > ground.height(p.x, p.y) + kRounding; });
+  }
   for (const Shape& shape : scene.shapes()) {
     shapes_.push_back(oracle_mesh(shape.mesh));
     half_thinnest_.push_back(shapes_.back().thinnest_part() / 2);

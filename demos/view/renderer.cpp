@@ -208,7 +208,7 @@ void Renderer::draw_shadows(const std::vector<Batches>& all,
   set(shadow_program_, "clip_from_world", clip_from_world);
   // Farther than it is, so that no surface throws a shadow on itself.
   glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(2.5F, 8.0F);
+  glPolygonOffset(2.5F, 512.0F);
   for (const Batches& batches : all) draw_batches(batches);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

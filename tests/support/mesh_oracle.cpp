@@ -263,6 +263,7 @@ double deepest_vertex(const Mesh& source, const Pose& source_pose, const Mesh& t
     if (!may_be || halved) continue;
     for (std::uint32_t v = cluster.first; v < cluster.first + cluster.count; ++v) {
       const Vector p = in_target(source.vertices()[v]);
+      if (target.is_known_outside(p)) continue;
       const double at_most = -target.lower_bound(p, 0);
       if (at_most > best) candidates.push_back({at_most, p});
     }

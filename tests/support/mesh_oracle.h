@@ -8,9 +8,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "support/oracle_vector.h"
@@ -33,6 +35,12 @@ class Mesh {
   // Distance to the surface [m], negative inside. The sign is that of the angle to the
   // pseudo-normal at the closest point (Baerentzen and Aanaes 2005), right at edges and corners.
   double signed_distance(Vector p) const;
+
+  // A test that is cheap and says true only of points that are outside: of a mesh whose shape is
+  // known otherwise it saves looking for the closest triangle.
+  using Outside = std::function<bool(Vector)>;
+  void know_outside(Outside outside) { outside_ = std::move(outside); }
+  bool is_known_outside(Vector p) const { return outside_ && outside_(p); }
 
   // How far inside p is [m] if that is more than `floor` [m], else `floor`. Quick where it is not.
   double depth(Vector p, double floor) const;
@@ -67,6 +75,7 @@ class Mesh {
   std::vector<Triangle> triangles_;
   std::vector<Cluster> clusters_;
   TriangleTree tree_;
+  Outside outside_;
   bool closed_ = false;
   double radius_ = 0;
 

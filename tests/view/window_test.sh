@@ -17,7 +17,7 @@ unset WAYLAND_DISPLAY
 
 # It says which number it took. Without -noreset it refuses the program while it starts anew, as it does
 # whenever xdotool, the only client so far, has left.
-Xvfb -displayfd 3 -screen 0 1200x640x24 -nolisten tcp -noreset 3> "$out/number" 2> "$out/xvfb" &
+Xvfb -displayfd 3 -screen 0 1200x680x24 -nolisten tcp -noreset 3> "$out/number" 2> "$out/xvfb" &
 screen=$!
 wait_for() { # SECONDS COMMAND...
   local end=$((SECONDS + $1))
@@ -32,7 +32,7 @@ DISPLAY=:$(cat "$out/number")
 export DISPLAY
 
 # No option asks for the window: there is a display.
-"$program" --objects 24 --size 1200x640 --beside ode --overlay caption,contacts,regions,boxes \
+"$program" --objects 24 --size 1200x680 --beside ode --overlay caption,contacts,regions,boxes \
   > "$out/log" 2>&1 &
 window=$!
 focus() { xdotool windowfocus "$(xdotool search --onlyvisible --name '^falling_objects$')"; }
@@ -41,8 +41,8 @@ wait_for 120 focus || fail "no window came"
 # The whole, and ODE's half: that shows no number that changes while nothing else does. Without the
 # pointer, which would be a change of its own.
 picture() {
-  ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size 1200x640 -i "$DISPLAY" \
-    -frames:v 1 "$out/$1.png" -frames:v 1 -vf crop=600:640:0:0 "$out/$1-half.png"
+  ffmpeg -loglevel error -y -f x11grab -draw_mouse 0 -video_size 1200x680 -i "$DISPLAY" \
+    -frames:v 1 "$out/$1.png" -frames:v 1 -vf crop=600:680:0:0 "$out/$1-half.png"
 }
 # How many colors there are tells an empty window from a drawn one.
 colors() {

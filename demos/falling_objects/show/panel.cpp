@@ -88,9 +88,11 @@ void draw_light(bool redone) {
 }
 
 void draw_overlays(PictureOptions& pictures) {
-  int count = 0;
+  constexpr int kColumns = 3;
+  int column = 0;
   for (const char* name : kOverlays) {
-    if (count++ % 2 == 1) ImGui::SameLine(150);
+    if (column != 0) ImGui::SameLine(8 + static_cast<float>(column) * kWidth / kColumns);
+    column = (column + 1) % kColumns;
     bool shown = pictures.shows(name);
     if (ImGui::Checkbox(name, &shown)) {
       if (shown) {
