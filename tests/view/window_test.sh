@@ -33,6 +33,7 @@ export DISPLAY
 
 # No option asks for the window: there is a display.
 "$program" --objects 24 --size 1200x680 --beside ode --overlay caption,contacts,regions,boxes \
+  --camera=4.9,-5.2,5.6:1.4,1.0,0.3 \
   > "$out/log" 2>&1 &
 window=$!
 focus() { xdotool windowfocus "$(xdotool search --onlyvisible --name '^falling_objects$')"; }
