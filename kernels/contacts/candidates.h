@@ -4,7 +4,7 @@
 #define ODE_EXT_KERNELS_CONTACTS_CANDIDATES_H
 
 #include "contacts/candidate_list.h"
-#include "contacts/units.h"
+#include "contacts/clear_units.h"
 
 // Where candidates go, as they come.
 typedef struct {

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The plane that a unit is cleared by, and what else the move past it clears. Device only.
+#ifndef ODE_EXT_KERNELS_CONTACTS_CLEAR_UNITS_H
+#define ODE_EXT_KERNELS_CONTACTS_CLEAR_UNITS_H
+
+#include "contacts/units.h"
+
+#define OX_MOST_PLANES 16u
+
+// A move along the normal of a plane by its depth, and how far it goes along those chosen so far.
+typedef struct {
+  ox_plane plane;
+  float far;  // [m]
+  uint count;
+  ox_plane chosen[OX_MOST_PLANES];
+  float along[OX_MOST_PLANES];  // [m]
+} ox_parting_move;
+
+static inline void ox_set_move(const ox_region_view* r, const ox_plane_choice* choice,
+                               ox_parting_move* move) {
+  move->plane = choice->plane;
+  move->far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  move->chosen[move->count++] = choice->plane;
+  for (uint i = 0u; i < move->count; ++i)
+    move->along[i] = move->far * ox_dot(move->plane.normal, move->chosen[i].normal);
+}
+
+// A plane that faces back from one that is chosen costs twice as much: two that oppose one another
+// jam the body between them.
+#define OX_OPPOSES -0.5f
+#define OX_DETOUR 2.0f
+
+static inline float ox_detour(const ox_parting_move* move, const ox_plane* plane) {
+  for (uint i = 0u; i < move->count; ++i)
+    if (ox_dot(move->chosen[i].normal, plane->normal) < OX_OPPOSES) return OX_DETOUR;
+  return 1.0f;
+}
+
+// A unit that a plane is looked for.
+typedef struct {
+  uint unit;
+  uint side;
+  float3 through[2];  // the normals of the faces that it goes through, turned where they are of A
+  uint count;         // of those
+  const ox_parting_move* before;  // the planes chosen already
+} ox_seed;
+
+static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
+                                 const ox_parting_move* before) {
+  ox_seed seed;
+  seed.before = before;
+  seed.unit = unit;
+  seed.side = ox_side_of(ox_flags_of(r, unit));
+  seed.count = 0u;
+  __global const ox_feature* f = ox_feature_of(r, unit);
+  for (uint end = 0u; end < 2u && !ox_is_vertex(f->flags); ++end) {
+    const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
+    seed.through[seed.count++] = seed.side == 0u ? normal : -normal;
+    if (f->partner == OX_NONE) break;
+    f = r->features + f->partner;
+  }
+  return seed;
+}
+
+// Tries a plane for a unit, of those that come after another.
+static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
+                               const ox_plane_choice* after, ox_plane_choice* best) {
+  ox_plane_choice choice;
+  choice.plane = *plane;
+  choice.depth = ox_unit_depth(r, seed->unit, plane);
+  if (choice.depth == INFINITY) return;
+  const float tie = ox_edge_tie(r, plane);
+  const float detour = ox_detour(seed->before, plane);
+  choice.judged = detour * (choice.depth + tie);
+  if (!ox_is_better_choice(&choice, best)) return;
+  // Where it goes on through a face that looks back, all of the body has to pass the plane.
+  for (uint i = 0u; i < seed->count; ++i)
+    if (ox_dot(plane->normal, seed->through[i]) < OX_LOOKS_BACK) {
+      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged / detour - tie);
+      choice.judged = detour * (ox_max(choice.depth, of_body) + tie);
+      break;
+    }
+  if (ox_is_better_choice(&choice, best) &&
+      (after->plane.kind == OX_PLANE_NONE || ox_is_better_choice(after, &choice)))
+    *best = choice;
+}
+
+// A bit for each plane of a block that clears a unit by a move of `limit` at most.
+static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint unit, float limit) {
+  const uint side = ox_side_of(ox_flags_of(r, unit));
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  ox_floats one, other;
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_position_of(r, unit), &one);
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_vector_of(&r->members, OX_MEMBER_END, unit),
+                &other);
+  const ox_floats level =
+      OX_LOAD_FLOATS(&r->planes, side == 0u ? OX_PLANE_TOP : OX_PLANE_BOTTOM, block);
+  one = side == 0u ? level - one : one - level;
+  other = side == 0u ? level - other : other - level;
+  const ox_ints clears = (one + other >= past + past) & (one <= limit) & (other <= limit);
+  // Those of other kinds clear the other mesh alone.
+  const uint others = ox_of_kind(&r->planes, block, OX_PLANE_KIND,
+                                 side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
+  return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
+}
+
+// Of all planes of the region, and a unit's own, the best for it that comes after another.
+static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed,
+                                            const ox_plane_choice* after) {
+  ox_plane_choice best = ox_no_choice();
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    uint clears = ox_clearing_planes(r, block, seed->unit, best.judged);
+    for (; clears != 0u; clears &= clears - 1u) {
+      const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(clears));
+      ox_try_unit(r, seed, &plane, after, &best);
+    }
+  }
+  const ox_plane own = ox_own_plane(r, seed->unit);
+  ox_try_unit(r, seed, &own, after, &best);
+  return best;
+}
+
+static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
+                                 const ox_plane_choice* choice) {
+  const float3 end = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
+  return ox_stays_inside(r, seed->side, ox_position_of(r, seed->unit), &choice->plane,
+                         choice->depth) ||
+         ox_stays_inside(r, seed->side, end, &choice->plane, choice->depth);
+}
+
+// The best plane for a unit. Where one does not separate it, all of the body has to pass it.
+static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
+                                            const ox_parting_move* before) {
+  const ox_seed seed = ox_seed_of(r, unit, before);
+  ox_plane_choice of_body = ox_no_choice();
+  ox_plane_choice choice = of_body;
+  for (uint tries = 0u; tries < OX_MOST_TRIES; ++tries) {
+    choice = ox_search_for(r, &seed, &choice);
+    if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
+    if (!ox_unit_stays(r, &seed, &choice)) return choice;
+    ox_plane_choice repriced = choice;
+    const float depth = ox_depth_of_body(r, &choice.plane, seed.side, INFINITY);
+    repriced.judged = ox_detour(before, &choice.plane) *
+                      (ox_max(choice.depth, depth) + ox_edge_tie(r, &choice.plane));
+    if (ox_is_better_choice(&repriced, &of_body)) of_body = repriced;
+  }
+  return of_body;
+}
+
+// Takes a plane for a unit if a move goes so far along it, and it is the least so far.
+static inline void ox_try_clearing(const ox_region_view* r, uint k, const ox_plane* plane,
+                                   float along, ox_plane_choice* by) {
+  ox_plane_choice choice;
+  choice.plane = *plane;
+  choice.depth = choice.judged = ox_unit_depth(r, k, plane);
+  if (choice.depth <= along && ox_is_better_choice(&choice, by)) *by = choice;
+}
+
+// The plane by which a move clears a unit: that of the move, or else the least of its own best and
+// of those chosen that the move takes it past; OX_PLANE_NONE: there is none.
+static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
+                                                const ox_parting_move* move) {
+  ox_plane_choice by = ox_no_choice();
+  ox_try_clearing(r, k, &move->plane, move->far, &by);
+  if (by.plane.kind != OX_PLANE_NONE) return by;
+  for (uint i = 0u; i < move->count; ++i)
+    if (move->along[i] >= 0.0f) ox_try_clearing(r, k, move->chosen + i, move->along[i], &by);
+  const float3 normal = ox_vector_of(&r->members, OX_MEMBER_NORMAL, k);
+  if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <=
+      move->far * ox_dot(move->plane.normal, normal)) {
+    const ox_plane plane = ox_own_plane(r, k);
+    ox_try_clearing(r, k, &plane, INFINITY, &by);
+  }
+  return by;
+}
+
+// A bit for each unit of a block that a plane clears by a move so far along it.
+static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_plane* plane,
+                                 float along) {
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const ox_ints is_b =
+      (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
+  const uint of_b = ox_mask_of(&is_b);
+  ox_floats one, other;
+  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, plane->normal, &one);
+  ox_dot_fields(&r->members, OX_MEMBER_END, block, plane->normal, &other);
+  uint cleared = 0u;
+  if (ox_clears_side(plane, 0u)) {
+    const ox_floats a = plane->top - one;
+    const ox_floats b = plane->top - other;
+    const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
+    cleared |= ox_mask_of(&clears) & ~of_b;
+  }
+  if (ox_clears_side(plane, 1u)) {
+    const ox_floats a = one - plane->bottom;
+    const ox_floats b = other - plane->bottom;
+    const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
+    cleared |= ox_mask_of(&clears) & of_b;
+  }
+  return cleared;
+}
+
+// A bit for each waiting unit of a block that a move clears.
+static inline uint ox_cleared_units(const ox_region_view* r, uint block, uint waiting,
+                                    const ox_parting_move* move) {
+  uint cleared = ox_cleared_by(r, block, &move->plane, move->far);
+  for (uint i = 0u; i < move->count; ++i)
+    if (move->along[i] >= 0.0f)
+      cleared |= ox_cleared_by(r, block, move->chosen + i, move->along[i]);
+  ox_floats cosine;
+  ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, move->plane.normal, &cosine);
+  const ox_ints past_own =
+      OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= move->far * cosine;
+  return (cleared | ox_mask_of(&past_own)) & ox_present_lanes(waiting, block);
+}
+
+#endif
