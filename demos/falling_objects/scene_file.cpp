@@ -130,6 +130,7 @@ Expectation read_expectation(TomlTable& table, const BodyReader& bodies) {
   }
   e.after = table.number("after", 0, kNotNegative);
   if (kind == "stays") e.until = table.number("until", e.until, kNotNegative);
+  if (e.until <= e.after) table.fail("until", "'until' must be later than 'after'");
   table.finish();
   return e;
 }

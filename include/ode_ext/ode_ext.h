@@ -211,8 +211,9 @@ enum {
     pieces, each of which has a contact as far as max_contacts allows. */
 typedef struct dBatchContactRegion {
   int region;  /**< number within the pair: 0 is that of the first of the pair's contacts, the
-                    deepest, 1 that of the first in another, and so on; -1: not known. In the next
-                    step a region may have another number */
+                    deepest, 1 that of the first in another, and so on, those among them that a
+                    callback of the program refused; -1: not known. In the next step a region may
+                    have another number */
   int overlap; /**< dBatchOverlap...; exchanged arguments exchange the two that are inside */
 } dBatchContactRegion;
 
@@ -233,8 +234,8 @@ ODE_EXT_API int dBatchColliderGetContactRegions(dBatchColliderID collider,
 /**
  * Writes into which meshlet, a cluster of up to 16 neighboring triangles that are collided at a
  * time, each triangle of a mesh was put, to draw them. The mesh is known from its first pass or
- * question on, as it was when last met, until it is announced to have changed or no pass meets it
- * for a long time; the handle is not dereferenced. A collider of 0 knows none.
+ * question on, as it was when last met, until it is announced to have changed or to be deformable,
+ * or no pass meets it for a long time; the handle is not dereferenced. A collider of 0 knows none.
  * @param triangle_count  of the mesh: dGeomTriMeshGetTriangleCount of a geom of it
  * @param meshlets        triangle_count numbers from 0, written: neighbors have numbers near
  *                        one another. -1: not known, or two of the triangle's corners are in one

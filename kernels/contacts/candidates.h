@@ -130,8 +130,12 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   ox_touch touch;
   for (uint side = 0u; side < 2u; ++side)
     touch.feature[side] = OX_OF(OX_OF_SIDE, choice->plane.id[side]);
-  ox_add_candidate(m, choice, 0u, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT,
-                   ridge_a.face[0], ridge_b.face[0], touch);
+  // Of what is wholly inside the other the points are of the inner mesh alone.
+  const uint side = any_a ? 0u : 1u;
+  const uint source = side == 0u ? ridge_a.face[0] : ridge_b.face[0];
+  const uint target = side == 0u ? ridge_b.face[0] : ridge_a.face[0];
+  ox_add_candidate(m, choice, side, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT, source,
+                   target, touch);
 }
 
 // Contacts of all of a whole region.

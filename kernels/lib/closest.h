@@ -78,10 +78,10 @@ static inline void ox_distances2(__global const ox_meshlet* m, uint block, float
 // The triangle that is nearest so far; distances are squared and scaled.
 typedef struct {
   uint triangle;
-  float distance2;
-  float height2;  // to its plane
-  float tie;      // triangles whose distances differ by no more are as near
-  float near2;    // that and the tie: what is farther is not looked at
+  float distance2;  // the least, which that of the triangle may be more than by the tie
+  float height2;    // to its plane
+  float tie;        // triangles whose distances differ by no more are as near
+  float near2;      // that and the tie: what is farther is not looked at
 } ox_closest;
 
 static inline void ox_set_closest(ox_closest* closest, uint triangle, float distance2,
@@ -103,7 +103,7 @@ static inline void ox_note_closest(ox_closest* closest, uint triangle, float dis
   const bool faces_more =
       height2 > closest->height2 || (height2 == closest->height2 && triangle < closest->triangle);
   if (is_nearer || (distance2 <= closest->near2 && faces_more))
-    ox_set_closest(closest, triangle, distance2, height2);
+    ox_set_closest(closest, triangle, OX_LESSER(distance2, closest->distance2), height2);
 }
 
 // Within `bound` [m]; OX_NONE: none is. `tie` [m]: by how much distances may be off.

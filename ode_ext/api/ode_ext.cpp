@@ -91,8 +91,9 @@ int collide_one_by_one(const dGeomID* pairs, int pair_count, int flags, dContact
   auto* bytes = reinterpret_cast<unsigned char*>(contacts);
   for (int i = 0; i < pair_count; ++i) {
     const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(i) * (flags & 0xffff) * skip;
-    const int count = dCollide(pairs[2 * i], pairs[2 * i + 1], flags,
-                               reinterpret_cast<dContactGeom*>(bytes + first), skip);
+    const dGeomID* pair = pairs + 2 * static_cast<std::ptrdiff_t>(i);
+    const int count =
+        dCollide(pair[0], pair[1], flags, reinterpret_cast<dContactGeom*>(bytes + first), skip);
     if (counts != nullptr) counts[i] = count;
     total += count;
   }

@@ -50,8 +50,9 @@ int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contac
   BatchCollider* passing = Pass::collider_on_this_thread();
   if (passing != nullptr) return passing->answer(g1, g2, limit, contacts, skip);
   const auto colliders = live_colliders();
-  for (auto it = colliders.rbegin(); it != colliders.rend(); ++it)
-    if ((*it)->holds(g1, g2)) return (*it)->answer(g1, g2, limit, contacts, skip);
+  const auto latest = std::find_if(colliders.rbegin(), colliders.rend(),
+                                   [&](const auto& collider) { return collider->holds(g1, g2); });
+  if (latest != colliders.rend()) return (*latest)->answer(g1, g2, limit, contacts, skip);
   if (colliders.empty()) return -1;
   return colliders.back()->answer(g1, g2, limit, contacts, skip);
 }

@@ -67,7 +67,7 @@ class Kernel {
   void set_argument(cl_uint index, const T& value) {
     if constexpr (std::is_same_v<T, Buffer>) {
       const cl_mem memory = value.get();
-      set_argument_bytes(index, sizeof(memory), &memory);
+      set_argument_bytes(index, sizeof(cl_mem), &memory);
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       set_argument_bytes(index, sizeof(T), &value);

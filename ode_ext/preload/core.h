@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(modernize-*): C. */
 typedef struct dxPreloadCore {
   /* A pass, of a space where `second` is NULL, else of two geoms. 0: ODE is to make it, nothing was
      done. */
@@ -28,6 +29,7 @@ typedef struct dxPreloadCore {
    Returns NULL where that ODE lacks one, and names it. */
 typedef const dxPreloadCore* dxPreloadCoreFn(void* (*find)(const char* name), const char** missing);
 dxPreloadCoreFn ode_ext_preload_core;
+/* NOLINTEND(modernize-*) */
 
 #ifdef __cplusplus
 }

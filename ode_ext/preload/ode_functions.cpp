@@ -58,7 +58,8 @@ struct Function {
 
 const Function kFunctions[] = {
 #define ODE_FUNCTION(name) {#name, &ode_ext_place_of_##name, nullptr},
-#define ODE_FUNCTION_OR(name, own) {#name, &ode_ext_place_of_##name, reinterpret_cast<void*>(&own)},
+#define ODE_FUNCTION_OR(name, own) \
+  {#name, &ode_ext_place_of_##name, reinterpret_cast<void*>(&(own))},
 #include "preload/ode_functions.h"
 };
 

@@ -85,7 +85,7 @@ class AppendLists {
 
  private:
   std::uint64_t read_counter(std::size_t of, std::size_t counter) const {
-    const std::size_t word = of * OX_COUNTER_WORDS + counter * OX_COUNTER_STRIDE;
+    const std::size_t word = (of * OX_COUNTER_COUNT + counter) * OX_COUNTER_STRIDE;
     return static_cast<const ox_u32*>(read_counters_.data())[word];
   }
   // Lists of one kind beside one another, each with this room; the ends of their buffers.

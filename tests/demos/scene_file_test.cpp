@@ -199,6 +199,9 @@ INSTANTIATE_TEST_SUITE_P(
               "4: ", "there is no body 'cub'; there are cube"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"luck\"\n", "4: ",
               "'kind' is 'luck', expected one of ratio, screw, still, stays, moves, above, apart"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"stays\"\ndistance = 1\n"
+              "after = 2\nuntil = 1\n",
+              "7: ", "'until' must be later than 'after'"},
         Wrong{"[drop]\nobjects = 3\nmeshes = []\n", "3: ", "'meshes' must be texts in brackets"},
         Wrong{"[drop]\nmeshes = [\"plate\"]\n", "1: ", "must fit into a ball of radius 0.5"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[drop]\nmeshes = [\"jack\"]\n", "3: ", "not both"}));

@@ -88,6 +88,7 @@ class Replay {
   std::vector<Played> play_all(const PassRecord& pass) {
     std::vector<Played> played = players_[pass.collider]->play(pass, options_.repeat);
     std::vector<double> ms;
+    ms.reserve(played.size());
     for (const Played& one : played) ms.push_back(one.ms);
     ++totals_.passes;
     totals_.pairs += pass.pairs;
