@@ -104,10 +104,13 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint 
   return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
 }
 
-// Of all planes of the region, and a unit's own, the best for it that comes after another.
+// Of all planes of the region, and a unit's own, the best for it that comes after another. Its own
+// is tried first: what costs more need not be looked at.
 static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed,
                                             const ox_plane_choice* after) {
   ox_plane_choice best = ox_no_choice();
+  const ox_plane own = ox_own_plane(r, seed->unit);
+  ox_try_unit(r, seed, &own, after, &best);
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     uint clears = ox_clearing_planes(r, block, seed->unit, best.judged);
     for (; clears != 0u; clears &= clears - 1u) {
@@ -115,8 +118,6 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
       ox_try_unit(r, seed, &plane, after, &best);
     }
   }
-  const ox_plane own = ox_own_plane(r, seed->unit);
-  ox_try_unit(r, seed, &own, after, &best);
   return best;
 }
 
