@@ -154,6 +154,23 @@ static inline uint ox_children_in_box(const ox_box* box, __global const ox_meshl
   return ox_mask_of(&met) & ox_present_children(node, block);
 }
 
+// Whether a box meets that of any meshlet of a mesh.
+static inline bool ox_meets_meshlets(const ox_box* box, __global const ox_mesh* mesh,
+                                     __global const ox_meshlet_node* all_nodes) {
+  ox_box_walk walk = ox_begin_box_walk(mesh);
+  while (walk.count != 0u) {
+    const uint child = walk.child[--walk.count];
+    if ((child & OX_CHILD_MESHLET) != 0u) return true;
+    __global const ox_meshlet_node* node = all_nodes + mesh->meshlet_node_first + (child >> 1);
+    for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
+      uint met = ox_children_in_box(box, node, first / OX_VECTOR_WIDTH);
+      for (; met != 0u; met &= met - 1u)
+        walk.child[walk.count++] = node->child[first + ox_lowest(met)];
+    }
+  }
+  return false;
+}
+
 // Two planes, and what lies between them.
 typedef struct {
   float3 normal;
