@@ -27,18 +27,19 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
     const uint next = ox_next_on_ray(&walk, &cast, shape, meshlet_nodes, 0.0f, limit, &work);
     if (next == OX_NONE) return back_t < front_t ? back_t : INFINITY;
     __global const ox_meshlet* meshlet = meshlets + next;
+    ox_moved_vertices seen;
+    ox_shear_vertices(&cast, meshlet, &seen);
     for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
       ox_floats t, determinant;
-      ox_ints met;
-      ox_meets_lanes(&cast, meshlet, first / OX_VECTOR_WIDTH, &met, &t, &determinant);
-      met &= (t > move->on_surface) & (t < INFINITY);
-      uint left = ox_mask_of(&met);
+      uint left = ox_meets_lanes(&cast, meshlet, &seen, first / OX_VECTOR_WIDTH, move->on_surface,
+                                 INFINITY, &t, &determinant);
       if (left == 0u) continue;
       float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
       ox_store(t, 0, t_lane);
       ox_store(determinant, 0, determinant_lane);
       for (; left != 0u; left &= left - 1u) {
         const uint k = ox_lowest(left);
+        if (!(t_lane[k] > move->on_surface)) continue;
         const uint triangle = meshlet->triangle_first - shape->triangle_first + first + k;
         __global const uint* corners = topology + move->corner_first + 3u * triangle;
         if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;

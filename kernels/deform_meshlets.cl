@@ -18,14 +18,12 @@ static bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_
 
 // Any normal gives a slab that holds the meshlet; the mean of its triangles' by area gives a thin
 // one.
-static void ox_measure_slab(__global ox_meshlet* meshlet) {
+static void ox_measure_slab(__global const ox_triangle* triangles, __global ox_meshlet* meshlet) {
   float3 sum = (float3)(0.0f);
   for (uint k = 0u; k < meshlet->triangle_count; ++k) {
-    float3 corner[3];
-    for (uint c = 0u; c < 3u; ++c)
-      corner[c] =
-          (float3)(meshlet->corner[c][0][k], meshlet->corner[c][1][k], meshlet->corner[c][2][k]);
-    sum += ox_plain_cross(corner[1] - corner[0], corner[2] - corner[0]);
+    __global const ox_triangle* t = triangles + meshlet->triangle_first + k;
+    const float3 a = vload3(0, t->a);
+    sum += ox_plain_cross(vload3(0, t->b) - a, vload3(0, t->c) - a);
   }
   const float norm = ox_norm(sum);
   const float3 normal = norm > 0.0f && norm < INFINITY ? sum / norm : (float3)(0.0f);
@@ -50,14 +48,14 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
   for (uint i = (uint)get_global_id(0); i < starts[move_count]; i += stride) {
     const uint m = ox_move_of(starts, move_count, i);
     __global ox_meshlet* meshlet = meshlets + moves[m].shape.meshlet_first + (i - starts[m]);
+    meshlet->with_area = 0u;
+    for (uint k = 0u; k < meshlet->triangle_count; ++k) {
+      const float3 normal = vload3(0, triangles[meshlet->triangle_first + k].normal);
+      if (ox_dot(normal, normal) != 0.0f) meshlet->with_area |= 1u << k;
+    }
     for (uint k = 0u; k < OX_LANES; ++k) {
-      const bool used = k < meshlet->triangle_count;
-      __global const ox_triangle* t = triangles + meshlet->triangle_first + (used ? k : 0u);
       __global const ox_vertex* v = vertices + meshlet->vertex_index[k];
       for (uint axis = 0u; axis < 3u; ++axis) {
-        meshlet->corner[0][axis][k] = t->a[axis];
-        meshlet->corner[1][axis][k] = used ? t->b[axis] : t->a[axis];
-        meshlet->corner[2][axis][k] = used ? t->c[axis] : t->a[axis];
         meshlet->vertex[axis][k] = v->position[axis];
         meshlet->normal[axis][k] = -v->direction[axis];
       }
@@ -72,7 +70,7 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
       meshlet->lo[axis] = lo;
       meshlet->hi[axis] = hi;
     }
-    ox_measure_slab(meshlet);
+    ox_measure_slab(triangles, meshlet);
     meshlet->edges_apart = 0u;
     for (uint e = 0u; e < meshlet->edge_count; ++e)
       if (!ox_is_flat(triangles, edges + meshlet->edge[e])) meshlet->edges_apart |= 1u << e;

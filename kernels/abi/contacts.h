@@ -12,8 +12,7 @@
 #define OX_FEATURE_LEAVES 2u     // of a crossing: the edge leaves the other mesh here
 #define OX_FEATURE_VERTEX 4u     // no crossing
 #define OX_FEATURE_FLAT 8u       // within a facet: of no contact, and no member of a region
-#define OX_FEATURE_REVERSED 32u  // of a vertex: it is behind the face whose normal is turned
-#define OX_FEATURE_VALLEY 16u    // of an edge, or at one, at which its mesh is not convex
+#define OX_FEATURE_REVERSED 16u  // of a vertex: it is behind the face whose normal is turned
 
 typedef struct {
   ox_f32 position[3];  // in the frame of B

@@ -147,8 +147,7 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_neighbour) == 8, ox_neighbour_is_8_bytes);
 
 // A meshlet (mesh/meshlets.h), component by component, as sixteen lanes want it. All indices
-// count over all meshes. Lanes beyond the triangles, and triangles of no area, have three equal
-// corners: no edge crosses them. Lanes beyond the vertices repeat the first, indices too.
+// count over all meshes. Lanes beyond the vertices repeat the first, indices too.
 typedef struct {
   // What is asked of every meshlet that may meet another, together,
   ox_f32 vertex[3][OX_LANES];  // x, y, z
@@ -158,30 +157,25 @@ typedef struct {
   ox_u32 triangle_first, triangle_count;
   ox_u32 edge_count;
   ox_u32 edges_apart;  // a bit for each edge that lies between facets in the present shape
-  ox_u32 vertex_count;
+  ox_u32 with_area;    // a bit for each triangle that has one in the present shape
   ox_u32 ends[OX_MESHLET_EDGES / 2];  // places in `vertex`; of edge e OX_END(ends, e, 0) and 1
   // of those that do,
-  ox_f32 corner[3][3][OX_LANES];  // a, b, c; x, y, z
+  ox_f32 normal[3][OX_LANES];  // of the vertices, unit, or 0 where none is known
+  ox_u32 places[OX_LANES];     // of the corners of each triangle in `vertex`: OX_CORNER_SHIFT
   // and of edges that cross it.
   ox_u32 edge[OX_MESHLET_EDGES];
   ox_u32 vertex_index[OX_LANES];
-  // Of meshes in general position: normals of the vertices, unit, or 0 where none is known; where
-  // the corners of a triangle are in `vertex`, OX_CORNER(places, k, corner).
-  ox_f32 normal[3][OX_LANES];
-  ox_u32 places[OX_LANES];
 } ox_meshlet;
-OX_STATIC_ASSERT(sizeof(ox_meshlet) == 1344, ox_meshlet_is_1344_bytes);
-// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `corner` at 320,
-// `normal` at 1088.
+OX_STATIC_ASSERT(sizeof(ox_meshlet) == 768, ox_meshlet_is_768_bytes);
+// Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `normal` at 320.
 OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 
 // Where edge e of a meshlet begins or ends: eight bits each, two edges a word.
 #define OX_END_SHIFT(e, end) (16u * ((e)&1u) + 8u * (end))
 #define OX_END(ends, e, end) ((ends)[(e) / 2u] >> OX_END_SHIFT(e, end) & 255u)
 
-// Eight bits each.
+// Where corner 0, 1 or 2 is, eight bits each; all 0 beyond the triangles.
 #define OX_CORNER_SHIFT(corner) (8u * (corner))
-#define OX_CORNER(places, k, corner) ((places)[k] >> OX_CORNER_SHIFT(corner) & 255u)
 
 // A meshlet that can meet the other mesh of its pair. Of each pair they are those of one mesh.
 typedef struct {

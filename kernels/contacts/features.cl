@@ -43,7 +43,6 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       if (ox_is_flat_edge(scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
       f.mate[0] = i << 1;
       if (f.at[1] != OX_NONE) f.mate[1] = i << 1 | 1u;
-      if (ox_is_valley(scene, f.pair, crossing.edge)) f.flags |= OX_FEATURE_VALLEY;
       const float3 p = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[0]);
       const float3 d = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[1]) - p;
       const float length = sqrt(ox_dot(d, d));
@@ -59,14 +58,6 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       f.triangle = hit->triangle;
       f.t = 0.0f;
       f.next = hit->from;
-      const uint end = is_flat ? 0u : scene->ring_starts[hit->vertex + 1u];
-      for (uint k = scene->ring_starts[hit->vertex]; k < end; ++k) {
-        if (ox_is_flat_edge(scene, scene->rings[k].edge) ||
-            !ox_is_valley(scene, f.pair, scene->rings[k].edge))
-          continue;
-        f.flags |= OX_FEATURE_VALLEY;
-        break;
-      }
       position = ox_vertex_of(scene, f.pair, side, hit->vertex);
     }
     vstore3(position, 0, f.position);
@@ -244,7 +235,17 @@ __kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
   ox_begin_regions(&scene, features, parents, regions);
 }
 
-// out: how many members each region has, and what they say of it.
+// Whether its mesh is not convex at an edge of a feature.
+static bool ox_is_in_valley(const ox_scene* scene, __global const ox_feature* f) {
+  if (!ox_is_vertex(f->flags)) return ox_is_valley(scene, f->pair, f->source);
+  for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k) {
+    const uint edge = scene->rings[k].edge;
+    if (!ox_is_flat_edge(scene, edge) && ox_is_valley(scene, f->pair, edge)) return true;
+  }
+  return false;
+}
+
+// out: how many members each region has, and what they say of it. One valley is enough.
 static void ox_count_members(const ox_scene* scene, __global ox_feature* features,
                              __global uint* parents, __global ox_region* regions) {
   const uint count = ox_feature_count(scene);
@@ -254,9 +255,11 @@ static void ox_count_members(const ox_scene* scene, __global ox_feature* feature
     const uint region = features[ox_root_of(parents, i)].region;
     features[i].region = region;
     atomic_inc(&regions[region].count);
-    const uint says = (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED) |
-                      ((flags & OX_FEATURE_VALLEY) != 0u ? OX_REGION_VALLEY : 0u);
-    if ((regions[region].flags & says) != says) atomic_or(&regions[region].flags, says);
+    const uint known = regions[region].flags;
+    uint says = ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED;
+    if ((known & OX_REGION_VALLEY) == 0u && ox_is_in_valley(scene, features + i))
+      says |= OX_REGION_VALLEY;
+    if ((known & says) != says) atomic_or(&regions[region].flags, says);
   }
 }
 

@@ -34,9 +34,8 @@ static inline void ox_set_vector(const ox_fields* fields, uint field, uint i, fl
 }
 
 // A block of them.
-#define OX_LOAD_FLOATS(fields, field, block) ox_load_unaligned(block, ox_floats_of(fields, field))
-#define OX_LOAD_WORDS(fields, field, block) \
-  ox_load_unaligned(block, (__global const int*)ox_words_of(fields, field))
+#define OX_LOAD_FLOATS(fields, field, block) ox_load_floats(block, ox_floats_of(fields, field))
+#define OX_LOAD_WORDS(fields, field, block) ox_load_ints(block, ox_words_of(fields, field))
 
 // Of a block the products with a vector, of three fields from one on.
 static inline void ox_dot_fields(const ox_fields* fields, uint field, uint block, float3 v,

@@ -75,7 +75,7 @@ static void ox_note_taken(const ox_fields* list, uint count, uint block, uint ta
   float distance2[OX_VECTOR_WIDTH];
   int flags[OX_VECTOR_WIDTH];
   ox_store(b->distance2, 0, distance2);
-  ox_store(b->taken, 0, flags);
+  ox_store_ints(b->taken, 0, flags);
   const uint present = min(count - OX_VECTOR_WIDTH * block, (uint)OX_VECTOR_WIDTH);
   for (uint k = 0u; k < present; ++k) {
     ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[OX_VECTOR_WIDTH * block + k] = distance2[k];

@@ -3,18 +3,15 @@
 #ifndef ODE_EXT_KERNELS_LIB_CLOSEST_H
 #define ODE_EXT_KERNELS_LIB_CLOSEST_H
 
+#include "lib/corners.h"
 #include "lib/meshlet_tree.h"
 #include "lib/scene.h"
 
-typedef struct {
-  ox_floats x, y, z;
-} ox_vectors;
-
-static inline void ox_dot_lanes(const ox_vectors* a, const ox_vectors* b, ox_floats* product) {
+static inline void ox_dot_lanes(const ox_points* a, const ox_points* b, ox_floats* product) {
   *product = a->x * b->x + a->y * b->y + a->z * b->z;
 }
 
-static inline void ox_cross_lanes(const ox_vectors* a, const ox_vectors* b, ox_vectors* product) {
+static inline void ox_cross_lanes(const ox_points* a, const ox_points* b, ox_points* product) {
   product->x = a->y * b->z - a->z * b->y;
   product->y = a->z * b->x - a->x * b->z;
   product->z = a->x * b->y - a->y * b->x;
@@ -22,9 +19,9 @@ static inline void ox_cross_lanes(const ox_vectors* a, const ox_vectors* b, ox_v
 
 // Squared, from a point to the side of each triangle that goes from a corner, both as seen from the
 // point, the lesser of that and what was there; and whether the point is on the inner side of it.
-static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
-                                const ox_vectors* normal, ox_floats* distance2, ox_ints* within) {
-  const ox_vectors along = {to->x - from->x, to->y - from->y, to->z - from->z};
+static inline void ox_note_side(const ox_points* from, const ox_points* to, const ox_points* normal,
+                                ox_floats* distance2, ox_ints* within) {
+  const ox_points along = {to->x - from->x, to->y - from->y, to->z - from->z};
   ox_floats length2, before, turn, off2;
   ox_dot_lanes(&along, &along, &length2);
   ox_dot_lanes(&along, from, &before);
@@ -32,10 +29,10 @@ static inline void ox_note_side(const ox_vectors* from, const ox_vectors* to,
   ox_floats t = length2 > 0.0f ? -before / length2 : zero;
   t = OX_GREATER(t, zero);
   t = OX_LESSER(t, zero + 1.0f);
-  const ox_vectors off = {from->x + t * along.x, from->y + t * along.y, from->z + t * along.z};
+  const ox_points off = {from->x + t * along.x, from->y + t * along.y, from->z + t * along.z};
   ox_dot_lanes(&off, &off, &off2);
   *distance2 = OX_LESSER(off2, *distance2);
-  ox_vectors across;
+  ox_points across;
   ox_cross_lanes(from, &along, &across);
   ox_dot_lanes(&across, normal, &turn);
   *within &= turn >= 0.0f;
@@ -47,21 +44,28 @@ static inline float ox_unit_scale(__global const ox_mesh* mesh) {
   return as_float(0x7f000000u - (as_uint(mesh->extent) & 0x7f800000u));
 }
 
-// From a point to the triangles of a block of a meshlet, and to their planes, squared, of all
-// lengths times `scale`; infinite where one is of no area.
-static inline void ox_distances2(__global const ox_meshlet* m, uint block, float3 p, float scale,
-                                 ox_floats* distance2, ox_floats* height2) {
-  ox_vectors corner[3];
-  for (uint k = 0u; k < 3u; ++k) {
-    corner[k].x = (ox_load(block, m->corner[k][0]) - p.x) * scale;
-    corner[k].y = (ox_load(block, m->corner[k][1]) - p.y) * scale;
-    corner[k].z = (ox_load(block, m->corner[k][2]) - p.z) * scale;
+// The vertices of a meshlet as seen from a point, all lengths times `scale`.
+static inline void ox_vertices_from(__global const ox_meshlet* m, float3 p, float scale,
+                                    ox_moved_vertices* seen) {
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    const ox_points from = {(ox_load(block, m->vertex[0]) - p.x) * scale,
+                            (ox_load(block, m->vertex[1]) - p.y) * scale,
+                            (ox_load(block, m->vertex[2]) - p.z) * scale};
+    ox_set_vertices(seen, block, &from);
   }
-  const ox_vectors ab = {corner[1].x - corner[0].x, corner[1].y - corner[0].y,
-                         corner[1].z - corner[0].z};
-  const ox_vectors ac = {corner[2].x - corner[0].x, corner[2].y - corner[0].y,
-                         corner[2].z - corner[0].z};
-  ox_vectors normal;
+}
+
+// From a point to the triangles of a block of a meshlet, and to their planes, squared; infinite
+// where one is of no area.
+static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_vertices* seen,
+                                 uint block, ox_floats* distance2, ox_floats* height2) {
+  ox_points corner[3];
+  for (uint k = 0u; k < 3u; ++k) ox_corners_of(m, seen, block, k, corner + k);
+  const ox_points ab = {corner[1].x - corner[0].x, corner[1].y - corner[0].y,
+                        corner[1].z - corner[0].z};
+  const ox_points ac = {corner[2].x - corner[0].x, corner[2].y - corner[0].y,
+                        corner[2].z - corner[0].z};
+  ox_points normal;
   ox_cross_lanes(&ab, &ac, &normal);
   ox_floats area2, height;
   ox_dot_lanes(&normal, &normal, &area2);
@@ -118,11 +122,13 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
     const uint child = walk.child[--walk.count];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
+      ox_moved_vertices seen;
+      ox_vertices_from(m, p, scale, &seen);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2, height2;
-        ox_distances2(m, block, p, scale, &distance2, &height2);
+        ox_distances2(m, &seen, block, &distance2, &height2);
         const ox_ints is_near = distance2 <= closest.near2;
-        uint near = ox_mask_of(&is_near) & ox_present_lanes(m->triangle_count, block);
+        uint near = ox_mask_of(&is_near) & ox_lanes_with_area(m, block);
         if (near == 0u) continue;
         float distance2_of[OX_VECTOR_WIDTH], height2_of[OX_VECTOR_WIDTH];
         ox_store(distance2, 0, distance2_of);
@@ -140,15 +146,15 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
     ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats zero = (ox_floats)(0.0f);
-      const ox_vectors before = {ox_load(block, node->lo[0]) - p.x,
-                                 ox_load(block, node->lo[1]) - p.y,
-                                 ox_load(block, node->lo[2]) - p.z};
-      const ox_vectors behind = {p.x - ox_load(block, node->hi[0]),
-                                 p.y - ox_load(block, node->hi[1]),
-                                 p.z - ox_load(block, node->hi[2])};
-      const ox_vectors off = {OX_GREATER(OX_GREATER(before.x, behind.x), zero),
-                              OX_GREATER(OX_GREATER(before.y, behind.y), zero),
-                              OX_GREATER(OX_GREATER(before.z, behind.z), zero)};
+      const ox_points before = {ox_load(block, node->lo[0]) - p.x,
+                                ox_load(block, node->lo[1]) - p.y,
+                                ox_load(block, node->lo[2]) - p.z};
+      const ox_points behind = {p.x - ox_load(block, node->hi[0]),
+                                p.y - ox_load(block, node->hi[1]),
+                                p.z - ox_load(block, node->hi[2])};
+      const ox_points off = {OX_GREATER(OX_GREATER(before.x, behind.x), zero),
+                             OX_GREATER(OX_GREATER(before.y, behind.y), zero),
+                             OX_GREATER(OX_GREATER(before.z, behind.z), zero)};
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
       distance2 *= scale * scale;

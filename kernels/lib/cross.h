@@ -124,7 +124,7 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
           ? OX_NEW_FLOODED
           : 0u;
   ox_general_triangles triangles;
-  ox_gather_triangles(pair, 1u - side, target, target_points, blocks, &triangles);
+  ox_gather_triangles(target, target_points, blocks, &triangles);
   const ox_general_triangles* t = &triangles;
   ox_general_planes planes;
   ox_make_planes(t, blocks, &planes);

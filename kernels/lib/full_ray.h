@@ -16,12 +16,12 @@
 static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces* surfaces,
                                        __global const ox_meshlet* meshlet, float from,
                                        ox_nearest* nearest) {
+  ox_moved_vertices seen;
+  ox_shear_vertices(&query->cast, meshlet, &seen);
   for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
     ox_floats t, determinant;
-    ox_ints met;
-    ox_meets_lanes(&query->cast, meshlet, first / OX_VECTOR_WIDTH, &met, &t, &determinant);
-    met &= (t >= from) & (t <= ox_limit(query, nearest)) & (t < INFINITY);
-    uint left = ox_mask_of(&met);
+    uint left = ox_meets_lanes(&query->cast, meshlet, &seen, first / OX_VECTOR_WIDTH, from,
+                               ox_limit(query, nearest), &t, &determinant);
     if (left == 0u) continue;
     float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
     ox_store(t, 0, t_lane);
@@ -109,12 +109,12 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
         ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, 0.0f, INFINITY, &work);
     if (next == OX_NONE) return sum;
     __global const ox_meshlet* meshlet = surfaces->meshlets + next;
+    ox_moved_vertices seen;
+    ox_shear_vertices(&query->cast, meshlet, &seen);
     for (uint block = 0u; OX_VECTOR_WIDTH * block < meshlet->triangle_count; ++block) {
       ox_floats t, determinant;
-      ox_ints met;
-      ox_meets_lanes(&query->cast, meshlet, block, &met, &t, &determinant);
-      met &= (t >= 0.0f) & (t < INFINITY);
-      uint left = ox_mask_of(&met);
+      uint left =
+          ox_meets_lanes(&query->cast, meshlet, &seen, block, 0.0f, INFINITY, &t, &determinant);
       if (left == 0u) continue;
       float determinant_lane[OX_VECTOR_WIDTH];
       ox_store(determinant, 0, determinant_lane);

@@ -4,6 +4,7 @@
 #ifndef ODE_EXT_KERNELS_LIB_INTERSECT_H
 #define ODE_EXT_KERNELS_LIB_INTERSECT_H
 
+#include "lib/corners.h"
 #include "lib/exact_sign.h"
 #include "lib/meshlet.h"
 
@@ -16,7 +17,7 @@
 // The vertices of a meshlet in general position, lane by lane, and beyond which sides of the other
 // one's box and slab each lies, a bit for each side.
 typedef struct {
-  float x[OX_LANES], y[OX_LANES], z[OX_LANES];
+  ox_moved_vertices at;
   int beyond[OX_LANES];
 } ox_general_points;
 
@@ -46,21 +47,20 @@ static inline void ox_place_generally(__global const ox_pair* pair, uint side,
       y = py - out * (r[3] * nx + r[4] * ny + r[5] * nz);
       z = pz - out * (r[6] * nx + r[7] * ny + r[8] * nz);
     }
-    ox_store(x + snap - snap, block, p->x);
-    ox_store(y + snap - snap, block, p->y);
-    ox_store(z + snap - snap, block, p->z);
+    const ox_points on_grid = {x + snap - snap, y + snap - snap, z + snap - snap};
+    ox_set_vertices(&p->at, block, &on_grid);
   }
 }
 
 static inline float3 ox_general_point(const ox_general_points* p, uint k) {
-  return (float3)(p->x[k], p->y[k], p->z[k]);
+  return (float3)(p->at.x[k], p->at.y[k], p->at.z[k]);
 }
 
 static inline void ox_range_of(const float* values, float* least, float* greatest) {
-  ox_floats lo = ox_load_unaligned(0u, values);
+  ox_floats lo = ox_load_own(0u, values);
   ox_floats hi = lo;
   for (uint block = 1u; block < OX_BLOCKS; ++block) {
-    const ox_floats v = ox_load_unaligned(block, values);
+    const ox_floats v = ox_load_own(block, values);
     lo = OX_LESSER(lo, v);
     hi = OX_GREATER(hi, v);
   }
@@ -70,9 +70,9 @@ static inline void ox_range_of(const float* values, float* least, float* greates
 
 static inline ox_box ox_box_of_points(const ox_general_points* p) {
   float lo[3], hi[3];
-  ox_range_of(p->x, &lo[0], &hi[0]);
-  ox_range_of(p->y, &lo[1], &hi[1]);
-  ox_range_of(p->z, &lo[2], &hi[2]);
+  ox_range_of(p->at.x, &lo[0], &hi[0]);
+  ox_range_of(p->at.y, &lo[1], &hi[1]);
+  ox_range_of(p->at.z, &lo[2], &hi[2]);
   ox_box box;
   box.lo = vload3(0, lo);
   box.hi = vload3(0, hi);
@@ -86,42 +86,31 @@ static inline bool ox_note_beyond(ox_general_points* p, const ox_box* box, const
   const float3 n = slab->normal;
   int beyond_all = -1;
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_floats x = ox_load_unaligned(block, p->x);
-    const ox_floats y = ox_load_unaligned(block, p->y);
-    const ox_floats z = ox_load_unaligned(block, p->z);
-    const ox_floats height = n.x * x + n.y * y + n.z * z;
+    ox_points at;
+    ox_vertices_of(&p->at, block, &at);
+    const ox_floats height = n.x * at.x + n.y * at.y + n.z * at.z;
     const ox_ints none = 0;
-    const ox_ints beyond = (x < lo.x ? none + 1 : none) | (x > hi.x ? none + 2 : none) |
-                           (y < lo.y ? none + 4 : none) | (y > hi.y ? none + 8 : none) |
-                           (z < lo.z ? none + 16 : none) | (z > hi.z ? none + 32 : none) |
+    const ox_ints beyond = (at.x < lo.x ? none + 1 : none) | (at.x > hi.x ? none + 2 : none) |
+                           (at.y < lo.y ? none + 4 : none) | (at.y > hi.y ? none + 8 : none) |
+                           (at.z < lo.z ? none + 16 : none) | (at.z > hi.z ? none + 32 : none) |
                            (height < slab->lo ? none + 64 : none) |
                            (height > slab->hi ? none + 128 : none);
-    ox_store(beyond, block, p->beyond);
+    ox_store_ints(beyond, block, p->beyond);
     beyond_all &= ox_and_of(&beyond);
   }
   return beyond_all == 0;
 }
 
-// Of B: their own corners on the grid. Of A: those among its vertices in general position.
-static inline void ox_gather_triangles(__global const ox_pair* pair, uint side,
-                                       __global const ox_meshlet* meshlet,
+static inline void ox_gather_triangles(__global const ox_meshlet* meshlet,
                                        const ox_general_points* p, ox_block_range blocks,
                                        ox_general_triangles* t) {
-  if (side != 0u) {
-    const float snap = pair->snap;
-    for (uint block = blocks.first; block < blocks.end; ++block)
-      for (uint corner = 0u; corner < 3u; ++corner)
-        for (uint axis = 0u; axis < 3u; ++axis)
-          ox_store(ox_load(block, meshlet->corner[corner][axis]) + snap - snap, block,
-                   t->corner[corner][axis]);
-    return;
-  }
-  for (uint k = OX_VECTOR_WIDTH * blocks.first; k < OX_VECTOR_WIDTH * blocks.end; ++k)
+  for (uint block = blocks.first; block < blocks.end; ++block)
     for (uint corner = 0u; corner < 3u; ++corner) {
-      const uint v = k < meshlet->triangle_count ? OX_CORNER(meshlet->places, k, corner) : 0u;
-      t->corner[corner][0][k] = p->x[v];
-      t->corner[corner][1][k] = p->y[v];
-      t->corner[corner][2][k] = p->z[v];
+      ox_points corners;
+      ox_corners_of(meshlet, &p->at, block, corner, &corners);
+      ox_store(corners.x, block, t->corner[corner][0]);
+      ox_store(corners.y, block, t->corner[corner][1]);
+      ox_store(corners.z, block, t->corner[corner][2]);
     }
 }
 
@@ -147,15 +136,15 @@ typedef struct {
 static inline void ox_make_planes(const ox_general_triangles* t, ox_block_range blocks,
                                   ox_general_planes* planes) {
   for (uint block = blocks.first; block < blocks.end; ++block) {
-    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]);
-    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]);
-    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]);
-    const ox_floats ux = ox_load_unaligned(block, t->corner[1][0]) - ax;
-    const ox_floats uy = ox_load_unaligned(block, t->corner[1][1]) - ay;
-    const ox_floats uz = ox_load_unaligned(block, t->corner[1][2]) - az;
-    const ox_floats vx = ox_load_unaligned(block, t->corner[2][0]) - ax;
-    const ox_floats vy = ox_load_unaligned(block, t->corner[2][1]) - ay;
-    const ox_floats vz = ox_load_unaligned(block, t->corner[2][2]) - az;
+    const ox_floats ax = ox_load_own(block, t->corner[0][0]);
+    const ox_floats ay = ox_load_own(block, t->corner[0][1]);
+    const ox_floats az = ox_load_own(block, t->corner[0][2]);
+    const ox_floats ux = ox_load_own(block, t->corner[1][0]) - ax;
+    const ox_floats uy = ox_load_own(block, t->corner[1][1]) - ay;
+    const ox_floats uz = ox_load_own(block, t->corner[1][2]) - az;
+    const ox_floats vx = ox_load_own(block, t->corner[2][0]) - ax;
+    const ox_floats vy = ox_load_own(block, t->corner[2][1]) - ay;
+    const ox_floats vz = ox_load_own(block, t->corner[2][2]) - az;
     ox_store(uy * vz - uz * vy, block, planes->normal[0]);
     ox_store(uz * vx - ux * vz, block, planes->normal[1]);
     ox_store(ux * vy - uy * vx, block, planes->normal[2]);
@@ -169,13 +158,13 @@ static inline ox_heights ox_heights_over(const ox_general_triangles* t,
                                          float3 p) {
   ox_heights heights = {0u, 0u};
   for (uint block = blocks.first; block < blocks.end; ++block) {
-    const ox_floats x = p.x - ox_load_unaligned(block, t->corner[0][0]);
-    const ox_floats y = p.y - ox_load_unaligned(block, t->corner[0][1]);
-    const ox_floats z = p.z - ox_load_unaligned(block, t->corner[0][2]);
-    const ox_floats height = ox_load_unaligned(block, planes->normal[0]) * x +
-                             ox_load_unaligned(block, planes->normal[1]) * y +
-                             ox_load_unaligned(block, planes->normal[2]) * z;
-    const ox_floats doubt = ox_load_unaligned(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
+    const ox_floats x = p.x - ox_load_own(block, t->corner[0][0]);
+    const ox_floats y = p.y - ox_load_own(block, t->corner[0][1]);
+    const ox_floats z = p.z - ox_load_own(block, t->corner[0][2]);
+    const ox_floats height = ox_load_own(block, planes->normal[0]) * x +
+                             ox_load_own(block, planes->normal[1]) * y +
+                             ox_load_own(block, planes->normal[2]) * z;
+    const ox_floats doubt = ox_load_own(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
     const ox_ints above = height > 0.0f;
     const ox_ints doubtful = fabs(height) <= doubt;
     heights.above |= ox_mask_of(&above) << (OX_VECTOR_WIDTH * block);
@@ -195,15 +184,15 @@ static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_ran
   ox_passes passes = {0u, 0u, 0u, 0u};
   const float size = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z);
   for (uint block = blocks.first; block < blocks.end; ++block) {
-    const ox_floats ax = ox_load_unaligned(block, t->corner[0][0]) - p.x;
-    const ox_floats ay = ox_load_unaligned(block, t->corner[0][1]) - p.y;
-    const ox_floats az = ox_load_unaligned(block, t->corner[0][2]) - p.z;
-    const ox_floats bx = ox_load_unaligned(block, t->corner[1][0]) - p.x;
-    const ox_floats by = ox_load_unaligned(block, t->corner[1][1]) - p.y;
-    const ox_floats bz = ox_load_unaligned(block, t->corner[1][2]) - p.z;
-    const ox_floats cx = ox_load_unaligned(block, t->corner[2][0]) - p.x;
-    const ox_floats cy = ox_load_unaligned(block, t->corner[2][1]) - p.y;
-    const ox_floats cz = ox_load_unaligned(block, t->corner[2][2]) - p.z;
+    const ox_floats ax = ox_load_own(block, t->corner[0][0]) - p.x;
+    const ox_floats ay = ox_load_own(block, t->corner[0][1]) - p.y;
+    const ox_floats az = ox_load_own(block, t->corner[0][2]) - p.z;
+    const ox_floats bx = ox_load_own(block, t->corner[1][0]) - p.x;
+    const ox_floats by = ox_load_own(block, t->corner[1][1]) - p.y;
+    const ox_floats bz = ox_load_own(block, t->corner[1][2]) - p.z;
+    const ox_floats cx = ox_load_own(block, t->corner[2][0]) - p.x;
+    const ox_floats cy = ox_load_own(block, t->corner[2][1]) - p.y;
+    const ox_floats cz = ox_load_own(block, t->corner[2][2]) - p.z;
     const ox_floats u =
         d.x * (by * cz - bz * cy) + d.y * (bz * cx - bx * cz) + d.z * (bx * cy - by * cx);
     const ox_floats v =

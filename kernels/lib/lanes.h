@@ -26,19 +26,15 @@ typedef struct {
 #if OX_VECTOR_WIDTH == 16
 typedef float16 ox_floats;
 typedef int16 ox_ints;
-#define ox_store(v, block, p) vstore16(v, block, p)
 #elif OX_VECTOR_WIDTH == 8
 typedef float8 ox_floats;
 typedef int8 ox_ints;
-#define ox_store(v, block, p) vstore8(v, block, p)
 #elif OX_VECTOR_WIDTH == 4
 typedef float4 ox_floats;
 typedef int4 ox_ints;
-#define ox_store(v, block, p) vstore4(v, block, p)
 #elif OX_VECTOR_WIDTH == 1
 typedef float ox_floats;
 typedef int ox_ints;
-#define ox_store(v, block, p) ((p)[block] = (v))
 #else
 #error "OX_VECTOR_WIDTH is 1, 4, 8 or 16"
 #endif
@@ -47,16 +43,15 @@ typedef int ox_ints;
 // records' lanes come first or after as many bytes (abi/types.h).
 #define ox_load(block, p) (((__global const ox_floats*)(p))[block])
 
-// The same of what need not lie there: in halves.
-#if OX_VECTOR_WIDTH == 16
-#define ox_load_unaligned(block, p) vload16(block, p)
-#elif OX_VECTOR_WIDTH == 8
-#define ox_load_unaligned(block, p) vload8(block, p)
-#elif OX_VECTOR_WIDTH == 4
-#define ox_load_unaligned(block, p) vload4(block, p)
-#else
-#define ox_load_unaligned(block, p) ((p)[block])
-#endif
+// The same of what need not lie there, in global memory and in private. Not vload16, which PoCL
+// takes to pieces of eight bytes.
+typedef ox_floats ox_floats_anywhere __attribute__((aligned(4)));
+typedef ox_ints ox_ints_anywhere __attribute__((aligned(4)));
+#define ox_load_floats(block, p) (((__global const ox_floats_anywhere*)(p))[block])
+#define ox_load_ints(block, p) (((__global const ox_ints_anywhere*)(p))[block])
+#define ox_load_own(block, p) (((const ox_floats_anywhere*)(p))[block])
+#define ox_store(v, block, p) (((ox_floats_anywhere*)(p))[block] = (v))
+#define ox_store_ints(v, block, p) (((ox_ints_anywhere*)(p))[block] = (v))
 
 // Not fmin and fmax, which mind what is no number and take PoCL several times as long: where one is
 // none these give b.
@@ -104,9 +99,42 @@ static inline uint ox_lowest(uint bits) { return 31u - clz(bits & (~bits + 1u));
 
 #define OX_ALL_LANES ((1u << OX_VECTOR_WIDTH) - 1u)
 
+// Where x86 has an instruction for it, that: the compiler finds none of these by itself. The host
+// can leave them out (OX_NO_BUILTINS); they give the same.
+#if !defined(OX_NO_BUILTINS) && OX_VECTOR_WIDTH == 16 && defined(__AVX512F__)
+#define OX_HAS_AVX512
+typedef int ox_native_ints __attribute__((__vector_size__(64)));
+typedef float ox_native_floats __attribute__((__vector_size__(64)));
+#elif !defined(OX_NO_BUILTINS) && OX_VECTOR_WIDTH == 8 && defined(__AVX__)
+#define OX_HAS_AVX
+typedef float ox_native_floats __attribute__((__vector_size__(32)));
+#endif
+
 static inline uint ox_mask_of(const ox_ints* v) {
+#if defined(OX_HAS_AVX512)
+  const int is_not_equal = 4;
+  return (ushort)__builtin_ia32_cmpd512_mask((ox_native_ints)*v, (ox_native_ints)(ox_ints)(0),
+                                             is_not_equal, (ushort)0xffffu);
+#elif defined(OX_HAS_AVX)
+  return (uint)__builtin_ia32_movmskps256((ox_native_floats)*v);
+#else
   const ox_ints bits = *v & OX_LANE_BITS;
   return as_uint(OX_FOLD(bits, OX_OR));
+#endif
+}
+
+// In each lane what `from` has in the lane that it names, of all OX_LANES.
+static inline void ox_pick_lanes(const float* from, const ox_ints* lanes, ox_floats* picked) {
+#if defined(OX_HAS_AVX512)
+  const ox_native_floats all = (ox_native_floats)ox_load_own(0, from);
+  *picked = __builtin_astype(__builtin_ia32_permvarsf512(all, (ox_native_ints)*lanes), ox_floats);
+#else
+  int lane[OX_VECTOR_WIDTH];
+  float there[OX_VECTOR_WIDTH];
+  ox_store_ints(*lanes, 0, lane);
+  for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k) there[k] = from[lane[k]];
+  *picked = ox_load_own(0, there);
+#endif
 }
 
 // A bit for each lane of a block that is one of so many in all.

@@ -4,12 +4,8 @@
 #define ODE_EXT_KERNELS_LIB_MESHLET_H
 
 #include "lib/append.h"
+#include "lib/corners.h"
 #include "lib/meshlet_tree.h"
-
-// As many points as a vector has lanes.
-typedef struct {
-  ox_floats x, y, z;
-} ox_points;
 
 // A block of the vertices of a meshlet of the source in the frame of the target; lane by lane the
 // bits of ox_transform.

@@ -32,6 +32,7 @@ struct ColliderOptions {
   float displacement_limit = 1;            // [mean edges of the target] for iterative rays
   bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;          // 1, 4, 8 or 16 (lib/lanes.h); 0: what suits the device
+  bool builtins = true;  // the processor's own, where lib/lanes.h knows some; the same bytes
   // Whether a work-item takes all lanes of a meshlet as vectors, or a block of them (cross.cl);
   // kOfDevice: vectors on a processor, else items. The same bytes.
   Lanes lanes = Lanes::kOfDevice;

@@ -22,7 +22,7 @@ double known_depth(double depth, const Mesh& a, const Mesh& b) {
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
                               std::uint32_t triangle) {
   const MeshTopology& built = *meshes.mesh(mesh).topology;
-  return built.source_triangle[built.bvh.order[triangle - meshes.range(mesh).triangle_first]];
+  return built.source_triangle[built.leaf_order[triangle - meshes.range(mesh).triangle_first]];
 }
 
 // One that has its position and normal with it, in the frame of the second object.
@@ -53,7 +53,7 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
   const std::uint32_t triangle =
-      target_mesh.topology->bvh.order[contact.triangle - meshes.range(target.mesh).triangle_first];
+      target_mesh.topology->leaf_order[contact.triangle - meshes.range(target.mesh).triangle_first];
 
   // Out of the target is into the source; the normal is to point into the first object.
   const Vec3d outward = target.pose.rotate(face_normal(target_mesh, triangle));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/bvh.h"
 #include "mesh/exit_distance.h"
 #include "mesh/facets.h"
 #include "mesh/half_edges.h"
@@ -27,11 +28,11 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 
 // What depends on edges.
 void connect(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
-             MeshTopology& topology) {
+             const Bvh& bvh, MeshTopology& topology) {
   Edges edges = find_edges(vertices, half_edges, topology.facets);
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
-  topology.meshlets = build_meshlets(topology.bvh, topology.triangles, all);
+  topology.meshlets = build_meshlets(bvh, topology.triangles, all);
   topology.rings = build_rings(vertices.size(), all);
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
@@ -71,13 +72,14 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.box = box_of(mesh.vertices);
   mesh.mean_edge = mean_side(mesh.vertices, triangles);
   topology->chunks = cut_into_chunks(mesh.vertices);
-  topology->bvh = build_bvh(mesh.vertices, triangles);
+  const Bvh bvh = build_bvh(mesh.vertices, triangles);
+  topology->leaf_order = bvh.order;
   topology->neighbours = neighbours(triangles.size(), half_edges);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     topology->soup = soup;
     topology->corner_vertex = std::move(welded.corner_vertex);
-    connect(mesh.vertices, half_edges, *topology);
+    connect(mesh.vertices, half_edges, bvh, *topology);
     return mesh;
   }
 
@@ -85,13 +87,13 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
   topology->facets = facets(mesh.vertices, triangles, mesh.face_normals, topology->neighbours);
-  connect(mesh.vertices, half_edges, *topology);
+  connect(mesh.vertices, half_edges, bvh, *topology);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed()) {
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, topology->bvh);
+    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh);
   } else {
     const float thickness = options.open_thickness > 0 ? options.open_thickness : mesh.mean_edge;
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, topology->bvh, thickness);
+    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh, thickness);
   }
   return mesh;
 }

@@ -9,7 +9,7 @@ namespace {
 
 // The vertices of each triangle, in the order of the leaves.
 void append_corners(const MeshTopology& mesh, std::vector<ox_u32>& words) {
-  for (const std::uint32_t triangle : mesh.bvh.order)
+  for (const std::uint32_t triangle : mesh.leaf_order)
     words.insert(words.end(), mesh.triangles[triangle].begin(), mesh.triangles[triangle].end());
 }
 
@@ -17,7 +17,7 @@ void append_corners(const MeshTopology& mesh, std::vector<ox_u32>& words) {
 // sums over them do not depend on how the mesh was built.
 void append_incident(const MeshTopology& mesh, std::vector<ox_u32>& words) {
   std::vector<ox_u32> place(mesh.triangles.size());  // in the order of the leaves
-  for (std::size_t k = 0; k < place.size(); ++k) place[mesh.bvh.order[k]] = static_cast<ox_u32>(k);
+  for (std::size_t k = 0; k < place.size(); ++k) place[mesh.leaf_order[k]] = static_cast<ox_u32>(k);
 
   std::vector<ox_u32> starts(mesh.vertex_count + 1);
   for (const Triangle& triangle : mesh.triangles)

@@ -100,7 +100,7 @@ ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
 std::vector<std::uint32_t> places_in_leaves(const MeshTopology& mesh) {
   std::vector<std::uint32_t> places(mesh.triangles.size());
   for (std::size_t i = 0; i < places.size(); ++i)
-    places[mesh.bvh.order[i]] = static_cast<std::uint32_t>(i);
+    places[mesh.leaf_order[i]] = static_cast<std::uint32_t>(i);
   return places;
 }
 
@@ -300,7 +300,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
 
 void DeviceMeshes::append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
   const std::vector<std::uint32_t>& facets = mesh.topology->facets;
-  for (const std::uint32_t triangle : mesh.topology->bvh.order) {
+  for (const std::uint32_t triangle : mesh.topology->leaf_order) {
     host_triangles_.push_back(to_record(mesh, triangle, places));
     host_facets_.push_back(facets.empty() ? triangle : facets[triangle]);
   }

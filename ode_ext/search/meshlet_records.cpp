@@ -8,8 +8,7 @@
 namespace ode_ext {
 namespace {
 
-static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, normal) % 64 == 0 &&
-                  offsetof(ox_meshlet, corner) % 64 == 0,
+static_assert(offsetof(ox_meshlet, vertex) % 64 == 0 && offsetof(ox_meshlet, normal) % 64 == 0,
               "lib/lanes.h loads them whole");
 static_assert(kMeshletTriangles == OX_LANES && kMeshletVertices == OX_LANES &&
               kMeshletEdges == OX_MESHLET_EDGES);
@@ -37,13 +36,12 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshRange& ra
                    ox_meshlet& record) {
   record.triangle_first = range.triangle_first + meshlet.triangle_first;
   record.triangle_count = meshlet.triangle_count;
-  record.vertex_count = meshlet.vertex_count;
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
     record.vertex_index[k] = range.vertex_first + vertex_index(mesh, meshlet, k);
   }
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k)
     record.places[k] =
-        corner_places(mesh, meshlet, mesh.topology->bvh.order[meshlet.triangle_first + k]);
+        corner_places(mesh, meshlet, mesh.topology->leaf_order[meshlet.triangle_first + k]);
   record.edge_count = meshlet.edge_count;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
     const MeshletEdge& edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
@@ -59,17 +57,14 @@ Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
 }
 
 void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
+  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
+    const std::uint32_t triangle = mesh.topology->leaf_order[meshlet.triangle_first + k];
+    if (mesh.face_normals[triangle] != Vec3f{}) record.with_area |= 1u << k;
+  }
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
-    const bool used = k < meshlet.triangle_count;
-    const std::uint32_t triangle =
-        mesh.topology->bvh.order[meshlet.triangle_first + (used ? k : 0)];
-    const bool flat = !used || mesh.face_normals[triangle] == Vec3f{};
     const Vec3f vertex = vertex_of(mesh, meshlet, k);
     const Vec3f normal = mesh.normals[vertex_index(mesh, meshlet, k)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t c = 0; c < 3; ++c)
-        record.corner[c][axis][k] =
-            mesh.vertices[mesh.topology->triangles[triangle][flat ? 0 : c]][axis];
       record.vertex[axis][k] = vertex[axis];
       record.normal[axis][k] = normal[axis];
     }
@@ -86,7 +81,7 @@ void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   Vec3d sum{};
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
     const Triangle& corners =
-        mesh.topology->triangles[mesh.topology->bvh.order[meshlet.triangle_first + k]];
+        mesh.topology->triangles[mesh.topology->leaf_order[meshlet.triangle_first + k]];
     const Vec3d a(mesh.vertices[corners[0]]);
     sum = sum + cross(Vec3d(mesh.vertices[corners[1]]) - a, Vec3d(mesh.vertices[corners[2]]) - a);
   }

@@ -21,16 +21,17 @@ void expect_whole(const Mesh& mesh) {
   EXPECT_EQ(mesh.exits.size(), mesh.vertices.size());
   EXPECT_EQ(mesh.face_normals.size(), mesh.topology->triangles.size());
   EXPECT_EQ(mesh.topology->source_triangle.size(), mesh.topology->triangles.size());
-  EXPECT_EQ(test::validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles), "");
+  EXPECT_EQ(test::validate_bvh(build_bvh(mesh.vertices, mesh.topology->triangles), mesh.vertices,
+                               mesh.topology->triangles),
+            "");
 }
 
 bool is_empty(const Mesh& mesh) {
   return mesh.vertices.empty() && mesh.normals.empty() && mesh.exits.empty() &&
          mesh.topology->triangles.empty() && mesh.topology->source_triangle.empty() &&
-         mesh.face_normals.empty() && mesh.topology->bvh.nodes.empty() &&
-         mesh.topology->bvh.order.empty() && mesh.topology->chunks.empty() &&
-         mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} && mesh.radius == 0 &&
-         mesh.mean_edge == 0 && !mesh.closed() && !mesh.topology->inverted &&
+         mesh.face_normals.empty() && mesh.topology->leaf_order.empty() &&
+         mesh.topology->chunks.empty() && mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} &&
+         mesh.radius == 0 && mesh.mean_edge == 0 && !mesh.closed() && !mesh.topology->inverted &&
          !mesh.topology->reoriented;
 }
 

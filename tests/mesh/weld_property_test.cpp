@@ -53,7 +53,8 @@ RC_GTEST_PROP(MeshProperty, IsWholeForAnySoup, ()) {
   const TriangleSoup soup = lattice_soup();
   const Mesh mesh = build_mesh(soup);
   RC_ASSERT(mesh.finite);
-  RC_ASSERT(test::validate_bvh(mesh.topology->bvh, mesh.vertices, mesh.topology->triangles) == "");
+  RC_ASSERT(test::validate_bvh(build_bvh(mesh.vertices, mesh.topology->triangles), mesh.vertices,
+                               mesh.topology->triangles) == "");
   RC_ASSERT(mesh.normals.size() == mesh.vertices.size());
   RC_ASSERT(mesh.exits.size() == mesh.vertices.size());
   RC_ASSERT(mesh.face_normals.size() == mesh.topology->triangles.size());

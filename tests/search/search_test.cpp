@@ -152,6 +152,24 @@ TEST(Search, CullsNothingThatCrosses) {
     EXPECT_GT(compare(scene, organization).certain, 300u);
 }
 
+// Its box is in that of the ring, and nothing of it near the ring.
+TEST(Search, ListsNoMeshletOfABallInTheHoleOfARing) {
+  TestScene scene;
+  const std::uint32_t ball = scene.add_mesh(make_icosphere(0.3, 5));
+  const std::uint32_t ring = scene.add_mesh(make_torus(1, 0.2, 40, 20));
+  const auto listed = [&](double off) {
+    TestScene pair = scene;
+    pair.add_pair(ball, at(off, 0, 0), ring, at(0, 0, 0));
+    const StepRecords records = Rig::shared().run_with_edges(pair.scene, Organization::kPipelined);
+    EXPECT_EQ(records.crossings.empty(), off < 0.5);
+    return records.meshlet_tasks.size();
+  };
+  EXPECT_EQ(listed(0), 0u);
+  const std::size_t all = Rig::shared().run_with_edges(scene.scene, kBoth[0]).meshlets.size();
+  EXPECT_GT(listed(0.6), 10u);
+  EXPECT_LT(listed(0.6), all / 2);
+}
+
 // The way of each crossing: the meshlet of its edge and that of its triangle were matched, once,
 // and one of them was left by the cull.
 TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
@@ -186,7 +204,7 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
 
 // One by one as on a GPU, or as vectors: lane by lane it is the same arithmetic. Each width is a
 // program to compile, so each is a test; the whole step is of the same functions, and left out.
-class SearchInLanes : public testing::TestWithParam<std::tuple<std::uint32_t, Lanes>> {};
+class SearchInLanes : public testing::TestWithParam<std::tuple<std::uint32_t, Lanes, bool>> {};
 
 TEST_P(SearchInLanes, FindsTheSameBytesByVectorsAndByItems) {
   TestScene scene = random_scene(100, 81);
@@ -201,16 +219,17 @@ TEST_P(SearchInLanes, FindsTheSameBytesByVectorsAndByItems) {
   const auto expected = contacts(options);
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](const auto& c) { return !c.empty(); }));
-  std::tie(options.vector_width, options.lanes) = GetParam();
+  std::tie(options.vector_width, options.lanes, options.builtins) = GetParam();
   options.whole_steps = false;
   EXPECT_EQ(contacts(options), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Widths, SearchInLanes,
-    testing::Values(std::tuple{1u, Lanes::kVectors}, std::tuple{4u, Lanes::kVectors},
-                    std::tuple{8u, Lanes::kVectors}, std::tuple{16u, Lanes::kVectors},
-                    std::tuple{1u, Lanes::kItems}, std::tuple{8u, Lanes::kItems}));
+    testing::Values(std::tuple{1u, Lanes::kVectors, true}, std::tuple{4u, Lanes::kVectors, true},
+                    std::tuple{8u, Lanes::kVectors, true}, std::tuple{8u, Lanes::kVectors, false},
+                    std::tuple{16u, Lanes::kVectors, true}, std::tuple{16u, Lanes::kVectors, false},
+                    std::tuple{1u, Lanes::kItems, true}, std::tuple{8u, Lanes::kItems, true}));
 
 }  // namespace
 }  // namespace ode_ext::test

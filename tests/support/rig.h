@@ -136,7 +136,7 @@ class Rig {
   }
   std::uint32_t local_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
     return data_.meshes.mesh(mesh)
-        .topology->bvh.order[triangle - data_.meshes.range(mesh).triangle_first];
+        .topology->leaf_order[triangle - data_.meshes.range(mesh).triangle_first];
   }
 
  private:
