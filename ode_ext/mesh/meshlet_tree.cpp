@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/ray_cast.h"
+#include "mesh/collapse.h"
 
 namespace ode_ext {
 namespace {
@@ -16,7 +16,8 @@ struct Part {
 
 class Builder {
  public:
-  explicit Builder(const std::vector<BvhNode>& top) : top_(top), parts_(top.size()) {
+  explicit Builder(const std::vector<BvhNode>& top)
+      : top_(top), collapse_(top), parts_(top.size()) {
     std::uint32_t meshlets = 0;
     for (const BvhNode& node : top)
       if (node.leaf != 0) {
@@ -75,21 +76,9 @@ class Builder {
     }
   }
 
-  // In the order of the meshlets.
   std::vector<Part> divided(const Part& part) const {
-    std::vector<Part> parts{part};
-    while (parts.size() < kTreeWidth) {
-      const auto size = [&](const Part& p) {
-        return top_[p.node].leaf != 0 ? -1.0 : half_area({top_[p.node].lo, top_[p.node].hi});
-      };
-      const auto largest =
-          std::max_element(parts.begin(), parts.end(),
-                           [&](const Part& a, const Part& b) { return size(a) < size(b); });
-      const std::uint32_t left = largest->node + 1;
-      if (top_[largest->node].leaf != 0) break;  // all are
-      *largest = parts_[left];
-      parts.insert(largest + 1, parts_[top_[left].skip]);
-    }
+    std::vector<Part> parts;
+    for (const std::uint32_t node : collapse_.children_of(part.node)) parts.push_back(parts_[node]);
     return parts;
   }
 
@@ -116,6 +105,7 @@ class Builder {
   }
 
   const std::vector<BvhNode>& top_;
+  Collapse collapse_;
   std::vector<Part> parts_;  // of its nodes
   std::vector<Box> boxes_;   // of the meshlets
   std::vector<MeshletNode> tree_;

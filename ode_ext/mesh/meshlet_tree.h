@@ -26,8 +26,8 @@ struct MeshletNode {
 };
 
 // `top`: a tree of two children a node; its leaves, meshlet << 3 | 1, are the meshlets in their
-// order. Each node takes in the largest of the nodes below it, so that its boxes are small. The
-// root comes first; without meshlets there is none.
+// order. Which of its nodes stay is collapse.h's to say. The root comes first; without meshlets
+// there is none.
 std::vector<MeshletNode> build_meshlet_tree(const std::vector<BvhNode>& top);
 
 }  // namespace ode_ext

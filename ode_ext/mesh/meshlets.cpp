@@ -86,8 +86,8 @@ class Builder {
 
   void emit() {
     const auto place = [&](std::uint32_t vertex) {
-      return static_cast<std::uint32_t>(std::find(vertices_.begin(), vertices_.end(), vertex) -
-                                        vertices_.begin());
+      return static_cast<std::uint8_t>(std::find(vertices_.begin(), vertices_.end(), vertex) -
+                                       vertices_.begin());
     };
     for (std::uint32_t k = 0; k < current_.edge_count; ++k) {
       const std::uint32_t edge = by_place_.edges[current_.edge_first + k];

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kMeshletEdges = 32;
 // An edge of a meshlet: index of the edge, and places of its ends among the meshlet's vertices.
 struct MeshletEdge {
   std::uint32_t edge;
-  std::array<std::uint32_t, 2> ends;  // as Edge::vertices
+  std::array<std::uint8_t, 2> ends;  // as Edge::vertices
 };
 
 // Consecutive triangles in the order of the leaves, the vertices at them, and those edges of which

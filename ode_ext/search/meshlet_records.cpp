@@ -48,7 +48,7 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshRange& ra
     record.edge[k] = range.edge_first + edge.edge;
     if (edge.edge < mesh.topology->edges.size()) record.edges_apart |= 1u << k;
     for (std::uint32_t end = 0; end < 2; ++end)
-      record.ends[k / 2] |= edge.ends[end] << OX_END_SHIFT(k, end);
+      record.ends[k / 2] |= std::uint32_t{edge.ends[end]} << OX_END_SHIFT(k, end);
   }
 }
 

@@ -111,6 +111,22 @@ TEST(MeshletTree, OfAFineMeshIsAsShallowAsItCanBeAlmost) {
   EXPECT_LE(depth(mesh.topology->meshlets.tree, 0), std::ceil(levels) + 1);
 }
 
+// A node is looked at for nothing where the one above has room for its children.
+TEST(MeshletTree, KeepsNoNodeWhoseChildrenFitIntoTheOneAbove) {
+  for (const auto& soup : {test::soup_of(test::make_icosphere(1, 5)),
+                           test::soup_of(test::make_torus(1, 0.3, 160, 80))}) {
+    const Mesh mesh = build_mesh(soup);
+    const std::vector<MeshletNode>& tree = mesh.topology->meshlets.tree;
+    ASSERT_GT(tree.size(), 100u);
+    for (const MeshletNode& node : tree)
+      for (std::uint32_t k = 0; k < node.count; ++k)
+        if (node.nodes[k] != kNone) {
+          EXPECT_GT(node.count - 1 + tree[node.nodes[k]].count, kTreeWidth);
+        }
+    EXPECT_LT(tree.size(), mesh.topology->meshlets.meshlets.size() / 8);
+  }
+}
+
 TEST(MeshletTree, OfNothingIsEmpty) { EXPECT_TRUE(build_meshlet_tree({}).empty()); }
 
 }  // namespace
