@@ -103,8 +103,10 @@ MeshId Renderer::add_mesh(std::span<const glm::vec3> positions, std::span<const 
   return kinds_.size() - 1;
 }
 
-// What is out of sight is left out.
-Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const Sight& sight) {
+// What is out of sight is left out. What casts a shadow has the triangles that are seen: others
+// would throw shadows on them.
+Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const Sight& sight,
+                                  const Sight& seen) {
   struct Entry {
     MeshId kind;
     std::size_t detail;
@@ -118,7 +120,8 @@ Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const 
     const float size = std::max({glm::length(pose[0]), glm::length(pose[1]), glm::length(pose[2])});
     const float radius = size * kind.radius;
     if (!sight.sees(pose[3], radius)) continue;
-    const float allowed = quality_.error / (size * sight.pixels_per_meter(pose[3], radius));
+    const Sight& judge = seen.sees(pose[3], radius) ? seen : sight;
+    const float allowed = quality_.error / (size * judge.pixels_per_meter(pose[3], radius));
     std::size_t detail = 0;
     while (detail + 1 < kind.details.size() && kind.details[detail + 1].error <= allowed) ++detail;
     entries.push_back({instance.mesh, detail, &instance});
@@ -232,9 +235,10 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   const glm::mat4 sun = sun_from_world(frame);
   const Sight seen(clip_from_world, viewport.size);
   const Sight lit(sun, {quality_.shadow_size, quality_.shadow_size});
-  const Batches grounds = queue(frame.grounds, seen), objects = queue(frame.objects, seen);
+  const Batches grounds = queue(frame.grounds, seen, seen);
+  const Batches objects = queue(frame.objects, seen, seen);
   const Batches borders = queue_borders(frame.grounds);
-  const Batches glass = queue(frame.glass, seen);
+  const Batches glass = queue(frame.glass, seen, seen);
   // A bowl and hills would throw more on themselves than on others.
   std::vector<Instance> whole_grounds;
   std::copy_if(frame.grounds.begin(), frame.grounds.end(), std::back_inserter(whole_grounds),
@@ -242,13 +246,13 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   std::vector<Batches> casting{queue_cloths(frame.cloths)};
   for (const std::vector<Instance>* some :
        {&frame.objects, &frame.glass, &std::as_const(whole_grounds)}) {
-    casting.push_back(queue(*some, lit));
+    casting.push_back(queue(*some, lit, seen));
   }
   const Batches cloths = casting.front(), boxes = queue_boxes(frame.boxes);
   const Batches arrows = queue_arrows(frame.arrows, 0.003F * camera.distance);
   const Batches touched = queue_patches(frame.patches, false);
   const Batches over_all = queue_patches(frame.patches, true);
-  const Batches shown_through = queue(frame.shown_through, seen);
+  const Batches shown_through = queue(frame.shown_through, seen, seen);
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(GpuInstance)),
                instances_.data(), GL_STREAM_DRAW);

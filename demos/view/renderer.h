@@ -52,7 +52,7 @@ class Renderer {
     float radius;                 // [m] about its origin
   };
 
-  Batches queue(const std::vector<Instance>& instances, const Sight& sight);
+  Batches queue(const std::vector<Instance>& instances, const Sight& sight, const Sight& seen);
   Batches queue_borders(const std::vector<Instance>& instances);
   Batches queue_cloths(const std::vector<Cloth>& cloths);
   Batches queue_arrows(const std::vector<Arrow>& arrows, float thickness);

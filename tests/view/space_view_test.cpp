@@ -115,14 +115,17 @@ TEST_F(Space, ShowsContactsAsArrowsThatAreLongerTheDeeperTheyAre) {
   }
 }
 
-TEST_F(Space, ShowsWhatSomethingIsInAsGlass) {
+TEST_F(Space, ShowsAsGlassWhatSomethingIsInFromTheStart) {
   view::Studio studio({64, 64});
-  SpaceView view(studio.renderer());
-  EXPECT_TRUE(view.frame(space_, nullptr, {}, {}).glass.empty());
+  SpaceView heap(studio.renderer()), view(studio.renderer());
+  EXPECT_TRUE(heap.frame(space_, nullptr, {}, {}).glass.empty());
   add_block();
+  EXPECT_TRUE(heap.frame(space_, nullptr, {}, {}).glass.empty());
   const view::Frame frame = view.frame(space_, nullptr, {}, {});
-  ASSERT_EQ(frame.glass.size(), 1U);
+  EXPECT_EQ(frame.glass.size(), 1U);
   EXPECT_EQ(frame.objects.size(), 2U);
+  dBodySetPosition(bodies_[0], -2, 0, 0);
+  EXPECT_TRUE(view.frame(space_, nullptr, {}, {}).glass.empty());  // it left
 }
 
 TEST_F(Space, KeepsWhatMovesInTheLight) {

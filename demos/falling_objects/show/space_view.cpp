@@ -200,17 +200,22 @@ void SpaceView::light(const view::Box& all) {
   lit_radius_ = lit_radius_ > 0 ? kRoom * radius : radius;
 }
 
-// What has another object within its box.
+// What has another object within its box, and had from the start: in a heap that comes and goes.
 void SpaceView::make_glass(view::Frame& frame, const std::vector<dGeomID>& geoms) {
   std::vector<view::Box> boxes;
   for (dGeomID geom : geoms) boxes.push_back(box_of(geom));
   std::vector<view::Instance> opaque;
+  std::set<dGeomID> vessels;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const bool contains = std::any_of(
-        boxes.begin(), boxes.end(), [&](const view::Box& other) { return holds(boxes[i], other); });
+    const bool may = !vessels_ || vessels_->contains(geoms[i]);
+    const bool contains =
+        may && std::any_of(boxes.begin(), boxes.end(),
+                           [&](const view::Box& other) { return holds(boxes[i], other); });
+    if (contains) vessels.insert(geoms[i]);
     (contains ? frame.glass : opaque).push_back(frame.objects[i]);
   }
   frame.objects = std::move(opaque);
+  if (!vessels_) vessels_ = std::move(vessels);
 }
 
 view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,

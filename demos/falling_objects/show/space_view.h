@@ -6,6 +6,8 @@
 #include <ode_ext/ode_ext.h>
 
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -48,7 +50,7 @@ class SpaceView {
                      std::span<const dContactGeom> contacts, const Overlays& overlays,
                      dBatchColliderID collider) const;
   void light(const view::Box& all);
-  static void make_glass(view::Frame& frame, const std::vector<dGeomID>& geoms);
+  void make_glass(view::Frame& frame, const std::vector<dGeomID>& geoms);
   // In place of objects their meshlets.
   void dress(view::Frame& frame, const std::vector<dGeomID>& geoms, dBatchColliderID collider);
 
@@ -58,6 +60,7 @@ class SpaceView {
   float radius_ = 0;  // of where things were in the first picture [m]
   glm::vec3 lit_center_{0};
   float lit_radius_ = 0, first_lit_radius_ = 0;  // [m]
+  std::optional<std::set<dGeomID>> vessels_;     // that something was in at first
   glm::vec3 to_sun_ = view::Frame().to_sun;
 };
 
