@@ -28,6 +28,10 @@ void set(const GlObject& program, const char* name, const glm::vec3& value) {
   glUniform3fv(uniform(program, name), 1, glm::value_ptr(value));
 }
 
+void set(const GlObject& program, const char* name, float value) {
+  glUniform1f(uniform(program, name), value);
+}
+
 // Parallel, along the sun's light, around the ball in which shadows fall.
 glm::mat4 sun_from_world(const Frame& frame) {
   const float r = frame.radius;
@@ -279,6 +283,7 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
     set(*program, "clip_from_world", clip_from_world);
     set(*program, "shadow_from_world", texture_from_clip() * sun);
     set(*program, "eye", camera.eye());
+    set(*program, "pixel", seen.pixel_at_depth_one());
     set(*program, "to_sun", frame.to_sun);
   }
   draw_batches(objects);

@@ -16,6 +16,7 @@ class Sight {
   bool sees(glm::vec3 center, float radius) const;
   // [pixels] that a meter is long at most where the ball is nearest.
   float pixels_per_meter(glm::vec3 center, float radius) const;
+  float pixel_at_depth_one() const { return 1 / per_depth_; }  // how wide it is [m]
 
  private:
   struct Plane {
