@@ -59,7 +59,8 @@ endif()
 # As they refer to one another.
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT docs)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT docs
-        FILES_MATCHING PATTERN *.md PATTERN *.svg PATTERN *.png PATTERN *.webp PATTERN results EXCLUDE PATTERN site EXCLUDE)
+        FILES_MATCHING PATTERN *.md PATTERN *.txt PATTERN *.svg PATTERN *.png PATTERN *.webp
+        PATTERN site EXCLUDE)
 install(FILES demos/hello/hello.c
         DESTINATION ${CMAKE_INSTALL_DOCDIR}/demos/hello COMPONENT docs)
 

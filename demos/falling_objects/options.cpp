@@ -151,6 +151,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
     if (scene.drop) {
       if (objects->empty()) o.objects = scene.drop->objects;
       if (sheets->empty()) o.sheets = scene.drop->sheets;
+      if (o.objects != scene.drop->objects) scene.camera.reset();  // it sees as many as in the file
       scene.drop = Drop{o.objects, o.sheets};
     } else {
       o.objects = static_cast<int>(scene.bodies.size());

@@ -85,15 +85,23 @@ Progress::Progress(const Options& options)
     : quiet_(options.quiet),
       terminal_(isatty(STDERR_FILENO) != 0),
       steps_(options.steps),
-      every_(terminal_ ? 1 : std::max(1, static_cast<int>(std::lround(options.hz)))) {}
+      every_(terminal_ ? 1 : std::max(1, static_cast<int>(std::lround(options.hz)))),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 
+// Once a simulated second, or where that takes longer, every ten seconds.
 void Progress::show(const StepRecord& r) {
-  if (quiet_ || (r.step + 1) % every_ != 0) return;
+  constexpr double kSilence = 10;  // [s]
+  const auto now = std::chrono::steady_clock::now();
+  const auto since = [&](auto start) { return std::chrono::duration<double>(now - start).count(); };
+  if (quiet_ || ((r.step + 1) % every_ != 0 && since(last_) < kSilence)) return;
+  last_ = now;
+  const double left = since(start_) / (r.step + 1) * (steps_ - r.step - 1);
   std::fprintf(stderr,
                "%sstep %4d/%d  %6lld pairs  %6lld contacts  collide %8.2f ms  world %8.2f ms  "
-               "%.2f m/s%s",
+               "%.2f m/s  %4.0f s left%s",
                terminal_ ? "\r" : "", r.step + 1, steps_, r.pairs, r.contacts, r.collide_ms,
-               r.world_ms, r.mean_speed, terminal_ ? "  " : "\n");
+               r.world_ms, r.mean_speed, left, terminal_ ? "  " : "\n");
 }
 
 void Progress::finish() {

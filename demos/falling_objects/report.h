@@ -2,6 +2,7 @@
 // What a run prints and writes.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
@@ -26,6 +27,7 @@ class Progress {
   bool terminal_;
   int steps_;
   int every_;
+  std::chrono::steady_clock::time_point start_, last_;
 };
 
 // Of the timed stages (dBatchStage...) as columns are named; "gather".

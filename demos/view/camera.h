@@ -30,6 +30,8 @@ struct Camera {
   void turn(float azimuth_by, float elevation_by);  // [rad]
   void shift(glm::vec2 by);                         // of the target, in heights of the picture
   void zoom(float factor);
+
+  bool operator==(const Camera&) const = default;
 };
 
 // A camera that sees a whole ball.

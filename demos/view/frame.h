@@ -50,11 +50,13 @@ struct Patch {
 struct Frame {
   std::vector<Instance> grounds;  // do not move, and carry a grid of 1 m
   std::vector<Instance> objects;
+  std::vector<Instance> glass;  // objects that what is in them is seen through
   std::vector<Cloth> cloths;
   std::vector<Arrow> arrows;
   std::vector<Box> boxes;
   std::vector<Patch> patches;
-  std::vector<Instance> shown_through;  // drawn once more, faint, where something is in front
+  std::vector<Instance> shown_through;     // drawn once more, faint, where something is in front
+  glm::vec3 to_sun{0.57F, -0.23F, 0.79F};  // unit
   // The ball in which shadows fall.
   glm::vec3 center{0};
   float radius = 1;

@@ -3,14 +3,14 @@
 
 #include <array>
 #include <stdexcept>
-#include <string>
 
 namespace view {
 namespace {
 
-GlObject compile(GLenum kind, const char* source) {
+GlObject compile(GLenum kind, const std::string& defines, const char* body) {
   GlObject shader(glCreateShader(kind), [](GLuint id) { glDeleteShader(id); });
-  glShaderSource(shader.id(), 1, &source, nullptr);
+  const std::array<const char*, 3> source{"#version 330 core\n", defines.c_str(), body};
+  glShaderSource(shader.id(), static_cast<GLsizei>(source.size()), source.data(), nullptr);
   glCompileShader(shader.id());
   GLint done = 0;
   glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &done);
@@ -54,9 +54,12 @@ GlObject make_framebuffer() {
   return {id, [](GLuint of) { glDeleteFramebuffers(1, &of); }};
 }
 
-GlObject make_program(const char* vertex_shader, const char* fragment_shader) {
-  const GlObject vertex = compile(GL_VERTEX_SHADER, vertex_shader);
-  const GlObject fragment = compile(GL_FRAGMENT_SHADER, fragment_shader);
+GlObject make_program(const char* vertex_shader, const char* fragment_shader,
+                      const std::vector<std::string>& defined) {
+  std::string defines;
+  for (const std::string& name : defined) defines += "#define " + name + "\n";
+  const GlObject vertex = compile(GL_VERTEX_SHADER, defines, vertex_shader);
+  const GlObject fragment = compile(GL_FRAGMENT_SHADER, defines, fragment_shader);
   GlObject program(glCreateProgram(), [](GLuint id) { glDeleteProgram(id); });
   glAttachShader(program.id(), vertex.id());
   glAttachShader(program.id(), fragment.id());

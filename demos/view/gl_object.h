@@ -5,7 +5,9 @@
 
 #include <epoxy/gl.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace view {
 
@@ -39,7 +41,8 @@ GlObject make_renderbuffer();
 GlObject make_framebuffer();
 
 // Throws std::runtime_error with what the driver's compiler says.
-GlObject make_program(const char* vertex_shader, const char* fragment_shader);
+GlObject make_program(const char* vertex_shader, const char* fragment_shader,
+                      const std::vector<std::string>& defined = {});
 
 GLint uniform(const GlObject& program, const char* name);
 

@@ -11,6 +11,8 @@ namespace view {
 
 struct Size {
   int width = 0, height = 0;  // [pixels]
+
+  bool operator==(const Size&) const = default;
 };
 
 struct Image {

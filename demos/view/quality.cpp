@@ -11,7 +11,7 @@ Quality quality_of_driver(bool for_window) {
   const std::string name = renderer_name();
   for (const char* on_processor : {"llvmpipe", "softpipe", "swrast", "SWR"}) {
     if (name.find(on_processor) == std::string::npos) continue;
-    return {for_window ? 1 : 4, 1024};
+    return for_window ? Quality{1, 768, false, 1} : Quality{4, 1024, true, 0.5F};
   }
   return {};
 }

@@ -9,13 +9,14 @@ namespace view {
 struct Quality {
   int samples = 4;         // of a pixel
   int shadow_size = 2048;  // texels along a side of the shadows
+  bool soft_shadows = true;
+  float error = 0.35F;  // [pixels] that a mesh may be off by where it is drawn with fewer triangles
 };
 
 // What draws, as the driver calls itself. Needs a current context, as does the next.
 std::string renderer_name();
 
-// Where the processor draws, 1,000 objects take it 0.1 s with the least and 0.4 s with the most: a
-// film has time, a window has not.
+// A film has time, a window has not: where the processor draws it, it gets less.
 Quality quality_of_driver(bool for_window);
 
 }  // namespace view

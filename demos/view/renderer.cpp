@@ -2,21 +2,23 @@
 #include "view/renderer.h"
 
 #include <algorithm>
-#include <array>
-#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <iterator>
+#include <utility>
 
 #include "view/marks.h"
+#include "view/shaded_mesh.h"
 #include "view/shaders.h"
 #include "view/simplify.h"
 
 namespace view {
 namespace {
 
-const glm::vec3 kToSun = glm::normalize(glm::vec3(0.62F, -0.25F, 0.85F));
-constexpr float kSmall = 56;     // [pixels] across, below which nobody sees a mesh's every triangle
-constexpr float kHidden = 0.5F;  // opacity of marks behind something
+constexpr Color kBorder{0.32F, 0.31F, 0.30F};
+constexpr float kHidden = 0.5F;    // opacity of marks behind something
+constexpr float kNearWall = 0.2F;  // ... of a ground that is seen from behind, with things in it
+constexpr float kGlass = 0.3F;
 
 void set(const GlObject& program, const char* name, const glm::mat4& value) {
   glUniformMatrix4fv(uniform(program, name), 1, GL_FALSE, glm::value_ptr(value));
@@ -34,7 +36,7 @@ void set(const GlObject& program, const char* name, float value) {
 glm::mat4 sun_from_world(const Frame& frame) {
   const float r = frame.radius;
   return glm::ortho(-r, r, -r, r, r, 5 * r) *
-         glm::lookAt(frame.center + 3 * r * kToSun, frame.center, glm::vec3(0, 0, 1));
+         glm::lookAt(frame.center + 3 * r * frame.to_sun, frame.center, glm::vec3(0, 0, 1));
 }
 
 // From -1 to 1 to a texture's 0 to 1.
@@ -42,29 +44,45 @@ glm::mat4 texture_from_clip() {
   return glm::translate(glm::mat4(1), glm::vec3(0.5F)) * glm::scale(glm::mat4(1), glm::vec3(0.5F));
 }
 
-template <class T>
-void fill(GLenum target, const std::vector<T>& values, GLenum usage) {
-  glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), usage);
+std::vector<std::string> defined(const Quality& quality, bool grid) {
+  std::vector<std::string> names;
+  if (quality.soft_shadows) names.emplace_back("SOFT");
+  if (grid) names.emplace_back("GRID");
+  return names;
 }
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+void set_opacity(float opacity) { glBlendColor(0, 0, 0, opacity); }
+
+void see_through(float opacity) {
+  set_opacity(opacity);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  glDepthMask(GL_FALSE);
+}
+
+void cover() {
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+}
 
 }  // namespace
 
 Renderer::Renderer(const Quality& quality)
-    : shadow_size_(quality.shadow_size),
-      mesh_program_(make_program(kMeshVertexShader, kMeshFragmentShader)),
+    : quality_(quality),
+      solid_program_(make_program(kMeshVertexShader, kLitFragmentShader, defined(quality, false))),
+      ground_program_(make_program(kMeshVertexShader, kLitFragmentShader, defined(quality, true))),
+      flat_program_(make_program(kMeshVertexShader, kFlatFragmentShader)),
       shadow_program_(make_program(kShadowVertexShader, kShadowFragmentShader)),
       sky_program_(make_program(kSkyVertexShader, kSkyFragmentShader)),
       shadow_map_(make_texture()),
       shadow_buffer_(make_framebuffer()),
       instance_buffer_(make_buffer()),
       empty_array_(make_vertex_array()),
-      arrow_(make_mesh(arrow_mesh(), true)),
-      box_(make_mesh(box_mesh(), false)) {
+      arrow_(arrow_mesh(), true),
+      box_(box_mesh(), false) {
   glBindTexture(GL_TEXTURE_2D, shadow_map_.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadow_size_, shadow_size_, 0,
-               GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, quality_.shadow_size, quality_.shadow_size,
+               0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -80,49 +98,44 @@ Renderer::Renderer(const Quality& quality)
 
 MeshId Renderer::add_mesh(std::span<const glm::vec3> positions, std::span<const unsigned> triangles,
                           bool closed) {
-  float radius = 0;
-  for (const glm::vec3& p : positions) radius = std::max(radius, glm::length(p));
-  kinds_.push_back({make_mesh(shade(positions, triangles), closed),
-                    make_mesh(shade(positions, simplify(positions, triangles)), closed), radius});
+  Kind kind{{}, GpuMesh(border_of(positions, triangles), false), 0};
+  for (const glm::vec3& p : positions) kind.radius = std::max(kind.radius, glm::length(p));
+  for (const auto& [some, error] : levels_of(positions, triangles)) {
+    kind.details.push_back({GpuMesh(shade(positions, some), closed), error});
+  }
+  kinds_.push_back(std::move(kind));
   return kinds_.size() - 1;
 }
 
-Renderer::Mesh Renderer::make_mesh(const ShadedMesh& shaded, bool closed) const {
-  Mesh mesh{make_buffer(), make_buffer(), make_vertex_array(), 0, closed};
-  glBindVertexArray(mesh.array.id());
-  refill(mesh, shaded);
-  constexpr GLsizei kStride = sizeof(ShadedMesh::Vertex);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, kStride, offset(sizeof(glm::vec3)));
-  for (GLuint i = 0; i <= 6; ++i) glEnableVertexAttribArray(i);
-  for (GLuint i = 2; i <= 6; ++i) glVertexAttribDivisor(i, 1);
-  return mesh;
-}
-
-// Needs the mesh's array bound.
-void Renderer::refill(Mesh& mesh, const ShadedMesh& shaded) const {
-  glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.id());
-  fill(GL_ARRAY_BUFFER, shaded.vertices, GL_STREAM_DRAW);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.triangles.id());
-  fill(GL_ELEMENT_ARRAY_BUFFER, shaded.triangles, GL_STREAM_DRAW);
-  mesh.count = static_cast<GLsizei>(shaded.triangles.size());
-}
-
-Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const Scale& scale) {
+// What is out of sight is left out. What casts a shadow has the triangles that are seen: others
+// would throw shadows on them.
+Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const Sight& sight,
+                                  const Sight& seen) {
   struct Entry {
-    const Mesh* mesh;
+    MeshId kind;
+    std::size_t detail;
     const Instance* instance;
   };
   std::vector<Entry> entries;
+  entries.reserve(instances.size());
   for (const Instance& instance : instances) {
     const Kind& kind = kinds_.at(instance.mesh);
-    const bool small = 2 * kind.radius * scale(instance.pose[3]) < kSmall;
-    entries.push_back({small ? &kind.coarse : &kind.fine, &instance});
+    const Pose& pose = instance.pose;
+    const float size = std::max({glm::length(pose[0]), glm::length(pose[1]), glm::length(pose[2])});
+    const float radius = size * kind.radius;
+    if (!sight.sees(pose[3], radius)) continue;
+    const Sight& judge = seen.sees(pose[3], radius) ? seen : sight;
+    const float allowed = quality_.error / (size * judge.pixels_per_meter(pose[3], radius));
+    std::size_t detail = 0;
+    while (detail + 1 < kind.details.size() && kind.details[detail + 1].error <= allowed) ++detail;
+    entries.push_back({instance.mesh, detail, &instance});
   }
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const Entry& a, const Entry& b) { return std::less<>()(a.mesh, b.mesh); });
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return std::pair(a.kind, a.detail) < std::pair(b.kind, b.detail);
+  });
   Batches batches;
-  for (const auto& [mesh, instance] : entries) {
+  for (const auto& [kind, detail, instance] : entries) {
+    const GpuMesh* mesh = &kinds_[kind].details[detail].mesh;
     if (batches.empty() || batches.back().mesh != mesh) {
       batches.push_back({mesh, instances_.size(), 0});
     }
@@ -132,12 +145,20 @@ Renderer::Batches Renderer::queue(const std::vector<Instance>& instances, const 
   return batches;
 }
 
+Renderer::Batches Renderer::queue_borders(const std::vector<Instance>& instances) {
+  Batches batches;
+  for (const Instance& instance : instances) {
+    batches.push_back({&kinds_.at(instance.mesh).border, instances_.size(), 1});
+    instances_.push_back({instance.pose, glm::vec4(kBorder, 1)});
+  }
+  return batches;
+}
+
 Renderer::Batches Renderer::queue_cloths(const std::vector<Cloth>& cloths) {
-  while (cloths_.size() < cloths.size()) cloths_.push_back(make_mesh({}, false));
+  while (cloths_.size() < cloths.size()) cloths_.emplace_back(ShadedMesh{}, false);
   Batches batches;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    glBindVertexArray(cloths_[i].array.id());
-    refill(cloths_[i], shade_smoothly(cloths[i].vertices, cloths[i].triangles));
+    cloths_[i].refill(shade_smoothly(cloths[i].vertices, cloths[i].triangles));
     batches.push_back({&cloths_[i], instances_.size(), 1});
     instances_.push_back({Pose(1), glm::vec4(cloths[i].color, 1)});
   }
@@ -164,7 +185,7 @@ Renderer::Batches Renderer::queue_boxes(const std::vector<Box>& boxes) {
 }
 
 Renderer::Batches Renderer::queue_patches(const std::vector<Patch>& patches, bool over_all) {
-  while (patches_.size() < patches.size()) patches_.push_back(make_mesh({}, false));
+  while (patches_.size() < patches.size()) patches_.emplace_back(ShadedMesh{}, false);
   Batches batches;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches[i].over_all != over_all) continue;
@@ -173,8 +194,7 @@ Renderer::Batches Renderer::queue_patches(const std::vector<Patch>& patches, boo
       mesh.triangles.push_back(static_cast<unsigned>(mesh.vertices.size()));
       mesh.vertices.push_back({corner, glm::vec3(0, 0, 1)});
     }
-    glBindVertexArray(patches_[i].array.id());
-    refill(patches_[i], mesh);
+    patches_[i].refill(mesh);
     batches.push_back({&patches_[i], instances_.size(), 1});
     instances_.push_back({Pose(1), glm::vec4(patches[i].color, 1)});
   }
@@ -182,27 +202,17 @@ Renderer::Batches Renderer::queue_patches(const std::vector<Patch>& patches, boo
 }
 
 void Renderer::draw_batches(const Batches& batches, GLenum primitive) const {
-  glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   for (const Batch& batch : batches) {
-    if (batch.count == 0 || batch.mesh->count == 0) continue;
-    glBindVertexArray(batch.mesh->array.id());
-    const std::size_t start = batch.first * sizeof(GpuInstance);
-    for (GLuint i = 0; i < 4; ++i) {
-      glVertexAttribPointer(2 + i, 3, GL_FLOAT, GL_FALSE, sizeof(GpuInstance),
-                            offset(start + i * sizeof(glm::vec3)));
-    }
-    glVertexAttribPointer(6, 4, GL_FLOAT, GL_FALSE, sizeof(GpuInstance),
-                          offset(start + sizeof(Pose)));
-    (batch.mesh->closed ? glEnable : glDisable)(GL_CULL_FACE);
-    glDrawElementsInstanced(primitive, batch.mesh->count, GL_UNSIGNED_INT, nullptr,
-                            static_cast<GLsizei>(batch.count));
+    if (batch.count == 0 || batch.mesh->empty()) continue;
+    (batch.mesh->closed() ? glEnable : glDisable)(GL_CULL_FACE);
+    batch.mesh->draw(instance_buffer_, batch.first, batch.count, primitive);
   }
 }
 
 void Renderer::draw_shadows(const std::vector<Batches>& all,
                             const glm::mat4& clip_from_world) const {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_buffer_.id());
-  glViewport(0, 0, shadow_size_, shadow_size_);
+  glViewport(0, 0, quality_.shadow_size, quality_.shadow_size);
   glClear(GL_DEPTH_BUFFER_BIT);
   glUseProgram(shadow_program_.id());
   set(shadow_program_, "clip_from_world", clip_from_world);
@@ -225,28 +235,38 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   GLint canvas = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &canvas);
   instances_.clear();
-  const Scale in_picture = [&](glm::vec3 place) {
-    return static_cast<float>(std::min(viewport.size.width, viewport.size.height)) /
-           camera.extent_at(place);
-  };
-  const Batches grounds = queue(frame.grounds, in_picture);
-  const Batches objects = queue(frame.objects, in_picture);
-  const Batches cloths = queue_cloths(frame.cloths), boxes = queue_boxes(frame.boxes);
+  const glm::mat4 clip_from_world = camera.clip_from_world(viewport.aspect());
+  const glm::mat4 sun = sun_from_world(frame);
+  const Sight seen(clip_from_world, viewport.size);
+  const Sight lit(sun, {quality_.shadow_size, quality_.shadow_size});
+  const Batches grounds = queue(frame.grounds, seen, seen);
+  const Batches objects = queue(frame.objects, seen, seen);
+  const Batches borders = queue_borders(frame.grounds);
+  const Batches glass = queue(frame.glass, seen, seen);
+  // A bowl and hills would throw more on themselves than on others.
+  std::vector<Instance> whole_grounds;
+  std::copy_if(frame.grounds.begin(), frame.grounds.end(), std::back_inserter(whole_grounds),
+               [&](const Instance& ground) { return kinds_.at(ground.mesh).border.empty(); });
+  std::vector<Batches> casting{queue_cloths(frame.cloths)};
+  for (const std::vector<Instance>* some :
+       {&frame.objects, &frame.glass, &std::as_const(whole_grounds)}) {
+    casting.push_back(queue(*some, lit, seen));
+  }
+  const Batches cloths = casting.front(), boxes = queue_boxes(frame.boxes);
   const Batches arrows = queue_arrows(frame.arrows, 0.003F * camera.distance);
   const Batches touched = queue_patches(frame.patches, false);
   const Batches over_all = queue_patches(frame.patches, true);
-  const Batches shown_through = queue(frame.shown_through, in_picture);
+  const Batches shown_through = queue(frame.shown_through, seen, seen);
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  fill(GL_ARRAY_BUFFER, instances_, GL_STREAM_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances_.size() * sizeof(GpuInstance)),
+               instances_.data(), GL_STREAM_DRAW);
 
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
-  const glm::mat4 sun = sun_from_world(frame);
-  // The same triangles as are seen: others would throw shadows on them.
-  draw_shadows({objects, cloths}, sun);
+  draw_shadows(casting, sun);
 
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(canvas));
   const auto [x, y, size] = viewport;
@@ -256,25 +276,37 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   glClear(GL_DEPTH_BUFFER_BIT);
   glEnable(GL_MULTISAMPLE);
 
-  const glm::mat4 clip_from_world = camera.clip_from_world(viewport.aspect());
-  glUseProgram(mesh_program_.id());
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_map_.id());
-  set(mesh_program_, "clip_from_world", clip_from_world);
-  set(mesh_program_, "shadow_from_world", texture_from_clip() * sun);
-  set(mesh_program_, "eye", camera.eye());
-  set(mesh_program_, "to_sun", kToSun);
-  set(mesh_program_, "lit", 1);
-  set(mesh_program_, "grid", 0);
+  for (const GlObject* program : {&flat_program_, &ground_program_, &solid_program_}) {
+    glUseProgram(program->id());
+    set(*program, "clip_from_world", clip_from_world);
+    set(*program, "shadow_from_world", texture_from_clip() * sun);
+    set(*program, "eye", camera.eye());
+    set(*program, "pixel", seen.pixel_at_depth_one());
+    set(*program, "to_sun", frame.to_sun);
+  }
   draw_batches(objects);
   draw_batches(cloths);
-  set(mesh_program_, "grid", 1);
+  glUseProgram(ground_program_.id());
   draw_batches(grounds);
   draw_sky();
 
-  glUseProgram(mesh_program_.id());
-  set(mesh_program_, "lit", 0);
-  set(mesh_program_, "grid", 0);
+  // The near wall of a bowl: nothing behind it would be seen if it were drawn as it is.
+  glDepthFunc(GL_LESS);
+  glUseProgram(ground_program_.id());
+  see_through(kNearWall);
+  glCullFace(GL_FRONT);
+  draw_batches(grounds);
+  glUseProgram(solid_program_.id());
+  set_opacity(kGlass);
+  draw_batches(glass);
+  glCullFace(GL_BACK);
+  draw_batches(glass);
+  cover();
+
+  glUseProgram(flat_program_.id());
+  draw_batches(borders, GL_LINES);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-1, -2);
   draw_batches(touched);
@@ -282,19 +314,15 @@ void Renderer::draw(const Frame& frame, const Camera& camera, const Viewport& vi
   draw_batches(boxes, GL_LINES);
   // Arrows point into things: faint through what is in front, then as they are where they are seen.
   // Patches are where things touch, and what is inside something is hidden by it.
-  glEnable(GL_BLEND);
-  glBlendColor(0, 0, 0, kHidden);
-  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
-  glDepthMask(GL_FALSE);
+  see_through(kHidden);
   glDepthFunc(GL_GREATER);
   draw_batches(shown_through);
   draw_batches(over_all);
   draw_batches(arrows);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
+  cover();
   glDepthFunc(GL_LESS);
   draw_batches(over_all);
-  set(mesh_program_, "lit", 1);
+  glUseProgram(solid_program_.id());
   draw_batches(arrows);
   glDisable(GL_SCISSOR_TEST);
 }

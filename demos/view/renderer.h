@@ -2,16 +2,16 @@
 // Draws a frame: all objects of a mesh at once, in sun and shadow.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "view/camera.h"
 #include "view/frame.h"
 #include "view/gl_object.h"
+#include "view/gpu_mesh.h"
 #include "view/image.h"
 #include "view/quality.h"
-#include "view/shaded_mesh.h"
+#include "view/sight.h"
 
 namespace view {
 
@@ -35,32 +35,25 @@ class Renderer {
   void draw(const Frame& frame, const Camera& camera, const Viewport& viewport);
 
  private:
-  struct Mesh {
-    GlObject vertices, triangles, array;
-    GLsizei count = 0;  // of indices
-    bool closed = true;
-  };
-  struct GpuInstance {
-    Pose pose;
-    glm::vec4 color;
-  };
   // Instances of one mesh that follow one another in the buffer.
   struct Batch {
-    const Mesh* mesh;
+    const GpuMesh* mesh;
     std::size_t first, count;
   };
   using Batches = std::vector<Batch>;
   // A mesh as it is, and with fewer triangles for where it is small in the picture.
-  struct Kind {
-    Mesh fine, coarse;
-    float radius;  // [m] about its origin
+  struct Detail {
+    GpuMesh mesh;
+    float error;  // [m] that it is off by
   };
-  // How many pixels a metre is long at a place.
-  using Scale = std::function<float(glm::vec3)>;
+  struct Kind {
+    std::vector<Detail> details;  // the finest first
+    GpuMesh border;               // lines
+    float radius;                 // [m] about its origin
+  };
 
-  Mesh make_mesh(const ShadedMesh& shaded, bool closed) const;
-  void refill(Mesh& mesh, const ShadedMesh& shaded) const;
-  Batches queue(const std::vector<Instance>& instances, const Scale& scale);
+  Batches queue(const std::vector<Instance>& instances, const Sight& sight, const Sight& seen);
+  Batches queue_borders(const std::vector<Instance>& instances);
   Batches queue_cloths(const std::vector<Cloth>& cloths);
   Batches queue_arrows(const std::vector<Arrow>& arrows, float thickness);
   Batches queue_boxes(const std::vector<Box>& boxes);
@@ -69,14 +62,14 @@ class Renderer {
   void draw_shadows(const std::vector<Batches>& all, const glm::mat4& clip_from_world) const;
   void draw_sky() const;
 
-  GLsizei shadow_size_;
-  GlObject mesh_program_, shadow_program_, sky_program_;
+  Quality quality_;
+  GlObject solid_program_, ground_program_, flat_program_, shadow_program_, sky_program_;
   GlObject shadow_map_, shadow_buffer_;
   GlObject instance_buffer_, empty_array_;
   std::vector<Kind> kinds_;
-  Mesh arrow_, box_;
-  std::vector<Mesh> cloths_, patches_;  // filled anew for each frame
-  std::vector<GpuInstance> instances_;  // of the frame that is being drawn
+  GpuMesh arrow_, box_;
+  std::vector<GpuMesh> cloths_, patches_;  // filled anew for each frame
+  std::vector<GpuInstance> instances_;     // of the frame that is being drawn
 };
 
 }  // namespace view

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace view {
 namespace {
@@ -72,6 +74,22 @@ ShadedMesh shade_smoothly(std::span<const glm::vec3> positions,
   }
   for (ShadedMesh::Vertex& vertex : mesh.vertices) vertex.normal = unit(vertex.normal);
   return mesh;
+}
+
+ShadedMesh border_of(std::span<const glm::vec3> positions, std::span<const unsigned> triangles) {
+  std::set<std::pair<unsigned, unsigned>> once;  // edges that so far had one triangle
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const unsigned from = triangles[i], to = triangles[i % 3 == 2 ? i - 2 : i + 1];
+    if (once.erase({to, from}) == 0) once.emplace(from, to);
+  }
+  ShadedMesh border;
+  for (const auto& [from, to] : once) {
+    for (const unsigned end : {from, to}) {
+      border.triangles.push_back(static_cast<unsigned>(border.vertices.size()));
+      border.vertices.push_back({positions[end], glm::vec3(0, 0, 1)});
+    }
+  }
+  return border;
 }
 
 }  // namespace view

@@ -25,4 +25,7 @@ ShadedMesh shade(std::span<const glm::vec3> positions, std::span<const unsigned>
 ShadedMesh shade_smoothly(std::span<const glm::vec3> positions,
                           std::span<const unsigned> triangles);
 
+// Of a surface that has a border, the edges of it: two vertices each.
+ShadedMesh border_of(std::span<const glm::vec3> positions, std::span<const unsigned> triangles);
+
 }  // namespace view

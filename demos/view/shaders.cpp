@@ -3,7 +3,7 @@
 
 namespace view {
 
-const char* const kMeshVertexShader = R"(#version 330 core
+const char* const kMeshVertexShader = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec3 axis_x;
@@ -13,6 +13,8 @@ layout(location = 5) in vec3 origin;
 layout(location = 6) in vec4 tint;
 uniform mat4 clip_from_world;
 uniform mat4 shadow_from_world;
+uniform vec3 to_sun;
+uniform float pixel;  // [m] wide at depth 1
 out vec3 position_ws;
 out vec3 normal_ws;
 out vec3 place_in_shadow;
@@ -23,14 +25,20 @@ void main() {
   position_ws = axes * position + origin;
   // The cofactors: right for axes of unequal length too.
   normal_ws = mat3(cross(axis_y, axis_z), cross(axis_z, axis_x), cross(axis_x, axis_y)) * normal;
-  place_in_shadow = (shadow_from_world * vec4(position_ws, 1)).xyz;
   color = tint;
   gl_Position = clip_from_world * vec4(position_ws, 1);
+  // Two pixels nearer to the sun, which nobody sees: at the edge of a triangle what is drawn is the
+  // pixel's middle, which may be beside it and below the surface.
+  vec3 lifted = position_ws + 2 * pixel * gl_Position.w * to_sun;
+  place_in_shadow = (shadow_from_world * vec4(lifted, 1)).xyz;
 }
 )";
 
-// Light from the sun where no shadow falls, and from the sky and the ground everywhere.
-const char* const kMeshFragmentShader = R"(#version 330 core
+// Light from the sun where no shadow falls, and from the sky and the ground everywhere. Colors are
+// squared to be reckoned with, which is near enough to what screens do and costs least where the
+// processor draws. What is not asked for is left out before it is compiled: a processor does not
+// jump over what a condition leaves out.
+const char* const kLitFragmentShader = R"(
 in vec3 position_ws;
 in vec3 normal_ws;
 in vec3 place_in_shadow;
@@ -38,12 +46,11 @@ flat in vec4 color;
 uniform vec3 eye;
 uniform vec3 to_sun;
 uniform sampler2DShadow shadow;
-uniform float grid;   // 1: lines every metre
-uniform float lit;    // 0: the color as it is
 out vec4 seen;
 
-float sunshine(vec3 n) {
+float sunshine() {
   if (any(greaterThan(abs(place_in_shadow - 0.5), vec3(0.5)))) return 1.0;
+#ifdef SOFT
   vec2 texel = 0.75 / vec2(textureSize(shadow, 0));
   float sum = 0;
   for (int i = 0; i < 4; ++i) {
@@ -51,32 +58,40 @@ float sunshine(vec3 n) {
     sum += texture(shadow, place_in_shadow + vec3(aside, 0));
   }
   return sum / 4;
+#else
+  return texture(shadow, place_in_shadow);
+#endif
 }
 
 void main() {
-  if (lit == 0) {
-    seen = color;
-    return;
-  }
   vec3 n = normalize(gl_FrontFacing ? normal_ws : -normal_ws);
-  vec3 base = pow(color.rgb, vec3(2.2));
-  if (grid > 0) {
-    vec2 off = abs(fract(position_ws.xy + 0.5) - 0.5);
-    vec2 width = max(fwidth(position_ws.xy), 0.004);
-    vec2 line = 1 - smoothstep(width * 0.7, width * 1.7, off);
-    base *= 1 - 0.22 * max(line.x, line.y) * grid * smoothstep(0.3, 0.6, n.z);
-  }
-  float facing = dot(n, to_sun);
-  float sun = facing > 0 ? facing * sunshine(n) : 0;
+  vec3 base = color.rgb * color.rgb;
+  float sun = max(dot(n, to_sun), 0) * sunshine();
   vec3 sky = mix(vec3(0.26, 0.23, 0.21), vec3(0.50, 0.55, 0.64), 0.5 + 0.5 * n.z);
   vec3 light = sky + 1.05 * sun * vec3(1.0, 0.95, 0.86);
+#ifdef GRID
+  vec2 off = abs(fract(position_ws.xy + 0.5) - 0.5);
+  vec2 width = max(fwidth(position_ws.xy), 0.004);
+  vec2 line = 1 - smoothstep(width * 0.7, width * 1.7, off);
+  base *= 1 - 0.22 * max(line.x, line.y) * smoothstep(0.3, 0.6, abs(n.z));
+  seen = vec4(sqrt(base * light), color.a);
+#else
   vec3 half_way = normalize(to_sun + normalize(eye - position_ws));
-  float shine = sun > 0 ? 0.14 * pow(max(dot(n, half_way), 0), 40) * (1 - grid) : 0;
-  seen = vec4(pow(base * light + shine, vec3(1 / 2.2)), color.a);
+  float shine = max(dot(n, half_way), 0);
+  for (int i = 0; i < 5; ++i) shine *= shine;
+  seen = vec4(sqrt(base * light + min(sun, 1) * 0.14 * shine), color.a);
+#endif
 }
 )";
 
-const char* const kShadowVertexShader = R"(#version 330 core
+const char* const kFlatFragmentShader = R"(
+flat in vec4 color;
+out vec4 seen;
+
+void main() { seen = color; }
+)";
+
+const char* const kShadowVertexShader = R"(
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec3 axis_x;
 layout(location = 3) in vec3 axis_y;
@@ -89,11 +104,11 @@ void main() {
 }
 )";
 
-const char* const kShadowFragmentShader = R"(#version 330 core
+const char* const kShadowFragmentShader = R"(
 void main() {}
 )";
 
-const char* const kSkyVertexShader = R"(#version 330 core
+const char* const kSkyVertexShader = R"(
 out float height;
 
 void main() {
@@ -103,7 +118,7 @@ void main() {
 }
 )";
 
-const char* const kSkyFragmentShader = R"(#version 330 core
+const char* const kSkyFragmentShader = R"(
 in float height;
 out vec4 seen;
 

@@ -7,8 +7,14 @@
 
 namespace view {
 
-// About a sixth of the triangles, of the same vertices, for a mesh that is seen from afar.
-std::vector<unsigned> simplify(std::span<const glm::vec3> positions,
-                               std::span<const unsigned> triangles);
+// Triangles in place of those of a mesh, between the same vertices.
+struct Level {
+  std::vector<unsigned> triangles;
+  float error;  // how far from the mesh they are, about, in its unit
+};
+
+// The mesh itself, and ever fewer triangles for ever smaller pictures of it.
+std::vector<Level> levels_of(std::span<const glm::vec3> positions,
+                             std::span<const unsigned> triangles);
 
 }  // namespace view

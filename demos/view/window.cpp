@@ -58,9 +58,13 @@ Size Window::pixels() const {
   return {std::max(size.width, 16), std::max(size.height, 16)};
 }
 
-void Window::poll() {
+void Window::poll(double patience) {
   pressed_.clear();
-  glfwPollEvents();
+  if (patience > 0) {
+    glfwWaitEventsTimeout(patience);
+  } else {
+    glfwPollEvents();
+  }
 }
 
 bool Window::pressed(int key) const {

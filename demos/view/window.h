@@ -26,7 +26,8 @@ class Window {
   bool open() const;
   void close();
   Size pixels() const;
-  void poll();  // takes what the user did since
+  // Takes what the user did since, and waits so long [s] for it if there is nothing.
+  void poll(double patience = 0);
   // Before the last poll, however short (a key of GLFW's).
   bool pressed(int key) const;
   void swap();  // shows what was drawn

@@ -42,6 +42,10 @@ install_component dev "^\./include/ode_ext/|/cmake/ode_ext/|/ode_ext\.pc$|$libra
 install_component tools '^\./(bin/ode_ext-|share/man/man1/ode_ext-|lib.*/ode_ext/libode_ext_preload)' \
   /ode_ext-info /ode_ext-replay /ode_ext-run /libode_ext_preload\\.so /ode_ext-info\\.1 /ode_ext-replay\\.1
 install_component docs '^\./share/doc/ode_ext/' /README\\.md /docs/contacts\\.md /docs/pictures/tower\\.webp /hello\\.c
+while read -r page picture; do
+  [[ -s $(dirname "$page")/$picture ]] || fail "$page shows $picture, which is not installed"
+done < <(grep -r -o '!\[[^]]*\]([^)]*)' --include='*.md' "$prefix/share/doc/ode_ext" |
+  sed -E 's/^([^:]*):.*\]\(([^)]*)\)$/\1 \2/')
 # All of it is what comes without naming a component.
 installed > "$work/components"
 cmake --install "$build" --prefix "$work/whole" > /dev/null

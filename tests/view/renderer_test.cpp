@@ -154,6 +154,62 @@ TEST(Renderer, ShowsPatchesAndObjectsThroughWhatIsInFrontOfThemFainterIfAsked) {
   }
 }
 
+// From (-1, -1, 0) to (1, 1, 0), seen from above.
+view::MeshId add_square(view::Renderer& renderer) {
+  const std::vector<glm::vec3> corners{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  return renderer.add_mesh(corners, std::vector<unsigned>{0, 1, 2, 0, 2, 3}, true);
+}
+
+TEST(Renderer, ShowsWhatIsBehindAGroundThatIsSeenFromBelow) {
+  view::Studio studio({320, 240});
+  const view::MeshId square = add_square(studio.renderer()), cube = add_cube(studio.renderer());
+  view::Frame frame;
+  frame.objects.push_back({cube, at(0, 0, 1), kRed});
+  view::Camera camera = view::looking_at(glm::vec3(0), 2);
+  const auto is_reddish = [](const Pixel& p) { return p.red > p.green + 30; };
+  for (const float side : {1.0F, -1.0F}) {
+    camera.elevation = side * glm::radians(60.0F);
+    frame.grounds.clear();
+    const int alone = area(draw(studio, frame, camera), is_reddish);
+    frame.grounds.push_back({square, at(0, 0, 0), kBlue});
+    const view::Image image = draw(studio, frame, camera);
+    EXPECT_GT(area(image, is_reddish), alone / 2);
+    EXPECT_GT(area(image, [](const Pixel& p) { return p.blue > p.green + 20; }), 1000);
+  }
+}
+
+TEST(Renderer, ShowsWhatIsInGlass) {
+  view::Studio studio({320, 240});
+  const view::MeshId cube = add_cube(studio.renderer());
+  const view::Camera camera = view::looking_at(glm::vec3(0), 2);
+  const auto is_reddish = [](const Pixel& p) { return p.red > p.green + 30; };
+  view::Frame frame;
+  frame.objects.push_back({cube, at(0, 0, 0, 0.5F), kRed});
+  frame.objects.push_back({cube, at(0, 0, 0), kGrey});
+  EXPECT_EQ(area(draw(studio, frame, camera), is_reddish), 0);
+  frame.glass.push_back(frame.objects.back());
+  frame.objects.pop_back();
+  const view::Image image = draw(studio, frame, camera);
+  EXPECT_TRUE(is_near(image, is_reddish, camera, {0, 0, 0}, 1));
+  EXPECT_EQ(area(image, [](const Pixel& p) { return p.red > 100 && p.green < 15; }), 0);
+}
+
+TEST(Renderer, LeavesOutWhatIsOutOfSightButNotItsShadow) {
+  view::Studio studio({320, 240});
+  const view::MeshId cube = add_cube(studio.renderer());
+  const auto is_dark = [](const Pixel& p) { return p.red + p.green + p.blue < 420; };
+  view::Frame frame;
+  frame.radius = 20;
+  frame.grounds.push_back({cube, at(0, 0, -10, 20), kGrey});
+  const view::Camera camera = from_above(5);
+  EXPECT_EQ(area(draw(studio, frame, camera), is_dark), 0);
+  frame.objects.push_back({cube, at(0, 0, 9, 3), kRed});  // behind the eye
+  frame.to_sun = glm::normalize(glm::vec3(0.1F, 0, 1));
+  const view::Image image = draw(studio, frame, camera);
+  EXPECT_EQ(area(image, is_red), 0);
+  EXPECT_GT(area(image, is_dark), 1000);
+}
+
 TEST(Renderer, ShowsClothsFromBothSides) {
   view::Studio studio({320, 240});
   view::Frame frame;

@@ -6,6 +6,7 @@
 
 #include "falling_objects/shapes.h"
 #include "falling_objects/show/hand.h"
+#include "makers/solids.h"
 #include "view/spots.h"
 #include "view/studio.h"
 
@@ -35,6 +36,7 @@ class Space : public testing::Test {
     dSpaceDestroy(space_);
     dWorldDestroy(world_);
     dGeomTriMeshDataDestroy(data_);
+    if (block_data_ != nullptr) dGeomTriMeshDataDestroy(block_data_);
     dCloseODE();
   }
 
@@ -47,7 +49,21 @@ class Space : public testing::Test {
     return body;
   }
 
-  falling_objects::TriangleMesh mesh_;
+  // Around the first body.
+  void add_block() {
+    block_ = falling_objects::make_box(1.6, 1.6, 1.6, 1);
+    block_data_ = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildSingle(block_data_, block_.vertices.data(), 3 * sizeof(float),
+                                static_cast<int>(block_.vertex_count()), block_.indices.data(),
+                                static_cast<int>(block_.indices.size()), 3 * sizeof(unsigned));
+    dGeomID geom = dCreateTriMesh(space_, block_data_, nullptr, nullptr, nullptr);
+    dGeomSetCategoryBits(geom, falling_objects::kMeshBit);
+    dGeomSetPosition(geom, -1, 0, 0);
+    falling_objects::set_index(geom, 2);
+  }
+
+  falling_objects::TriangleMesh mesh_, block_;
+  dTriMeshDataID block_data_ = nullptr;
   dWorldID world_;
   dSpaceID space_;
   dTriMeshDataID data_;
@@ -96,6 +112,50 @@ TEST_F(Space, ShowsContactsAsArrowsThatAreLongerTheDeeperTheyAre) {
   const auto is_black = [](const Pixel& p) { return p.red + p.green + p.blue < 150; };
   for (const view::Arrow& arrow : frame.arrows) {
     EXPECT_TRUE(is_near(image, is_black, camera, glm::mix(arrow.from, arrow.to, 0.8F), 2));
+  }
+}
+
+TEST_F(Space, ShowsAsGlassWhatSomethingIsInFromTheStart) {
+  view::Studio studio({64, 64});
+  SpaceView heap(studio.renderer()), view(studio.renderer());
+  EXPECT_TRUE(heap.frame(space_, nullptr, {}, {}).glass.empty());
+  add_block();
+  EXPECT_TRUE(heap.frame(space_, nullptr, {}, {}).glass.empty());
+  const view::Frame frame = view.frame(space_, nullptr, {}, {});
+  EXPECT_EQ(frame.glass.size(), 1U);
+  EXPECT_EQ(frame.objects.size(), 2U);
+  dBodySetPosition(bodies_[0], -2, 0, 0);
+  EXPECT_TRUE(view.frame(space_, nullptr, {}, {}).glass.empty());  // it left
+}
+
+TEST_F(Space, KeepsWhatMovesInTheLight) {
+  view::Studio studio({64, 64});
+  SpaceView view(studio.renderer());
+  const auto is_lit = [&](const view::Frame& frame, dBodyID body) {
+    const dReal* at = dBodyGetPosition(body);
+    return glm::distance(frame.center, glm::vec3(glm::dvec3(at[0], at[1], at[2]))) < frame.radius;
+  };
+  const view::Frame first = view.frame(space_, nullptr, {}, {});
+  dBodySetPosition(bodies_[0], -1.05, 0, 0);
+  EXPECT_EQ(view.frame(space_, nullptr, {}, {}).radius, first.radius);
+  dBodySetPosition(bodies_[0], -4, 0, 0);
+  const view::Frame later = view.frame(space_, nullptr, {}, {});
+  EXPECT_TRUE(is_lit(later, bodies_[0]));
+  EXPECT_TRUE(is_lit(later, bodies_[1]));
+  dBodySetPosition(bodies_[0], 0, 0, -1000);  // shadows of the rest would be as coarse
+  EXPECT_EQ(view.frame(space_, nullptr, {}, {}).radius, later.radius);
+}
+
+TEST_F(Space, IsLitFromWhereTheCameraIs) {
+  view::Studio studio({64, 64});
+  SpaceView view(studio.renderer());
+  for (const float azimuth : {0.0F, 2.0F, -2.0F}) {
+    view::Camera camera;
+    camera.azimuth = azimuth;
+    view.light_from(camera);
+    const view::Frame frame = view.frame(space_, nullptr, {}, {});
+    EXPECT_NEAR(glm::length(frame.to_sun), 1, 1e-5);
+    EXPECT_GT(glm::dot(frame.to_sun, glm::normalize(camera.eye())), 0.7F);
   }
 }
 

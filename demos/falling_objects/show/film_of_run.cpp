@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include "falling_objects/show/world_view.h"
 #include "falling_objects/usage_error.h"
 #include "view/film.h"
+#include "view/processor_time.h"
 #include "view/studio.h"
 
 namespace falling_objects {
@@ -33,7 +33,9 @@ class FilmOfRun : public Spectator {
     if (options_.beside_ode) {
       beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
       beside_view_ = std::make_unique<WorldView>(beside_->world(), studio_.renderer());
+      beside_view_->light_from(camera_);
     }
+    view_.light_from(camera_);
     if (film_.wants_all()) film_.add(draw());
   }
 
@@ -49,19 +51,20 @@ class FilmOfRun : public Spectator {
   void finish(std::ostream& out) override {
     if (film_.wants_end()) film_.add_end(draw());
     film_.finish();
-    out << std::setprecision(1) << "\npictures: " << film_.made() << " ("
-        << film_.count() + film_.wants_end() << " pictures in " << drawing_.count()
-        << " s, drawn by " << view::renderer_name() << ")\n";
+    const int count = film_.count() + static_cast<int>(film_.wants_end());
+    out << std::setprecision(3) << "\npictures: " << film_.made() << " (" << count
+        << " pictures, of " << drawing_ / count << " s of processor time each, drawn by "
+        << view::renderer_name() << ")\n";
   }
 
  private:
   view::Image draw() {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = view::processor_time();
     std::vector<view::Frame> frames;
     if (beside_) frames.push_back(beside_view_->frame(options_));
     frames.push_back(view_.frame(options_));
     view::Image image = studio_.draw(frames, camera_);
-    drawing_ += std::chrono::steady_clock::now() - start;
+    drawing_ += view::processor_time() - start;
     return image;
   }
 
@@ -71,7 +74,7 @@ class FilmOfRun : public Spectator {
   WorldView view_;
   view::Film film_;
   view::Camera camera_;
-  std::chrono::duration<double> drawing_{0};
+  double drawing_ = 0;  // [s] of processors
   std::unique_ptr<MeasuredWorld> beside_;
   std::unique_ptr<WorldView> beside_view_;
 };

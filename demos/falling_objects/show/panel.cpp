@@ -4,6 +4,7 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "falling_objects/show/caption.h"
@@ -11,7 +12,6 @@
 namespace falling_objects {
 namespace {
 
-constexpr float kWidth = 290;  // [pixels]
 constexpr std::array<ImU32, kParts> kPartColors{
     IM_COL32(120, 170, 220, 255), IM_COL32(150, 120, 200, 255), IM_COL32(235, 140, 60, 255),
     IM_COL32(230, 200, 80, 255),  IM_COL32(110, 190, 130, 255), IM_COL32(140, 140, 150, 255)};
@@ -91,7 +91,7 @@ void draw_overlays(PictureOptions& pictures) {
   constexpr int kColumns = 3;
   int column = 0;
   for (const char* name : kOverlays) {
-    if (column != 0) ImGui::SameLine(8 + static_cast<float>(column) * kWidth / kColumns);
+    if (column != 0) ImGui::SameLine(8 + static_cast<float>(column) * kPanelWidth / kColumns);
     column = (column + 1) % kColumns;
     bool shown = pictures.shows(name);
     if (ImGui::Checkbox(name, &shown)) {
@@ -109,14 +109,18 @@ void draw_overlays(PictureOptions& pictures) {
 void draw_panel(const World& world, const WorldView& view, const History& history, float fps,
                 PictureOptions& pictures, Wishes& wishes) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({screen.x - kWidth - 12, 12}, ImGuiCond_Always);
-  ImGui::SetNextWindowSize({kWidth, 0});
-  ImGui::SetNextWindowBgAlpha(0.88F);
-  ImGui::Begin("falling_objects", nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
+  ImGui::SetNextWindowPos({screen.x - kPanelWidth, 0});
+  ImGui::SetNextWindowSize({kPanelWidth, screen.y});
+  ImGui::SetNextWindowBgAlpha(1);
+  ImGui::Begin(
+      "falling_objects", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   const std::string device = world.collision().device();
   ImGui::TextWrapped("%s", device.empty() ? "no batch collider" : device.c_str());
-  ImGui::Text("%zu objects, step %d, %.0f pictures/s", world.scene().objects().size(),
-              view.record().step + 1, static_cast<double>(fps));
+  const std::string rate =
+      wishes.paused ? "paused" : std::to_string(std::lround(fps)) + " pictures/s";
+  ImGui::Text("%zu objects, step %d, %s", world.scene().objects().size(), view.record().step + 1,
+              rate.c_str());
 
   if (ImGui::Button(wishes.paused ? "Run [P]" : "Pause [P]")) wishes.paused = !wishes.paused;
   ImGui::SameLine();

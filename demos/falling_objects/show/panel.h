@@ -17,6 +17,8 @@ struct Wishes {
   bool camera_home = false;
 };
 
+inline constexpr float kPanelWidth = 290;  // [pixels], at the right of the window
+
 void draw_panel(const World& world, const WorldView& view, const History& history, float fps,
                 PictureOptions& pictures, Wishes& wishes);
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "falling_objects/show/boxes.h"
 #include "falling_objects/show/coats.h"
+#include "falling_objects/show/grounds.h"
 #include "falling_objects/show/mesh_of_geom.h"
 #include "falling_objects/show/region_marks.h"
 
@@ -26,10 +28,11 @@ constexpr std::array<view::Color, kCoats> kShapes{{{0.86F, 0.33F, 0.25F},
 constexpr std::array<view::Color, 3> kCloths{
     {{0.90F, 0.86F, 0.76F}, {0.78F, 0.34F, 0.36F}, {0.38F, 0.55F, 0.68F}}};
 constexpr view::Color kShallow{0.05F, 0.05F, 0.09F}, kDeep{0.95F, 0.03F, 0.12F};
-constexpr view::Color kBox{0.25F, 0.28F, 0.35F};
 constexpr view::Color kTouched{1.0F, 0.85F, 0.1F};
 constexpr view::Color kInside{1.0F, 0.1F, 0.85F};
-constexpr float kSpot = 0.007F;  // of the radius of the scene: a contact of a region
+constexpr float kLargest = 4;  // what does not move and throws all of its shadow, over what moves
+constexpr std::size_t kMostGlass = 100;  // objects in the scene: each is compared with each
+constexpr float kSpot = 0.007F;          // of the radius of the scene: a contact of a region
 
 // A contact of no depth is an arrow nevertheless.
 constexpr float kPerDepth = 50;
@@ -63,55 +66,10 @@ view::Cloth cloth_of(const Cloth& cloth, view::Color color) {
   return seen;
 }
 
-view::Box box_of(dGeomID geom) {
-  std::array<dReal, 6> b{};
-  dGeomGetAABB(geom, b.data());
-  const std::array<dReal, 3> low{b[0], b[2], b[4]}, high{b[1], b[3], b[5]};
-  return {to_glm(low.data()), to_glm(high.data()), kBox};
-}
-
 // It has a body that others push.
 bool moves(dGeomID geom) {
   dBodyID body = dGeomGetBody(geom);
   return body != nullptr && dBodyIsKinematic(body) == 0;
-}
-
-view::Box around(const std::vector<glm::vec3>& points) {
-  if (points.empty()) return {glm::vec3(0), glm::vec3(0), kBox};
-  view::Box all{points.front(), points.front(), kBox};
-  for (const glm::vec3& point : points) {
-    all.low = glm::min(all.low, point);
-    all.high = glm::max(all.high, point);
-  }
-  return all;
-}
-
-view::Box around(const std::vector<view::Box>& boxes) {
-  std::vector<glm::vec3> corners;
-  for (const view::Box& box : boxes) corners.insert(corners.end(), {box.low, box.high});
-  return around(corners);
-}
-
-// A ground: it reaches under everything that moves.
-bool is_ground(dGeomID geom, const view::Box& moving) {
-  const view::Box box = box_of(geom);
-  const glm::vec3 middle = (moving.low + moving.high) / 2.0F;
-  return !moves(geom) && box.low.x < moving.low.x && box.low.y < moving.low.y &&
-         box.high.x > moving.high.x && box.high.y > moving.high.y && box.low.z < middle.z;
-}
-
-// Seen from beside, its walls and its underside would hide what lies on it.
-void keep_top(IndexedMesh& mesh) {
-  std::vector<unsigned> top;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const glm::vec3 a = mesh.positions[mesh.triangles[i]];
-    const glm::vec3 b = mesh.positions[mesh.triangles[i + 1]];
-    const glm::vec3 c = mesh.positions[mesh.triangles[i + 2]];
-    const glm::vec3 normal = glm::cross(b - a, c - a);
-    if (normal.z <= 0.02F * glm::length(normal)) continue;
-    for (std::size_t k = 0; k < 3; ++k) top.push_back(mesh.triangles[i + k]);
-  }
-  mesh.triangles = top;
 }
 
 // Spaces list geoms in any order; a shape's color is not to depend on it.
@@ -146,9 +104,11 @@ const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving)
   const auto known = kinds_.find(data);
   if (known != kinds_.end()) return known->second;
   IndexedMesh mesh = mesh_of(data);
-  const bool ground = mesh.closed && is_ground(geom, moving);
-  if (ground) keep_top(mesh);
-  Kind kind{renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground, {}};
+  const bool ground = mesh.closed && !moves(geom) && reaches_under(box_of(geom), moving);
+  const bool open = ground && !is_convex(mesh);
+  if (open) keep_top(mesh);
+  Kind kind{
+      renderer_.add_mesh(mesh.positions, mesh.triangles, mesh.closed), kGround, ground, open, {}};
   if (moves(geom)) {
     kind.color = kShapes[moving_kinds_++ % kShapes.size()];
   } else if (!ground) {
@@ -157,13 +117,16 @@ const SpaceView::Kind& SpaceView::kind_of(dGeomID geom, const view::Box& moving)
   return kinds_.emplace(data, kind).first->second;
 }
 
-// A little lighter or darker than its neighbour of the same shape; where all have one shape, the
-// colors of shapes in turn.
+// A little lighter or darker than its neighbour of the same shape; where all have one shape, or are
+// few, the colors of shapes in turn.
 void SpaceView::tell_apart(view::Frame& frame) const {
+  const auto moving = std::count_if(frame.objects.begin(), frame.objects.end(),
+                                    [](const view::Instance& o) { return o.color != kFixed; });
+  const bool each = moving_kinds_ == 1 || moving <= static_cast<int>(kShapes.size());
   std::size_t i = 0;
   for (view::Instance& object : frame.objects) {
     if (object.color == kFixed) continue;
-    if (moving_kinds_ == 1) object.color = kShapes[i % kShapes.size()];
+    if (each) object.color = kShapes[i % kShapes.size()];
     object.color *= 0.92F + 0.04F * static_cast<float>(i % 5);
     ++i;
   }
@@ -224,6 +187,37 @@ void SpaceView::mark_contacts(view::Frame& frame, const std::vector<dGeomID>& ge
   }
 }
 
+// All that throws shadows but what flies away. The ball does not follow every step: the shadows'
+// edges would swim.
+void SpaceView::light(const view::Box& all) {
+  constexpr float kRoom = 1.2F, kFarthest = 4;
+  const glm::vec3 center = (all.low + all.high) / 2.0F;
+  const float radius = radius_of(all);
+  const bool inside = glm::distance(center, lit_center_) + radius <= kRoom * lit_radius_;
+  if (inside || (lit_radius_ > 0 && radius > kFarthest * first_lit_radius_)) return;
+  lit_center_ = center;
+  if (!(lit_radius_ > 0)) first_lit_radius_ = radius;
+  lit_radius_ = lit_radius_ > 0 ? kRoom * radius : radius;
+}
+
+// What has another object within its box, and had from the start: in a heap that comes and goes.
+void SpaceView::make_glass(view::Frame& frame, const std::vector<dGeomID>& geoms) {
+  std::vector<view::Box> boxes;
+  for (dGeomID geom : geoms) boxes.push_back(box_of(geom));
+  std::vector<view::Instance> opaque;
+  std::set<dGeomID> vessels;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const bool may = !vessels_ || vessels_->contains(geoms[i]);
+    const bool contains =
+        may && std::any_of(boxes.begin(), boxes.end(),
+                           [&](const view::Box& other) { return holds(boxes[i], other); });
+    if (contains) vessels.insert(geoms[i]);
+    (contains ? frame.glass : opaque).push_back(frame.objects[i]);
+  }
+  frame.objects = std::move(opaque);
+  if (!vessels_) vessels_ = std::move(vessels);
+}
+
 view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
                              std::span<const dContactGeom> contacts, const Overlays& overlays,
                              dBatchColliderID collider) {
@@ -241,23 +235,35 @@ view::Frame SpaceView::frame(dSpaceID space, const Sheets* sheets,
     }
   }
   const view::Box all = around(moving);
+  std::vector<view::Box> lit{all};
   std::vector<dGeomID> of_objects;
   for (dGeomID geom : geoms) {
     const Kind& kind = kind_of(geom, all);
+    if (!moves(geom) && !kind.open && radius_of(box_of(geom)) < kLargest * radius_of(all)) {
+      lit.push_back(box_of(geom));
+    }
     (kind.ground ? frame.grounds : frame.objects).push_back({kind.mesh, pose_of(geom), kind.color});
     if (!kind.ground) of_objects.push_back(geom);
   }
   tell_apart(frame);
-  if (!(radius_ > 0)) {
-    center_ = (all.low + all.high) / 2.0F;
-    radius_ = std::max(0.1F, 0.55F * glm::length(all.high - all.low));
-  }
-  frame.center = center_;
-  frame.radius = radius_;
+  if (!(radius_ > 0)) radius_ = radius_of(all);
+  light(around(lit));
+  frame.to_sun = to_sun_;
+  frame.center = lit_center_;
+  frame.radius = lit_radius_;
   mark_contacts(frame, of_objects, contacts, overlays, collider);
-  if (overlays.meshlets) dress(frame, of_objects, collider);
+  if (overlays.meshlets)
+    dress(frame, of_objects, collider);
+  else if (of_objects.size() <= kMostGlass)
+    make_glass(frame, of_objects);
   if (overlays.boxes) frame.boxes = std::move(moving);
   return frame;
+}
+
+void SpaceView::light_from(const view::Camera& camera) {
+  const float azimuth = camera.azimuth - glm::radians(38.0F), elevation = glm::radians(52.0F);
+  to_sun_ = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+             std::sin(elevation)};
 }
 
 view::Camera overview(const view::Frame& frame) {

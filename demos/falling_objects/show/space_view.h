@@ -6,6 +6,8 @@
 #include <ode_ext/ode_ext.h>
 
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -30,11 +32,15 @@ class SpaceView {
   view::Frame frame(dSpaceID space, const Sheets* sheets, std::span<const dContactGeom> contacts,
                     const Overlays& overlays, dBatchColliderID collider = nullptr);
 
+  // The sun stands behind the viewer's left shoulder as this camera looks.
+  void light_from(const view::Camera& camera);
+
  private:
   struct Kind {
     view::MeshId mesh;
     view::Color color;
     bool ground;
+    bool open;                        // of a ground only what faces up is drawn
     std::vector<view::MeshId> coats;  // of its meshlets, a color each; empty: not known yet
   };
   const Kind& kind_of(dGeomID geom, const view::Box& moving);
@@ -43,14 +49,19 @@ class SpaceView {
   void mark_contacts(view::Frame& frame, const std::vector<dGeomID>& geoms,
                      std::span<const dContactGeom> contacts, const Overlays& overlays,
                      dBatchColliderID collider) const;
+  void light(const view::Box& all);
+  void make_glass(view::Frame& frame, const std::vector<dGeomID>& geoms);
   // In place of objects their meshlets.
   void dress(view::Frame& frame, const std::vector<dGeomID>& geoms, dBatchColliderID collider);
 
   view::Renderer& renderer_;
   std::map<dTriMeshDataID, Kind> kinds_;
   std::size_t moving_kinds_ = 0;
-  glm::vec3 center_{0};  // of where things were in the first picture [m]
-  float radius_ = 0;
+  float radius_ = 0;  // of where things were in the first picture [m]
+  glm::vec3 lit_center_{0};
+  float lit_radius_ = 0, first_lit_radius_ = 0;  // [m]
+  std::optional<std::set<dGeomID>> vessels_;     // that something was in at first
+  glm::vec3 to_sun_ = view::Frame().to_sun;
 };
 
 // Sees all that can move, and where it falls to.

@@ -17,6 +17,7 @@ class WorldView {
   double deepest() const { return deepest_; }  // [m]
 
   view::Frame frame(const PictureOptions& options);
+  void light_from(const view::Camera& camera) { view_.light_from(camera); }
 
  private:
   const World& world_;
