@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/cloth.h"
+#include "cloth/cloth.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "falling_objects/gravity.h"
-#include "falling_objects/sheet.h"
+#include "cloth/sheet.h"
+#include "scene_file/gravity.h"
 
 namespace falling_objects {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "falling_objects/shapes.h"
 #include "falling_objects/show/hand.h"
+#include "meshes/shapes.h"
 #include "view/spots.h"
 #include "view/studio.h"
 
