@@ -9,14 +9,14 @@
 namespace falling_objects {
 namespace {
 
-// Under its own weight a hanging link of n below it is too long by 2 n g h^2, h the small step: at
+// Under its own weight a hanging link of n below it is too long by 2 n g h^2, h the substep: at
 // 60 Hz 0.3 mm for the 20 rows that hang over an object's side, 1 % of their 25 mm.
-constexpr int kSmallSteps = 16;
+constexpr int kSubsteps = 16;
 constexpr double kDensity = 0.3;  // [kg/m^2], as a heavy cotton
 // Air: broadside such a sheet falls at no more than g / kDrag = 1.6 m/s. Linear, because it stands
 // for the cloth's inner friction too, which is what ends the last small swings.
 constexpr double kDrag = 6;       // [1/s]
-constexpr double kBending = 0.3;  // share of a fold that a small step takes back
+constexpr double kBending = 0.3;  // share of a fold that a substep takes back
 // A vertex that starts below a plane comes up at this speed [m/s] and keeps none of it.
 constexpr double kRise = 0.5;
 // A vertex that ends a step having moved at less than this speed [m/s] has not moved: static
@@ -60,7 +60,7 @@ Vector Cloth::free_flight(std::size_t vertex, double dt) const {
 }
 
 void Cloth::step(double dt, std::span<ClothContact> contacts) {
-  const double h = dt / kSmallSteps;
+  const double h = dt / kSubsteps;
   const double kept = std::exp(-kDrag * h);
   start_ = positions_;
   planes_.clear();
@@ -75,7 +75,7 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
     woken = woken || contact.wakes;
   }
   if (woken || 2 * contacts.size() < calm_contacts_) wake();
-  for (int small = 1; small <= kSmallSteps; ++small) {
+  for (int substep = 1; substep <= kSubsteps; ++substep) {
     previous_ = positions_;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       velocities_[i] = kept * (velocities_[i] + Vector{0, 0, -kGravity * h});
@@ -84,8 +84,8 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
     solve_distances();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Plane& plane = planes_[i];
-      const double level = plane.offset - (dt - small * h) * plane.speed +
-                           std::min(0.0, plane.start + kRise * small * h);
+      const double level = plane.offset - (dt - substep * h) * plane.speed +
+                           std::min(0.0, plane.start + kRise * substep * h);
       if (dot(plane.normal, positions_[plane.vertex]) < level) solve_contact(contacts[i], level, h);
     }
     hold_pins();
@@ -141,7 +141,7 @@ void Cloth::solve_contact(ClothContact& contact, double level, double h) {
   Vector& before = previous_[contact.vertex];
   const double correction = level - dot(contact.normal, x);
   x = x + correction * contact.normal;
-  // What was below before this small step is lifted, not thrown.
+  // What was below before this substep is lifted, not thrown.
   const double lifted =
       std::clamp(level - h * dot(contact.normal, contact.velocity) - dot(contact.normal, before),
                  0.0, correction);

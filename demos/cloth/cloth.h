@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A square sheet of cloth: positions solved against distances and contact planes in small steps
-// (Mueller et al. 2007, position based dynamics; Macklin et al. 2019, small steps). It knows
+// A square sheet of cloth: positions solved against distances and contact planes in substeps
+// (Mueller et al. 2007, position based dynamics; Macklin et al. 2019, "small steps"). It knows
 // nothing of ODE: whoever collides it hands it planes.
 #pragma once
 
@@ -70,7 +70,7 @@ class Cloth {
   std::vector<unsigned> triangles_;
   std::vector<Vector> positions_, velocities_;
   std::vector<Vector> start_;     // positions when the step began
-  std::vector<Vector> previous_;  // ... when the small step began
+  std::vector<Vector> previous_;  // ... when the substep began
   // Of a contact what it takes to see that nothing is to be done, which is what it mostly takes.
   struct Plane {
     Vector normal;

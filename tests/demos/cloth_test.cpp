@@ -178,7 +178,7 @@ TEST(Cloth, GivesAPlaneTheMomentumThatGravityGaveIt) {
   }
   double given = 0;
   for (const ClothContact& plane : planes) given -= plane.impulse.z;
-  // The air takes 6/s of it for as long as a small step, 1/960 s: 0.6 %.
+  // The air takes 6/s of it for as long as a substep, 1/960 s: 0.6 %.
   EXPECT_NEAR(given, mass * kGravity * kStep, 0.007 * mass * kGravity * kStep);
 }
 
