@@ -78,6 +78,18 @@ target_link_libraries(product_tests PRIVATE
   ${CMAKE_DL_LIBS})
 target_precompile_headers(product_tests PRIVATE <gtest/gtest.h>)
 
+# The readers of the demos' files, which are given what anybody wrote: for sanitizers too, without
+# all that demos do with a scene.
+file(GLOB reader_sources CONFIGURE_DEPENDS
+     demos/geometry/*.cpp demos/meshes/*.cpp demos/makers/*.cpp demos/scene_file/*.cpp)
+add_executable(reader_tests EXCLUDE_FROM_ALL tests/demos/mesh_file_test.cpp
+               tests/demos/scene_file_test.cpp tests/support/leak_check.cpp ${reader_sources})
+ode_ext_compile_options(reader_tests)
+target_include_directories(reader_tests PRIVATE demos tests)
+target_compile_definitions(reader_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_link_libraries(reader_tests PRIVATE
+  assimp::assimp PkgConfig::tomlplusplus GTest::gtest_main GTest::gmock)
+
 # The tests of threads alone: what ThreadSanitizer is run over, in a tenth of the time that building
 # all tests with it takes.
 file(GLOB thread_test_sources CONFIGURE_DEPENDS tests/threads/*_test.cpp)
