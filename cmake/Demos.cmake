@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The programs of demos/, and the measuring code they share with the tests.
+# The programs of demos/, and what they share with one another and with the tests.
 
 find_package(CLI11 REQUIRED)
 find_package(assimp REQUIRED)
@@ -8,51 +8,48 @@ find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 
-# The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
-file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
-list(FILTER support_sources EXCLUDE REGEX "_test\\.cpp$")
-list(FILTER support_sources EXCLUDE REGEX "/(fcl|ccd|cgal)_[a-z_]*\\.cpp$")  # in Tests.cmake
-add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
-set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
-ode_ext_compile_options(ode_ext_test_support)
-# Headers only: the objects of ode_ext_core come from whoever links this.
-target_include_directories(ode_ext_test_support PUBLIC
-  tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
-target_compile_options(ode_ext_test_support PUBLIC ${public_options})
-target_link_libraries(ode_ext_test_support PUBLIC ODE::ODE Threads::Threads)
+# Where points and meshes are to one another. Needs nothing, so that whoever judges can have it.
+file(GLOB geometry_sources CONFIGURE_DEPENDS demos/geometry/*.cpp)
+add_library(demo_geometry STATIC EXCLUDE_FROM_ALL ${geometry_sources})
+ode_ext_compile_options(demo_geometry)
+target_include_directories(demo_geometry PUBLIC demos)
+
+# What the programs of demos/ are made of: rooms of which each knows those before it.
+set(demo_sources "")
+foreach(demo_room meshes makers scene_file cloth simulation judging record)
+  file(GLOB demo_room_sources CONFIGURE_DEPENDS demos/${demo_room}/*.cpp)
+  list(APPEND demo_sources ${demo_room_sources})
+endforeach()
+add_library(demo_parts OBJECT EXCLUDE_FROM_ALL ${demo_sources})
+ode_ext_compile_options(demo_parts)
+target_include_directories(demo_parts PUBLIC demos ${public_includes})
+target_compile_options(demo_parts PUBLIC ${public_options})
+target_link_libraries(demo_parts PUBLIC
+  demo_geometry assimp::assimp PkgConfig::tomlplusplus TinyGLTF::TinyGLTF ODE::ODE
+  Threads::Threads)
+set_property(SOURCE demos/scene_file/scene_file.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+             FALLING_OBJECTS_SCENES="${PROJECT_SOURCE_DIR}/demos/scenes")
 
 # All of falling_objects but main, once for the program and once for its tests.
-file(GLOB falling_objects_sources CONFIGURE_DEPENDS
-     demos/falling_objects/*.cpp demos/makers/*.cpp demos/record/*.cpp)
+file(GLOB falling_objects_sources CONFIGURE_DEPENDS demos/falling_objects/*.cpp)
 list(FILTER falling_objects_sources EXCLUDE REGEX "/main\\.cpp$")
-if(falling_objects_sources)
-  add_library(falling_objects_parts OBJECT EXCLUDE_FROM_ALL ${falling_objects_sources})
-  ode_ext_compile_options(falling_objects_parts)
-  target_include_directories(falling_objects_parts PUBLIC demos tests ${public_includes})
-  target_compile_options(falling_objects_parts PUBLIC ${public_options})
-  target_link_libraries(falling_objects_parts PUBLIC
-    CLI11::CLI11 assimp::assimp PkgConfig::tomlplusplus TinyGLTF::TinyGLTF ODE::ODE Threads::Threads)
-  set_property(SOURCE demos/falling_objects/scene_file.cpp APPEND PROPERTY COMPILE_DEFINITIONS
-               FALLING_OBJECTS_SCENES="${PROJECT_SOURCE_DIR}/demos/scenes")
-endif()
+add_library(falling_objects_parts OBJECT EXCLUDE_FROM_ALL ${falling_objects_sources})
+ode_ext_compile_options(falling_objects_parts)
+target_link_libraries(falling_objects_parts PUBLIC demo_parts CLI11::CLI11)
 
 # All of paper but main, in the same way. What it measured is to say which commit it was.
 file(GLOB paper_sources CONFIGURE_DEPENDS demos/paper/*.cpp)
 list(FILTER paper_sources EXCLUDE REGEX "/main\\.cpp$")
-if(paper_sources)
-  execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-                  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-  if(NOT commit)
-    set(commit unknown)
-  endif()
-  set_property(SOURCE demos/paper/machine.cpp APPEND PROPERTY COMPILE_DEFINITIONS
-               PAPER_COMMIT="${commit}" PAPER_BUILD_TYPE="$<CONFIG>")
-  add_library(paper_parts OBJECT EXCLUDE_FROM_ALL ${paper_sources})
-  ode_ext_compile_options(paper_parts)
-  target_include_directories(paper_parts PUBLIC demos tests ${public_includes})
-  target_compile_options(paper_parts PUBLIC ${public_options})
-  target_link_libraries(paper_parts PUBLIC CLI11::CLI11 nlohmann_json::nlohmann_json ODE::ODE)
+execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(NOT commit)
+  set(commit unknown)
 endif()
+set_property(SOURCE demos/paper/machine.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+             PAPER_COMMIT="${commit}" PAPER_BUILD_TYPE="$<CONFIG>")
+add_library(paper_parts OBJECT EXCLUDE_FROM_ALL ${paper_sources})
+ode_ext_compile_options(paper_parts)
+target_link_libraries(paper_parts PUBLIC demo_parts CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 # add_demo(<name> <main source> [<target to link>...]): nothing where the source is not there.
 function(add_demo name source)
@@ -76,9 +73,9 @@ add_library(falling_objects_show OBJECT EXCLUDE_FROM_ALL ${show_sources})
 ode_ext_compile_options(falling_objects_show)
 target_link_libraries(falling_objects_show PUBLIC
   falling_objects_parts $<TARGET_NAME_IF_EXISTS:view>)
-add_demo(falling_objects demos/falling_objects/main.cpp falling_objects_show falling_objects_parts
-         ode_ext_test_support)
-add_demo(paper demos/paper/main.cpp paper_parts falling_objects_parts ode_ext_test_support)
+add_demo(falling_objects demos/falling_objects/main.cpp
+         falling_objects_show falling_objects_parts demo_parts)
+add_demo(paper demos/paper/main.cpp paper_parts demo_parts)
 
 file(GLOB contacts_sources CONFIGURE_DEPENDS demos/contacts/*.cpp)
 add_demo(contacts demos/contacts/main.cpp CLI11::CLI11 nlohmann_json::nlohmann_json)

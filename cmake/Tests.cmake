@@ -8,6 +8,19 @@ find_package(fcl REQUIRED)
 find_package(ccd REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
+# The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
+file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
+list(FILTER support_sources EXCLUDE REGEX "_test\\.cpp$")
+list(FILTER support_sources EXCLUDE REGEX "/(fcl|ccd|cgal)_[a-z_]*\\.cpp$")  # below
+add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
+set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
+ode_ext_compile_options(ode_ext_test_support)
+# Headers only: the objects of ode_ext_core come from whoever links this.
+target_include_directories(ode_ext_test_support PUBLIC
+  tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_options(ode_ext_test_support PUBLIC ${public_options})
+target_link_libraries(ode_ext_test_support PUBLIC demo_geometry ODE::ODE Threads::Threads)
+
 # All of contact_accuracy but main, once for the program and once for its tests.
 file(GLOB accuracy_sources CONFIGURE_DEPENDS tests/bench/accuracy/*.cpp)
 list(FILTER accuracy_sources EXCLUDE REGEX "(/main|_test)\\.cpp$")
@@ -15,7 +28,6 @@ add_library(contact_accuracy_parts OBJECT ${accuracy_sources})
 ode_ext_compile_options(contact_accuracy_parts)
 target_link_libraries(contact_accuracy_parts PUBLIC
   ode_ext_test_support nlohmann_json::nlohmann_json)
-
 
 # Apart, for its options (CGAL wants all code compiled for directed rounding) and for its time.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
@@ -39,8 +51,8 @@ if(test_sources)
   ode_ext_compile_options(ode_ext_tests)
   target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(ode_ext_tests PRIVATE
-    ode_ext_core ode_ext_test_support $<TARGET_NAME_IF_EXISTS:falling_objects_parts>
-    $<TARGET_NAME_IF_EXISTS:paper_parts> contact_accuracy_parts ode_ext_cgal_oracle
+    ode_ext_core ode_ext_test_support falling_objects_parts demo_parts
+    paper_parts contact_accuracy_parts ode_ext_cgal_oracle
     ode_ext_fuzz_parts nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
     ${CMAKE_DL_LIBS})
   # Half of what compiling a test takes is this header.
@@ -66,6 +78,18 @@ target_link_libraries(product_tests PRIVATE
   ${CMAKE_DL_LIBS})
 target_precompile_headers(product_tests PRIVATE <gtest/gtest.h>)
 
+# The readers of the demos' files, which are given what anybody wrote: for sanitizers too, without
+# all that demos do with a scene.
+file(GLOB reader_sources CONFIGURE_DEPENDS
+     demos/geometry/*.cpp demos/meshes/*.cpp demos/makers/*.cpp demos/scene_file/*.cpp)
+add_executable(reader_tests EXCLUDE_FROM_ALL tests/demos/mesh_file_test.cpp
+               tests/demos/scene_file_test.cpp tests/support/leak_check.cpp ${reader_sources})
+ode_ext_compile_options(reader_tests)
+target_include_directories(reader_tests PRIVATE demos tests)
+target_compile_definitions(reader_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_link_libraries(reader_tests PRIVATE
+  assimp::assimp PkgConfig::tomlplusplus GTest::gtest_main GTest::gmock)
+
 # The tests of threads alone: what ThreadSanitizer is run over, in a tenth of the time that building
 # all tests with it takes.
 file(GLOB thread_test_sources CONFIGURE_DEPENDS tests/threads/*_test.cpp)
@@ -87,7 +111,7 @@ add_executable(rigid_audit EXCLUDE_FROM_ALL
   tests/bench/audit/rigid_audit.cpp tests/bench/audit/scene_audit.cpp tests/bench/audit/pair_audit.cpp
   tests/bench/audit/pair_poses.cpp tests/support/fcl_oracle.cpp)
 ode_ext_compile_options(rigid_audit)
-target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support demo_parts
                       CLI11::CLI11 fcl Eigen3::Eigen)
 
 # What the search finds, crossings and vertices inside, beside brute force. Minutes.
@@ -95,7 +119,7 @@ add_executable(search_audit EXCLUDE_FROM_ALL
   tests/bench/audit/search_audit.cpp tests/bench/audit/kinds.cpp tests/bench/audit/pair_poses.cpp
   tests/search/crossing_comparison.cpp)
 ode_ext_compile_options(search_audit)
-target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_test_support demo_parts
                       CLI11::CLI11)
 
 # Do bodies rest, slide and stand on the contacts? Minutes; the tests try its parts.
@@ -104,7 +128,7 @@ list(FILTER stability_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(contact_stability ${stability_sources})
 ode_ext_compile_options(contact_stability)
 target_link_libraries(contact_stability PRIVATE
-  ode_ext_core ode_ext_test_support falling_objects_parts CLI11::CLI11
+  ode_ext_core ode_ext_test_support demo_parts CLI11::CLI11
   nlohmann_json::nlohmann_json)
 
 # How true are the contacts, against oracles and beside ODE's own collider? Half a minute; the tests judge its trials.
@@ -118,7 +142,7 @@ file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/bench/audit/*.cpp tests/s
 list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit|search_audit)\\.cpp$")
 add_executable(missed_pairs EXCLUDE_FROM_ALL ${missed_pairs_sources})
 ode_ext_compile_options(missed_pairs)
-target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support falling_objects_parts
+target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support demo_parts
                       CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
 
 # What a mesh, a pair and a pass cost, beside ODE's own collider, FCL and Bullet's GImpact. Minutes.
@@ -134,7 +158,7 @@ foreach(bench mesh_times pair_times pile_times)
   add_executable(${bench} tests/bench/${bench}.cpp)
   ode_ext_compile_options(${bench})
   target_link_libraries(${bench} PRIVATE
-    ode_ext::ode_ext ode_ext_bench falling_objects_parts CLI11::CLI11 GTest::gtest)
+    ode_ext::ode_ext ode_ext_bench falling_objects_parts demo_parts CLI11::CLI11 GTest::gtest)
 endforeach()
 
 add_test(NAME bench_of_pairs COMMAND pair_times
@@ -185,7 +209,7 @@ elseif(TARGET view)
   add_executable(view_tests ${view_test_sources})
   ode_ext_compile_options(view_tests)
   target_link_libraries(view_tests PRIVATE falling_objects_show falling_objects_parts
-    ode_ext_test_support ode_ext::ode_ext GTest::gtest_main GTest::gmock)
+    demo_parts ode_ext_test_support ode_ext::ode_ext GTest::gtest_main GTest::gmock)
   gtest_discover_tests(view_tests NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 120)
   if(TARGET falling_objects)

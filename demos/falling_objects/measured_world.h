@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "falling_objects/penetration.h"
 #include "falling_objects/world.h"
+#include "judging/penetration.h"
 
 namespace falling_objects {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "falling_objects/scene_file.h"
-#include "falling_objects/scene_list.h"
+#include "scene_file/scene_file.h"
+#include "scene_file/scene_list.h"
 
 namespace falling_objects {
 namespace {

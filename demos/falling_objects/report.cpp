@@ -9,7 +9,7 @@
 #include <iomanip>
 #include <string_view>
 
-#include "falling_objects/speeds.h"
+#include "simulation/speeds.h"
 
 namespace falling_objects {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "falling_objects/draping.h"
 #include "falling_objects/options.h"
-#include "falling_objects/step_record.h"
+#include "judging/draping.h"
+#include "simulation/step_record.h"
 
 namespace falling_objects {
 

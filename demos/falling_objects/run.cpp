@@ -9,16 +9,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "falling_objects/checks.h"
-#include "falling_objects/expectations.h"
-#include "falling_objects/penetration.h"
 #include "falling_objects/report.h"
-#include "falling_objects/sheets.h"
-#include "falling_objects/simulation.h"
 #include "falling_objects/snapshot.h"
 #include "falling_objects/usage_error.h"
 #include "falling_objects/world.h"
+#include "judging/checks.h"
+#include "judging/expectations.h"
+#include "judging/penetration.h"
 #include "record/gltf_recorder.h"
+#include "simulation/sheets.h"
+#include "simulation/simulation.h"
 
 namespace falling_objects {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "falling_objects/pose.h"
+#include "simulation/pose.h"
 
 namespace falling_objects {
 namespace {

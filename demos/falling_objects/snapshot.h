@@ -5,8 +5,8 @@
 #include <ostream>
 #include <vector>
 
-#include "falling_objects/scene.h"
-#include "falling_objects/sheet.h"
+#include "cloth/sheet.h"
+#include "simulation/scene.h"
 
 namespace falling_objects {
 

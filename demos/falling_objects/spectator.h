@@ -6,8 +6,8 @@
 #include <memory>
 #include <ostream>
 
-#include "falling_objects/step_record.h"
 #include "falling_objects/world.h"
+#include "simulation/step_record.h"
 
 namespace falling_objects {
 

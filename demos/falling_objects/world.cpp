@@ -2,7 +2,7 @@
 #include "falling_objects/world.h"
 
 #include "falling_objects/usage_error.h"
-#include "falling_objects/user_meshes.h"
+#include "scene_file/user_meshes.h"
 
 namespace falling_objects {
 namespace {

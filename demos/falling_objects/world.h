@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "falling_objects/collision.h"
 #include "falling_objects/options.h"
-#include "falling_objects/scene.h"
-#include "falling_objects/sheets.h"
-#include "falling_objects/simulation.h"
+#include "simulation/collision.h"
+#include "simulation/scene.h"
+#include "simulation/sheets.h"
+#include "simulation/simulation.h"
 
 namespace falling_objects {
 

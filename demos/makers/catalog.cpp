@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "falling_objects/ground.h"
-#include "falling_objects/shapes.h"
 #include "makers/solids.h"
 #include "makers/spur_gear.h"
 #include "makers/swept.h"
 #include "makers/thread.h"
+#include "meshes/ground.h"
+#include "meshes/shapes.h"
 
 namespace falling_objects {
 namespace {

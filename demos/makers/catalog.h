@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "falling_objects/triangle_mesh.h"
+#include "meshes/triangle_mesh.h"
 
 namespace falling_objects {
 

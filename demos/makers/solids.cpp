@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "falling_objects/random.h"
-#include "makers/bands.h"
+#include "meshes/bands.h"
+#include "meshes/random.h"
 
 namespace falling_objects {
 namespace {

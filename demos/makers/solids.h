@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "falling_objects/triangle_mesh.h"
+#include "meshes/triangle_mesh.h"
 
 namespace falling_objects {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "makers/bands.h"
+#include "meshes/bands.h"
 
 namespace falling_objects {
 namespace {

@@ -3,7 +3,7 @@
 // the ratio of two that mesh is that of their numbers of teeth at every moment.
 #pragma once
 
-#include "falling_objects/triangle_mesh.h"
+#include "meshes/triangle_mesh.h"
 
 namespace falling_objects {
 

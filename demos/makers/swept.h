@@ -2,7 +2,7 @@
 // Round wire bent in the x-z plane. Closed, wound outwards; lengths in meters.
 #pragma once
 
-#include "falling_objects/triangle_mesh.h"
+#include "meshes/triangle_mesh.h"
 
 namespace falling_objects {
 

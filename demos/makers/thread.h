@@ -4,7 +4,7 @@
 // whole number of pitches above its bolt, turned as it is.
 #pragma once
 
-#include "falling_objects/triangle_mesh.h"
+#include "meshes/triangle_mesh.h"
 
 namespace falling_objects {
 

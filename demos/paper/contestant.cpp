@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "falling_objects/collision.h"
+#include "simulation/collision.h"
 
 namespace paper {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "falling_objects/contact_list.h"
 #include "paper/configuration.h"
+#include "simulation/contact_list.h"
 
 namespace paper {
 

@@ -12,10 +12,10 @@ TEXT = (
     "or a wait costs microseconds and crosses no bus: the milliseconds of table 1 cannot show "
     "there. How many waits are avoided is counted beside them.",
     "**Objects.** The paper's models are not public. Shapes of exactly their numbers of triangles "
-    "(902, 2,130, 3,264 and 3,458) are generated (demos/falling_objects/shapes.h); the ground, the "
+    "(902, 2,130, 3,264 and 3,458) are generated (demos/meshes/shapes.h); the ground, the "
     "placement, masses and friction are ours too, and so is the number of pairs.",
     "**Sheets** are stopped by skins, copies of the objects and the ground that are grown a little "
-    "(demos/falling_objects/inflate.h), since only vertices inside a mesh are seen: with them every "
+    "(demos/meshes/inflate.h), since only vertices inside a mesh are seen: with them every "
     "object is two meshes. Objects meet each other as in the first scene. A pair with a sheet keeps "
     "all of its contacts.",
     "**Culls.** The paper dismisses a vertex by a bounding volume. Here chunks of 16 vertices are "

@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "simulation/exit_code.h"
+
 namespace paper {
 namespace {
 
@@ -60,7 +62,7 @@ void choose_configurations(const std::vector<std::string>& names, const std::str
                            Options& options) {
   for (const std::string& name : names)
     add_configuration(options.configurations, parse_configuration(name));
-  if (names.empty()) options.configurations = default_configurations(options.scene.scene);
+  if (names.empty()) options.configurations = default_configurations(options.scene);
   options.driver = parse_configuration(driver);
   if (options.driver.has(kCount))
     throw std::invalid_argument("'" + driver + "' does not collide in every step: it cannot drive");
@@ -75,7 +77,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
                             std::ostream& err) {
   ParsedOptions parsed;
   Options& o = parsed.options;
-  falling_objects::Options& scene = o.scene;
+  falling_objects::SimulationSettings& simulation = o.simulation;
   std::vector<std::string> names;
   std::string driver = "full";
   CLI::App app(kDescription, "paper");
@@ -84,21 +86,22 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.footer("paper run --help says more.");
   run->footer(kFooter);
   run->get_formatter()->column_width(34);
-  run->add_option("--scene", scene.scene,
+  run->add_option("--scene", o.scene,
                   "rigid (default): 1,000 objects of four shapes; rigid-deformable: 216 of them, "
                   "and 36 sheets of cloth that fall on them")
       ->check(CLI::IsMember({"rigid", kDeformableScene}))
       ->option_text("rigid|rigid-deformable");
   const CLI::Option* objects =
-      run->add_option("--objects", scene.objects, "How many objects (default: 1000, or 216)")
+      run->add_option("--objects", simulation.objects, "How many objects (default: 1000, or 216)")
           ->check(CLI::Range(1, 1000000));
   const CLI::Option* sheets =
-      run->add_option("--sheets", scene.sheets, "How many sheets (default: 0, or 36)")
+      run->add_option("--sheets", simulation.sheets, "How many sheets (default: 0, or 36)")
           ->check(CLI::Range(1, 1000));
-  run->add_option("--steps", scene.steps, "How many steps, 60 a second")
+  run->add_option("--steps", o.steps, "How many steps, 60 a second")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
-  run->add_option("--seed", scene.seed, "Of the placement and the ground")->capture_default_str();
+  run->add_option("--seed", simulation.seed, "Of the placement and the ground")
+      ->capture_default_str();
   run->add_option("--every", o.every, "Measure slow configurations in every K-th step")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->capture_default_str();
@@ -107,15 +110,15 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->delimiter(',')
       ->option_text("NAME,NAME...");
   run->add_option("--driver", driver, "Whose contacts drive the simulation")->capture_default_str();
-  run->add_option("--device", scene.device, "OpenCL device, as in ODE_EXT_DEVICE");
-  run->add_flag("--quiet", scene.quiet, "No progress");
+  run->add_option("--device", simulation.device, "OpenCL device, as in ODE_EXT_DEVICE");
+  run->add_flag("--quiet", o.quiet, "No progress");
   run->add_flag("--list", o.list, "Print the configurations and stop");
   try {
     app.parse(argc, argv);
-    const bool deformable = scene.scene == kDeformableScene;
-    if (deformable && objects->empty()) scene.objects = 216;
-    if (deformable && sheets->empty()) scene.sheets = 36;
-    if (!deformable && scene.sheets > 0)
+    const bool deformable = o.scene == kDeformableScene;
+    if (deformable && objects->empty()) simulation.objects = 216;
+    if (deformable && sheets->empty()) simulation.sheets = 36;
+    if (!deformable && simulation.sheets > 0)
       throw CLI::ValidationError("--sheets", "only with --scene rigid-deformable");
     if (!o.list && directory->count() == 0) throw CLI::RequiredError("--out");
     o.command = command_line(argc, argv);

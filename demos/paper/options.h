@@ -7,18 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "falling_objects/options.h"
 #include "paper/configuration.h"
+#include "simulation/simulation_settings.h"
 
 namespace paper {
 
 struct Options {
-  falling_objects::Options scene;  // of these only what makes the scene and its steps
-  int every = 20;                  // steps from one measurement of what is slow to the next
+  std::string scene = "rigid";
+  falling_objects::SimulationSettings simulation;
+  int steps = 600;
+  int every = 20;  // steps from one measurement of what is slow to the next
   std::string out;
   std::vector<Configuration> configurations;
   Configuration driver;  // one of `configurations`
   std::string command;   // as typed, for the record
+  bool quiet = false;
   bool list = false;
 };
 

@@ -12,13 +12,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "falling_objects/collision.h"
 #include "paper/contestant.h"
 #include "paper/machine.h"
 #include "paper/schedule.h"
 #include "paper/summary.h"
 #include "paper/tables.h"
 #include "paper/world.h"
+#include "simulation/collision.h"
+#include "simulation/exit_code.h"
 
 namespace paper {
 namespace {
@@ -89,7 +90,7 @@ std::size_t index_of(const std::vector<Configuration>& all, const Configuration&
 
 Run::Run(const Options& options)
     : options_(options),
-      world_(options.scene),
+      world_(options.simulation),
       totals_(options.configurations.size()),
       driver_(index_of(options.configurations, options.driver)),
       reference_(index_of(options.configurations, Configuration{})),
@@ -98,8 +99,8 @@ Run::Run(const Options& options)
       work_(options.out, "work.csv") {
   if (reference_ == options.configurations.size()) reference_ = driver_;
   for (const Configuration& configuration : options.configurations) {
-    contestants_.push_back(std::make_unique<Contestant>(configuration, options.scene.device,
-                                                        options.scene.max_contacts));
+    contestants_.push_back(std::make_unique<Contestant>(configuration, options.simulation.device,
+                                                        options.simulation.max_contacts));
     world_.introduce(contestants_.back()->collider());
   }
   write_steps_header(steps_.stream());
@@ -117,7 +118,7 @@ std::vector<std::size_t> Run::collide(int step) {
 }
 
 void Run::record(int step, const std::vector<std::size_t>& order) {
-  const bool settled = step >= settled_from(options_.scene.steps);
+  const bool settled = step >= settled_from(options_.steps);
   std::vector<std::optional<std::uint64_t>> hashes(contestants_.size());
   for (std::size_t place = 0; place < order.size(); ++place) {
     const Contestant& contestant = *contestants_[order[place]];
@@ -139,22 +140,22 @@ void Run::record(int step, const std::vector<std::size_t>& order) {
 
 void Run::show_progress(int step) const {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  const int every = terminal ? 1 : std::max(1, static_cast<int>(options_.scene.hz));
-  if (options_.scene.quiet || (step + 1) % every != 0) return;
+  const int every = terminal ? 1 : std::max(1, static_cast<int>(options_.simulation.hz));
+  if (options_.quiet || (step + 1) % every != 0) return;
   const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start_;
-  const double left = so_far.count() / (step + 1) * (options_.scene.steps - step - 1);
+  const double left = so_far.count() / (step + 1) * (options_.steps - step - 1);
   const Contestant& driver = *contestants_[driver_];
   std::fprintf(
       stderr, "%sstep %4d/%d  %6lld pairs  %6zu contacts  %5.0f s left%s", terminal ? "\r" : "",
-      step + 1, options_.scene.steps, dBatchColliderGetCount(driver.collider(), dBatchCounterPairs),
-      driver.contacts().size(), left, !terminal || step + 1 == options_.scene.steps ? "\n" : "  ");
+      step + 1, options_.steps, dBatchColliderGetCount(driver.collider(), dBatchCounterPairs),
+      driver.contacts().size(), left, !terminal || step + 1 == options_.steps ? "\n" : "  ");
 }
 
 int Run::run() {
   write_json(options_.out, "machine.json",
              describe_machine(dBatchColliderGetDeviceName(contestants_[driver_]->collider()),
-                              options_.scene.device, options_.command));
-  for (int step = 0; step < options_.scene.steps; ++step) {
+                              options_.simulation.device, options_.command));
+  for (int step = 0; step < options_.steps; ++step) {
     world_.prepare();
     record(step, collide(step));
     world_.advance(contestants_[driver_]->contacts());

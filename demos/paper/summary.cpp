@@ -67,15 +67,15 @@ void print_percent(std::ostream& out, const Json& share) {
 
 Json summarize(const Options& options, const Agreement& agreement,
                const std::vector<Result>& results) {
-  Json json{{"scene", options.scene.scene},
-            {"objects", options.scene.objects},
-            {"sheets", options.scene.sheets},
-            {"steps", options.scene.steps},
-            {"hz", options.scene.hz},
-            {"seed", options.scene.seed},
+  Json json{{"scene", options.scene},
+            {"objects", options.simulation.objects},
+            {"sheets", options.simulation.sheets},
+            {"steps", options.steps},
+            {"hz", options.simulation.hz},
+            {"seed", options.simulation.seed},
             {"every", options.every},
             {"driver", options.driver.name()},
-            {"settled_from", settled_from(options.scene.steps)},
+            {"settled_from", settled_from(options.steps)},
             {"identical", agreement.holds()},
             {"verdicts", Json::array()}};
   for (const Verdict& verdict : agreement.verdicts())

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <string>
 
-#include "falling_objects/step_record.h"
 #include "paper/hex.h"
+#include "simulation/step_record.h"
 
 namespace paper {
 namespace {

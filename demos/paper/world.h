@@ -8,16 +8,16 @@
 #include <memory>
 #include <span>
 
-#include "falling_objects/options.h"
-#include "falling_objects/scene.h"
-#include "falling_objects/sheets.h"
+#include "simulation/scene.h"
+#include "simulation/sheets.h"
+#include "simulation/simulation_settings.h"
 
 namespace paper {
 
 class World {
  public:
   // Between dInitODE2 and dCloseODE.
-  explicit World(const falling_objects::Options& options);
+  explicit World(const falling_objects::SimulationSettings& settings);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -32,7 +32,7 @@ class World {
   void advance(std::span<const dContactGeom> contacts);
 
  private:
-  const falling_objects::Options& options_;
+  const falling_objects::SimulationSettings& settings_;
   falling_objects::Scene scene_;
   std::unique_ptr<falling_objects::Sheets> sheets_;  // null: none
   dJointGroupID joints_;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "falling_objects/scene.h"
+#include "simulation/scene.h"
 
 namespace falling_objects {
 

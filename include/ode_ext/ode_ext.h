@@ -212,7 +212,7 @@ enum {
 typedef struct dBatchContactRegion {
   int region;  /**< number within the pair: 0 is that of the first of the pair's contacts, the
                     deepest, 1 that of the first in another, and so on, those among them that a
-                    callback of the program refused; -1: not known. In the next step a region may
+                    callback of the program refused; -1: not known. In the next pass a region may
                     have another number */
   int overlap; /**< dBatchOverlap...; exchanged arguments exchange the two that are inside */
 } dBatchContactRegion;
@@ -254,7 +254,7 @@ ODE_EXT_API int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDat
 ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data);
 
 /**
- * Announces that the vertices of a mesh move in most steps (nonzero) or rarely (0, the default).
+ * Announces that the vertices of a mesh move in most passes (nonzero) or rarely (0, the default).
  * A deformable mesh keeps what depends on its triangles alone while they stay the same; the rest
  * (normals, exits, bounds, BVH) is made anew on the device in every pass in which vertices moved.
  * Its normals are rounded otherwise than those of a rigid mesh, so contacts may differ in their

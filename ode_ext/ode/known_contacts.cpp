@@ -4,16 +4,8 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "contacts/contact_features.h"
-
 namespace ode_ext {
 namespace {
-
-static_assert(kFeatureShift == dBatchFeatureShift);
-static_assert(static_cast<int>(FeatureKind::kUnknown) == dBatchFeatureNone &&
-              static_cast<int>(FeatureKind::kVertex) == dBatchFeatureVertex &&
-              static_cast<int>(FeatureKind::kEdge) == dBatchFeatureEdge &&
-              static_cast<int>(FeatureKind::kFacet) == dBatchFeatureFacet);
 
 // Compared as numbers, in ODE's precision: between here and the program ODE may have turned a 0
 // into -0.

@@ -89,15 +89,15 @@ TEST_F(ApiDeterminism, AnswersDoNotDependOnHowThePosesWereReached) {
   EXPECT_EQ(difference(answers_of(collider.pass(space)), expected), "");
 }
 
-// Small steps, as in a simulation: what is kept from the last pass may not show.
-TEST_F(ApiDeterminism, AnswersAfterSmallStepsAreThoseOfAFreshCollider) {
+// Small motions, as in a simulation: what is kept from the last pass may not show.
+TEST_F(ApiDeterminism, AnswersAfterSmallMotionsAreThoseOfAFreshCollider) {
   const BatchCollider collider;
-  for (int step = 0; step < 5; ++step) {
+  for (int pass = 0; pass < 5; ++pass) {
     for (const dGeomID geom : pile.geoms) {
       const TestPose pose = pose_of(geom);
       set_pose(geom, composed(pose, turned({1, 2, 3}, 0.01, {0.001, 0, -0.002})));
     }
-    EXPECT_EQ(difference(answers_of(collider.pass(space)), answers()), "") << "step " << step;
+    EXPECT_EQ(difference(answers_of(collider.pass(space)), answers()), "") << "pass " << pass;
   }
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh_oracle.h"
 #include "reference/reference_hits.h"
 #include "support/batch_collider.h"
 #include "support/ccd_oracle.h"
 #include "support/fcl_oracle.h"
-#include "support/mesh_oracle.h"
 
 namespace ode_ext::test {
 namespace {

@@ -19,11 +19,11 @@
 #include "bench/pair_cases.h"
 #include "bench/rivals.h"
 #include "bench/timing.h"
-#include "falling_objects/mesh_file.h"
 #include "falling_objects/report.h"
-#include "falling_objects/scene.h"
-#include "falling_objects/shapes.h"
-#include "falling_objects/simulation.h"
+#include "meshes/mesh_file.h"
+#include "meshes/shapes.h"
+#include "simulation/scene.h"
+#include "simulation/simulation.h"
 #include "support/ode_world.h"
 
 namespace {
@@ -124,9 +124,8 @@ class Others {
 };
 
 Times measure(const Case& pile, const Options& options) {
-  falling_objects::Options demo;
+  falling_objects::SimulationSettings demo;
   demo.objects = options.bodies;
-  demo.steps = options.steps;
   demo.seed = options.seed;
   demo.compare = true;
   demo.collider =

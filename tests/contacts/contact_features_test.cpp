@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/shapes.h"
+#include "ode_ext/ode_ext.h"
 
 namespace ode_ext {
 namespace {
@@ -25,6 +26,13 @@ std::vector<Features> numbered(const std::vector<Features>& given, const Mesh& a
 std::uint32_t vertex(std::uint64_t i) { return to_feature(FeatureKind::kVertex, i); }
 std::uint32_t edge(std::uint64_t i) { return to_feature(FeatureKind::kEdge, i); }
 std::uint32_t facet(std::uint64_t i) { return to_feature(FeatureKind::kFacet, i); }
+
+// They reach the program as they are.
+static_assert(kFeatureShift == dBatchFeatureShift);
+static_assert(static_cast<int>(FeatureKind::kUnknown) == dBatchFeatureNone &&
+              static_cast<int>(FeatureKind::kVertex) == dBatchFeatureVertex &&
+              static_cast<int>(FeatureKind::kEdge) == dBatchFeatureEdge &&
+              static_cast<int>(FeatureKind::kFacet) == dBatchFeatureFacet);
 
 TEST(ContactFeatures, HaveTheirKindInTheTwoHighestBits) {
   EXPECT_EQ(vertex(5), 0x40000005u);

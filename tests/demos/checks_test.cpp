@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each check is shown the failure that it is there for, and a world without one.
-#include "falling_objects/checks.h"
+#include "judging/checks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "falling_objects/contact_list.h"
-#include "falling_objects/speeds.h"
+#include "simulation/contact_list.h"
+#include "simulation/speeds.h"
 
 namespace falling_objects {
 namespace {
@@ -24,8 +24,8 @@ class DemoChecks : public testing::Test {
  protected:
   static void SetUpTestSuite() { dInitODE2(0); }
   static void TearDownTestSuite() { dCloseODE(); }
-  static Options four_objects() {
-    Options options;
+  static SimulationSettings four_objects() {
+    SimulationSettings options;
     options.objects = 4;
     return options;
   }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/cloth.h"
+#include "cloth/cloth.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "falling_objects/gravity.h"
-#include "falling_objects/sheet.h"
+#include "cloth/sheet.h"
+#include "scene_file/gravity.h"
 
 namespace falling_objects {
 namespace {
@@ -178,7 +178,7 @@ TEST(Cloth, GivesAPlaneTheMomentumThatGravityGaveIt) {
   }
   double given = 0;
   for (const ClothContact& plane : planes) given -= plane.impulse.z;
-  // The air takes 6/s of it for as long as a small step, 1/960 s: 0.6 %.
+  // The air takes 6/s of it for as long as a substep, 1/960 s: 0.6 %.
   EXPECT_NEAR(given, mass * kGravity * kStep, 0.007 * mass * kGravity * kStep);
 }
 

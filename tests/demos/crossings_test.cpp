@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/crossings.h"
+#include "judging/crossings.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "falling_objects/shapes.h"
-#include "support/mesh_oracle.h"
+#include "geometry/mesh_oracle.h"
+#include "meshes/shapes.h"
 #include "support/oracle_meshes.h"
 
 namespace falling_objects {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each expectation is shown a motion that it is meant for, and one that it is not.
-#include "falling_objects/expectations.h"
+#include "judging/expectations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <numbers>
 
-#include "falling_objects/scene_file.h"
+#include "scene_file/scene_file.h"
 
 namespace falling_objects {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-#include "falling_objects/scene_file.h"
+#include "scene_file/scene_file.h"
 #include "support/temporary_folder.h"
 
 namespace falling_objects {

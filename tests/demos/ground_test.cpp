@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/ground.h"
+#include "meshes/ground.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "falling_objects/placement.h"
-#include "falling_objects/shapes.h"
-#include "support/mesh_oracle.h"
+#include "geometry/mesh_oracle.h"
+#include "meshes/shapes.h"
+#include "simulation/placement.h"
 
 namespace falling_objects {
 namespace {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/inflate.h"
+#include "meshes/inflate.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "falling_objects/crossings.h"
-#include "falling_objects/ground.h"
-#include "falling_objects/shapes.h"
-#include "falling_objects/sheet.h"
-#include "falling_objects/surface.h"
-#include "support/mesh_oracle.h"
+#include "cloth/sheet.h"
+#include "geometry/mesh_oracle.h"
+#include "judging/crossings.h"
+#include "meshes/ground.h"
+#include "meshes/shapes.h"
+#include "meshes/surface.h"
 
 namespace falling_objects {
 namespace {

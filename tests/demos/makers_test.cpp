@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/mesh_oracle.h"
 #include "makers/catalog.h"
 #include "makers/solids.h"
 #include "makers/spur_gear.h"
 #include "makers/swept.h"
 #include "makers/thread.h"
-#include "support/mesh_oracle.h"
 
 namespace falling_objects {
 namespace {

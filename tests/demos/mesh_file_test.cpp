@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/mesh_file.h"
+#include "meshes/mesh_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "falling_objects/shapes.h"
+#include "meshes/shapes.h"
 #include "support/temporary_folder.h"
 
 namespace falling_objects {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/near_pairs.h"
+#include "judging/near_pairs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "falling_objects/random.h"
+#include "meshes/random.h"
 
 namespace falling_objects {
 namespace {

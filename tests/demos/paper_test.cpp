@@ -15,6 +15,7 @@
 #include "paper/run.h"
 #include "paper/schedule.h"
 #include "paper/summary.h"
+#include "simulation/exit_code.h"
 #include "support/temporary_folder.h"
 
 namespace paper {
@@ -220,8 +221,8 @@ TEST(PaperOptions, AreThePapersSceneByDefault) {
   const Outcome outcome = parse({"run", "--out", "x"});
   ASSERT_FALSE(outcome.parsed.exit_code) << outcome.err;
   const Options& o = outcome.parsed.options;
-  EXPECT_EQ(o.scene.objects, 1000);
-  EXPECT_EQ(o.scene.steps, 600);
+  EXPECT_EQ(o.simulation.objects, 1000);
+  EXPECT_EQ(o.steps, 600);
   EXPECT_EQ(o.configurations, default_configurations("rigid"));
   EXPECT_EQ(o.driver.name(), "full");
   EXPECT_EQ(o.command, "paper run --out x");
@@ -229,8 +230,8 @@ TEST(PaperOptions, AreThePapersSceneByDefault) {
 
 TEST(PaperOptions, HaveThePapersSecondScene) {
   const Options o = parse({"run", "--out", "x", "--scene", "rigid-deformable"}).parsed.options;
-  EXPECT_EQ(o.scene.objects, 216);
-  EXPECT_EQ(o.scene.sheets, 36);
+  EXPECT_EQ(o.simulation.objects, 216);
+  EXPECT_EQ(o.simulation.sheets, 36);
   EXPECT_EQ(o.configurations, default_configurations("rigid-deformable"));
 }
 
@@ -284,9 +285,9 @@ class PaperRun : public testing::Test {
 
 TEST_F(PaperRun, EndsWithTheSameContactsInAllConfigurations) {
   Options options;
-  options.scene.objects = 12;
-  options.scene.steps = 20;  // the first contacts come in step 16
-  options.scene.quiet = true;
+  options.simulation.objects = 12;
+  options.steps = 20;  // the first contacts come in step 16
+  options.quiet = true;
   options.every = 4;
   options.out = folder_;
   options.configurations =
@@ -313,11 +314,11 @@ TEST_F(PaperRun, EndsWithTheSameContactsInAllConfigurations) {
 
 TEST_F(PaperRun, CollidesSheetsToo) {
   Options options;
-  options.scene.scene = "rigid-deformable";
-  options.scene.objects = 2;
-  options.scene.sheets = 1;
-  options.scene.steps = 4;
-  options.scene.quiet = true;
+  options.scene = "rigid-deformable";
+  options.simulation.objects = 2;
+  options.simulation.sheets = 1;
+  options.steps = 4;
+  options.quiet = true;
   options.every = 4;
   options.out = folder_;
   options.configurations = parse_all({"full", "iterative", "iterative-basic"});

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The meter looks at few pairs and few vertices, and misses none.
-#include "falling_objects/penetration.h"
+#include "judging/penetration.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "falling_objects/pose.h"
-#include "falling_objects/random.h"
-#include "falling_objects/shapes.h"
+#include "meshes/random.h"
+#include "meshes/shapes.h"
+#include "simulation/pose.h"
 
 namespace falling_objects {
 namespace {
@@ -44,7 +44,7 @@ class Meter : public testing::Test {
 };
 
 TEST_F(Meter, FindsWhatBruteForceFindsInAHeapOnTheGround) {
-  Options options;
+  SimulationSettings options;
   options.objects = 24;
   std::vector<std::string> warnings;
   const Scene scene({{"jack", make_jack()}, {"gear", make_gear()}}, options, warnings);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a scene file says is read, and what is wrong in one is said with its file and line.
-#include "falling_objects/scene_file.h"
+#include "scene_file/scene_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

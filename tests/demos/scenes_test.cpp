@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "falling_objects/penetration.h"
-#include "falling_objects/scene_file.h"
-#include "falling_objects/simulation.h"
-#include "falling_objects/user_meshes.h"
+#include "judging/penetration.h"
+#include "scene_file/scene_file.h"
+#include "scene_file/user_meshes.h"
+#include "simulation/simulation.h"
 #include "support/temporary_folder.h"
 
 namespace falling_objects {
@@ -30,7 +30,7 @@ TEST_P(Scenes, AreReadAndRunForAFewStepsWithNothingThroughAnother) {
   EXPECT_TRUE(description.camera);
   if (description.drop) description.drop = Drop{20, description.drop->sheets > 0 ? 1 : 0};
   std::vector<std::string> warnings;
-  Options options;
+  SimulationSettings options;
   options.hz = description.hz;
   options.sheets = description.drop ? description.drop->sheets : 0;
   Scene scene(description, 1, warnings);
@@ -75,7 +75,7 @@ TEST_F(SceneBodies, MoveAsTheirMotionSays) {
     velocity = [1, 0, 0]
     motion = "driven")"),
               1, warnings_);
-  Options options;
+  SimulationSettings options;
   options.collider = Collider::kOde;
   Collision collision(options, scene.space());
   Simulation simulation(options, scene, collision, nullptr);
@@ -123,7 +123,7 @@ TEST_F(SceneBodies, TurnWithTheMotorOfTheirHinge) {
     body = "spur-gear"
     motor = { speed = 2 })"),
               1, warnings_);
-  Options options;
+  SimulationSettings options;
   options.collider = Collider::kOde;
   Collision collision(options, scene.space());
   Simulation simulation(options, scene, collision, nullptr);

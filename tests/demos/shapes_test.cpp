@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "falling_objects/shapes.h"
+#include "meshes/shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "support/mesh_oracle.h"
+#include "geometry/mesh_oracle.h"
 
 namespace falling_objects {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sheets and the collider together, in a scene small enough for a test.
-#include "falling_objects/sheets.h"
+#include "simulation/sheets.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "falling_objects/collision.h"
-#include "falling_objects/draping.h"
-#include "falling_objects/simulation.h"
+#include "judging/draping.h"
+#include "simulation/collision.h"
+#include "simulation/simulation.h"
 
 namespace falling_objects {
 namespace {
@@ -18,8 +18,8 @@ class DemoSheets : public testing::Test {
  protected:
   static void SetUpTestSuite() { dInitODE2(0); }
   static void TearDownTestSuite() { dCloseODE(); }
-  static Options one_sheet() {
-    Options options;
+  static SimulationSettings one_sheet() {
+    SimulationSettings options;
     options.objects = 4;
     options.sheets = 1;
     return options;
@@ -34,7 +34,7 @@ class DemoSheets : public testing::Test {
     for (Vector& p : cloth().positions()) p = p + move;
   }
 
-  Options options_ = one_sheet();
+  SimulationSettings options_ = one_sheet();
   std::vector<std::string> warnings_;
   Scene scene_{make_shapes(), options_, warnings_};
   Collision collision_{options_, scene_.space()};

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <ctime>
-#include <set>
 #include <sstream>
-#include <utility>
 
+#include "fuzz/getters.h"
 #include "ode/stock_collider.h"
 #include "support/ode_world.h"
 
@@ -18,20 +17,6 @@ using test::TestPose;
 
 // A program of a few operations can ask for thousands of pairs; these are enough of each.
 constexpr int kMostAsked = 1000, kMostCompared = 40;
-
-// Each contact of a pair that a collider was asked for just now has an id of its own.
-std::string unidentified(const Collider& collider, const Contacts& contacts) {
-  std::vector<dBatchContactId> ids(contacts.size());
-  const int known =
-      dBatchColliderGetContactIds(collider.id, contacts.data(), static_cast<int>(contacts.size()),
-                                  sizeof(dContactGeom), ids.data());
-  if (known != static_cast<int>(contacts.size()))
-    return "of " + std::to_string(contacts.size()) + " contacts " + std::to_string(known) +
-           " have an id";
-  std::set<std::pair<unsigned, unsigned>> different;
-  for (const dBatchContactId id : ids) different.insert({id.feature1, id.feature2});
-  return different.size() == ids.size() ? "" : "two contacts of a pair have one id";
-}
 
 }  // namespace
 
@@ -152,10 +137,29 @@ void Judge::ask_pairs_inside(const std::vector<Geom*>& geoms, int limit, const C
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto first = room.begin() + static_cast<std::ptrdiff_t>(i * most);
     Contacts contacts(first, first + counts[i]);
-    if (!not_ours(&collider)) report(unidentified(collider, contacts));
+    Geom &a = *geoms[2 * i], &b = *geoms[2 * i + 1];
+    if (&a == &b) {
+      if (!contacts.empty()) report("a geom has contacts with itself");
+      continue;
+    }
+    if (!not_ours(&collider)) judge_getters(a, b, contacts, collider);
     if (options_.tamper) options_.tamper(contacts);
-    if (geoms[2 * i] != geoms[2 * i + 1])
-      judge(*geoms[2 * i], *geoms[2 * i + 1], contacts, limit, &collider);
+    judge(a, b, contacts, limit, &collider);
+  }
+}
+
+// Of a pair that the collider was asked for just now.
+void Judge::judge_getters(Geom& a, Geom& b, const Contacts& contacts, const Collider& by) {
+  report(unidentified(by.id, contacts));
+  report(misplaced(by.id, contacts, !a.refuses && !b.refuses, by.complete));
+  for (const Geom* geom : {&a, &b}) {
+    Mesh& mesh = *geom->mesh;
+    std::vector<int> meshlets(static_cast<std::size_t>(mesh.triangles()), -7);
+    const int count = dBatchColliderGetMeshlets(by.id, mesh.id, mesh.triangles(), meshlets.data());
+    report(scattered(meshlets, count, mesh.decoded.mesh));
+    if (count == 0 && by.complete && mesh.tame_surface() != nullptr)
+      report("a mesh that was just met has no meshlets");
+    tally.meshlets += count;
   }
 }
 

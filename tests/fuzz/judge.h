@@ -53,6 +53,8 @@ class Judge {
   void find_slow_pair(const char* what, double took);
   double time_of(Geom& a, Geom& b);        // with both meshes known, [s]
   double stock_time_of(Geom& a, Geom& b);  // [s]; 0 where stock ODE cannot be asked
+  void judge_getters(Geom& a, Geom& b, const std::vector<dContactGeom>& contacts,
+                     const Collider& by);
   void judge(Geom& a, Geom& b, const std::vector<dContactGeom>& contacts, int limit,
              const Collider* by);
   void compare(Geom& a, Geom& b, const std::vector<dContactGeom>& contacts, int limit,

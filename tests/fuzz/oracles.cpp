@@ -41,6 +41,7 @@ Tally& Tally::operator+=(const Tally& other) {
   on_edge += other.on_edge;
   unjudged += other.unjudged;
   compared += other.compared;
+  meshlets += other.meshlets;
   stock += other.stock;
   return *this;
 }
@@ -57,6 +58,7 @@ std::string to_text(const Tally& tally) {
        << "pairs on the edge     " << tally.on_edge << '\n'
        << "pairs not judged      " << tally.unjudged << '\n'
        << "answers compared      " << tally.compared << '\n'
+       << "meshlets looked into  " << tally.meshlets << '\n'
        << "pairs timed in ODE    " << tally.stock << '\n';
   return text.str();
 }

@@ -23,6 +23,7 @@ struct Tally {
   long long on_edge = 0;    // an answer that FCL contradicts, but not when a mesh is nudged
   long long unjudged = 0;   // pairs that no oracle can be asked about
   long long compared = 0;   // answers compared byte for byte with those of another collider
+  long long meshlets = 0;   // of meshes of which all triangles were looked for in them
   long long stock = 0;      // pairs that stock ODE was timed with
 
   Tally& operator+=(const Tally& other);

@@ -218,7 +218,8 @@ void Program::bad_call() {
       reinterpret_cast<dBatchColliderID>(static_cast<std::uintptr_t>(16 + bytes_.byte()));
   dContactGeom contact{};
   dBatchContactId contact_id;
-  int count = 0;
+  dBatchContactRegion region;
+  int count = 0, meshlet = 0;
   Callback callback{this, Near::Nothing, 1, nullptr, false};
   const dSpaceID space = world_.choose_space(bytes_)->id;
   const Geom* geom = world_.choose_geom(bytes_);
@@ -233,6 +234,9 @@ void Program::bad_call() {
       result = dBatchColliderSpaceCollide(wrong, space, &callback, &near);
       if (result == -1)
         result = dBatchColliderGetContactIds(wrong, &contact, 1, sizeof contact, &contact_id);
+      if (result == -1)
+        result = dBatchColliderGetContactRegions(wrong, &contact, 1, sizeof contact, &region);
+      if (result == -1) result = dBatchColliderGetMeshlets(collider, nullptr, 1, &meshlet);
       break;
     case 2:
       result = dBatchColliderSpaceCollide(collider, nullptr, &callback, &near);
@@ -250,10 +254,14 @@ void Program::bad_call() {
       if (result == -1)
         result =
             dBatchColliderGetContactIds(collider, &contact, 1, sizeof contact, &contact_id) - 1;
+      if (result == -1)
+        result =
+            dBatchColliderGetContactRegions(collider, &contact, 1, sizeof contact, &region) - 1;
       break;
     case 6:
       result = dBatchColliderCollidePairs(collider, pair, 1, 0x10000, &contact, 1, &count);
       if (result == -1) result = dBatchColliderGetContactIds(collider, &contact, 1, 1, &contact_id);
+      if (result == -1) result = dBatchColliderGetContactRegions(collider, &contact, 1, 1, &region);
       break;
     case 7:
       dBatchColliderTriMeshDataUpdate(wrong, nullptr);

@@ -54,6 +54,7 @@ TEST_F(FuzzProgram, SeedsHaveNoFlawAndMakeEveryOracleSpeak) {
   EXPECT_GT(sum.contained, 0);
   EXPECT_GT(sum.apart, 0);
   EXPECT_GT(sum.compared, 0);
+  EXPECT_GT(sum.meshlets, 0);
 }
 
 TEST_F(FuzzProgram, IsTheSameForTheSameBytes) {

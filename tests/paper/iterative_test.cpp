@@ -25,10 +25,10 @@ std::uint64_t bvh(const StepReport& report) {
   return report.actual[static_cast<std::size_t>(List::kRays)];
 }
 
-class IterativeSteps : public testing::Test {
+class IterativePasses : public testing::Test {
  protected:
   // Collides the scene both ways and compares.
-  void step(const Scene& scene, PassMemory& passes) {
+  void pass(const Scene& scene, PassMemory& passes) {
     const Bits expected = bits_of(full.collide(scene, nullptr));
     ASSERT_EQ(bits_of(iterative_rays.collide(scene, &passes)), expected);
     cast_iteratively += iterative(iterative_rays.report());
@@ -43,38 +43,38 @@ class IterativeSteps : public testing::Test {
   std::uint64_t cast_iteratively = 0, cast_in_full = 0;
 };
 
-TEST_F(IterativeSteps, GiveTheBytesOfFullRaysOnSmoothMeshes) {
+TEST_F(IterativePasses, GiveTheBytesOfFullRaysOnSmoothMeshes) {
   MovingScene moving(smooth_meshes(), 40, 0.002, 1);
-  for (int i = 0; i < 30; ++i, moving.advance()) step(moving.scene(), memory);
+  for (int i = 0; i < 30; ++i, moving.advance()) pass(moving.scene(), memory);
   // Else nothing was shown.
   EXPECT_GT(cast_iteratively, 30000u);
 }
 
-TEST_F(IterativeSteps, GiveTheBytesOfFullRaysOnMeshesOfAllKinds) {
+TEST_F(IterativePasses, GiveTheBytesOfFullRaysOnMeshesOfAllKinds) {
   MovingScene moving(small_closed_meshes(), 200, 0.005, 2);
-  for (int i = 0; i < 30; ++i, moving.advance()) step(moving.scene(), memory);
+  for (int i = 0; i < 30; ++i, moving.advance()) pass(moving.scene(), memory);
   EXPECT_GT(cast_iteratively, 500u);
 }
 
-TEST_F(IterativeSteps, GiveTheBytesOfFullRaysAfterLargeDisplacements) {
+TEST_F(IterativePasses, GiveTheBytesOfFullRaysAfterLargeDisplacements) {
   for (const double size : {0.01, 0.03, 0.1, 0.3}) {
     MovingScene moving(smooth_meshes(), 20, size, 3);
     PassMemory passes;
-    for (int i = 0; i < 8; ++i, moving.advance()) step(moving.scene(), passes);
+    for (int i = 0; i < 8; ++i, moving.advance()) pass(moving.scene(), passes);
   }
 }
 
-TEST_F(IterativeSteps, FindTemporalDataOfEveryVertexOfAPairThatRests) {
+TEST_F(IterativePasses, FindTemporalDataOfEveryVertexOfAPairThatRests) {
   MovingScene moving(smooth_meshes(), 40, 0, 4);
-  step(moving.scene(), memory);
+  pass(moving.scene(), memory);
   EXPECT_EQ(iterative(iterative_rays.report()), 0u);
   const std::uint64_t before = cast_in_full;
-  step(moving.scene(), memory);
+  pass(moving.scene(), memory);
   // What met nothing near has nothing to start from.
   EXPECT_GT(iterative(iterative_rays.report()), before / 2);
 }
 
-TEST_F(IterativeSteps, ArePairsThatComeAndGo) {
+TEST_F(IterativePasses, ArePairsThatComeAndGo) {
   MovingScene moving(smooth_meshes(), 60, 0.002, 5);
   Random random(5);
   const auto all = moving.scene().pairs;
@@ -82,45 +82,45 @@ TEST_F(IterativeSteps, ArePairsThatComeAndGo) {
     moving.scene().pairs.clear();
     for (const auto& pair : all)
       if (random.below(4) != 0) moving.scene().pairs.push_back(pair);
-    step(moving.scene(), memory);
+    pass(moving.scene(), memory);
   }
   EXPECT_GT(cast_iteratively, 500u);
 }
 
-TEST_F(IterativeSteps, DoNotMindInWhichOrderAPairIsGiven) {
+TEST_F(IterativePasses, DoNotMindInWhichOrderAPairIsGiven) {
   MovingScene moving(smooth_meshes(), 40, 0.002, 6);
   Random random(6);
   for (int i = 0; i < 20; ++i, moving.advance()) {
     for (auto& pair : moving.scene().pairs)
       if (random.below(2) == 0) std::swap(pair[0], pair[1]);
-    step(moving.scene(), memory);
+    pass(moving.scene(), memory);
   }
   EXPECT_GT(cast_iteratively, 5000u);
 }
 
-TEST_F(IterativeSteps, StartAnewWhereAMeshIsReplaced) {
+TEST_F(IterativePasses, StartAnewWhereAMeshIsReplaced) {
   MovingScene moving(smooth_meshes(), 40, 0.002, 7);
   const std::vector<std::shared_ptr<const Mesh>> meshes = moving.scene().meshes;
   for (std::size_t i = 0; i < 20; ++i, moving.advance()) {
-    // The same object has another mesh, of fewer triangles or more, from one step to the next.
+    // The same object has another mesh, of fewer triangles or more, from one pass to the next.
     for (std::size_t k = 0; k < 3; ++k) moving.scene().meshes[k] = meshes[(k + i / 3) % 3];
-    step(moving.scene(), memory);
+    pass(moving.scene(), memory);
   }
   EXPECT_GT(cast_iteratively, 500u);
 }
 
-TEST_F(IterativeSteps, KeepSpacesApart) {
+TEST_F(IterativePasses, KeepSpacesApart) {
   MovingScene first(smooth_meshes(), 20, 0.002, 8), second(small_closed_meshes(), 20, 0.004, 9);
   PassMemory other;
   for (int i = 0; i < 20; ++i, first.advance(), second.advance()) {
-    step(first.scene(), memory);
-    step(second.scene(), other);
-    step(second.scene(), other);
+    pass(first.scene(), memory);
+    pass(second.scene(), other);
+    pass(second.scene(), other);
   }
   EXPECT_GT(cast_iteratively, 5000u);
 }
 
-TEST_F(IterativeSteps, SurviveListsThatAreTooSmall) {
+TEST_F(IterativePasses, SurviveListsThatAreTooSmall) {
   ColliderOptions tight = with_rays(Rays::kIterative);
   tight.initial_capacity = 1;
   tight.confidence = 0.5;
@@ -133,7 +133,7 @@ TEST_F(IterativeSteps, SurviveListsThatAreTooSmall) {
   EXPECT_GT(iterative(collider.report()), 0u);
 }
 
-TEST_F(IterativeSteps, HandOnWhatTheyCannotWalkTo) {
+TEST_F(IterativePasses, HandOnWhatTheyCannotWalkTo) {
   ColliderOptions options = with_rays(Rays::kIterative);
   options.walk_limit = 0;
   options.displacement_limit = 100;
@@ -148,19 +148,19 @@ TEST_F(IterativeSteps, HandOnWhatTheyCannotWalkTo) {
   EXPECT_GT(handed_on, 100u);
 }
 
-TEST_F(IterativeSteps, AreNotUsedOutsideOfPasses) {
+TEST_F(IterativePasses, AreNotUsedOutsideOfPasses) {
   MovingScene moving(smooth_meshes(), 10, 0, 12);
   for (int i = 0; i < 3; ++i) iterative_rays.collide(moving.scene(), nullptr);
   EXPECT_EQ(iterative(iterative_rays.report()), 0u);
   EXPECT_EQ(iterative_rays.report().temporal_pairs, 0u);
 }
 
-TEST_F(IterativeSteps, ForgetWhatNobodyCollidesAnyMore) {
+TEST_F(IterativePasses, ForgetWhatNobodyCollidesAnyMore) {
   MovingScene moving(smooth_meshes(), 30, 0, 13);
-  step(moving.scene(), memory);
+  pass(moving.scene(), memory);
   EXPECT_EQ(iterative_rays.report().temporal_pairs, 30u);
   moving.scene().pairs.resize(5);
-  for (int i = 0; i < 10; ++i) step(moving.scene(), memory);
+  for (int i = 0; i < 10; ++i) pass(moving.scene(), memory);
   EXPECT_EQ(iterative_rays.report().temporal_pairs, 5u);
 }
 

@@ -28,7 +28,7 @@ class Places : public testing::Test {
     return std::make_shared<const Mesh>(build_mesh(soup_of(made)));
   }
 
-  std::vector<ox_link> step() {
+  std::vector<ox_link> pass() {
     cache_.begin(scene_);
     std::vector<ox_link> links(scene_.pairs.size());
     cache_.links().read(links.data(), links.size() * sizeof(ox_link));
@@ -60,13 +60,13 @@ class Places : public testing::Test {
 
 TEST_F(Places, OfAMeshThatIsEditedInEveryStepAreTakenAgain) {
   fill(20);
-  step();
+  pass();
   const std::size_t entries = cache_.entries();
   for (int i = 0; i < 50; ++i) {
     const auto rebuilt = std::make_shared<Mesh>(*fine_);
     rebuilt->topology = std::make_shared<const MeshTopology>(*fine_->topology);
     scene_.meshes[0] = rebuilt;
-    step();
+    pass();
   }
   EXPECT_EQ(cache_.entries(), entries);
 }
@@ -76,7 +76,7 @@ TEST_F(Places, OfAMeshThatGrowsAndShrinksAreTakenAgain) {
   for (int i = 0; i < 60; ++i) {
     // 32 to 992 vertices, 2 to 62 chunks.
     scene_.meshes[0] = mesh(make_torus(1, 0.3, 8 + 4 * (i % 30), 4 + i % 30 / 7));
-    step();
+    pass();
   }
   // Places are rounded up to powers of two, and all the smaller ones together are one more.
   const std::size_t largest = 128;
@@ -85,15 +85,15 @@ TEST_F(Places, OfAMeshThatGrowsAndShrinksAreTakenAgain) {
 
 TEST_F(Places, OfPairsThatNobodyCollidesAnyMoreAreTakenAgain) {
   fill(20);
-  step();
+  pass();
   const std::size_t entries = cache_.entries();
   for (int i = 0; i < 100; ++i) {
     // Others, of the same meshes, now and then.
     if (i % 20 == 0)
       for (Scene::Object& object : scene_.objects) object.identity += scene_.objects.size();
-    step();
+    pass();
   }
-  // The pairs that went are kept for a few steps beside those that came.
+  // The pairs that went are kept for a few passes beside those that came.
   EXPECT_LE(cache_.entries(), 2 * entries);
 }
 
@@ -111,22 +111,22 @@ TEST_F(Places, AreNeverThoseOfTwoPairs) {
     scene_.pairs.clear();
     for (const auto& pair : all)
       if (random.below(8) != 0) scene_.pairs.push_back(pair);
-    const std::vector<ox_link> links = step();
+    const std::vector<ox_link> links = pass();
     ASSERT_EQ(taken_twice(links), 0u) << i;
     ASSERT_TRUE(std::none_of(links.begin(), links.end(),
                              [](const ox_link& link) { return link.slot == OX_NONE; }));
   }
 }
 
-TEST_F(Places, AreNotReadByANewOwnerInItsFirstStep) {
+TEST_F(Places, AreNotReadByANewOwnerInItsFirstPass) {
   fill(10);
-  step();
-  for (const ox_link& link : step()) EXPECT_EQ(link.known, 1u);
+  pass();
+  for (const ox_link& link : pass()) EXPECT_EQ(link.known, 1u);
   const auto rebuilt = std::make_shared<Mesh>(*fine_);
   rebuilt->topology = std::make_shared<const MeshTopology>(*fine_->topology);
   scene_.meshes[0] = rebuilt;
-  for (const ox_link& link : step()) EXPECT_EQ(link.known, 0u);
-  for (const ox_link& link : step()) EXPECT_EQ(link.known, 1u);
+  for (const ox_link& link : pass()) EXPECT_EQ(link.known, 0u);
+  for (const ox_link& link : pass()) EXPECT_EQ(link.known, 1u);
 }
 
 }  // namespace

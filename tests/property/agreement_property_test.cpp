@@ -4,10 +4,10 @@
 // nothing of them, and nothing is said of them here.)
 #include <gtest/gtest.h>
 
+#include "geometry/mesh_oracle.h"
 #include "property/random_pair.h"
 #include "reference/reference_hits.h"
 #include "support/fcl_oracle.h"
-#include "support/mesh_oracle.h"
 
 namespace ode_ext::test {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
+#include "geometry/mesh_oracle.h"
 #include "property/random_pair.h"
 #include "reference/reference_hits.h"
 #include "support/ccd_oracle.h"
 #include "support/fcl_oracle.h"
-#include "support/mesh_oracle.h"
 
 namespace ode_ext::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "geometry/mesh_oracle.h"
 #include "search/inside_oracle.h"
-#include "support/mesh_oracle.h"
 #include "support/rig.h"
 
 namespace ode_ext::test {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/triangle_tree.h"
 #include "support/rig.h"
-#include "support/triangle_tree.h"
 
 namespace ode_ext::test {
 

@@ -11,7 +11,7 @@
 #include "search/oriented_box.h"
 #include "support/fcl_oracle.h"
 #include "support/rig.h"
-#include "support/triangle_distance.h"
+#include "support/segment_crosses.h"
 
 namespace ode_ext::test {
 namespace {

@@ -113,6 +113,9 @@ include_fails include/ode_ext/export.h '<CL/cl.h>'
 include_fails demos/hello/hello.c '"collide/collider.h"'
 include_fails demos/hello/hello.c '"preload/core.h"'
 include_fails demos/hello/hello.c '"ode_ext/paper/rays.h"'
+include_fails demos/paper/run.cpp '"falling_objects/run.h"'
+include_fails demos/simulation/scene.h '"judging/checks.h"'
+include_fails demos/judging/checks.h '"support/contacts.h"'
 include_fails kernels/step.cl '<ode/ode.h>'
 
 printf 'int x;\n' > "$tree/ode_ext/mesh/unlicensed.cpp"

@@ -98,12 +98,12 @@ TestMesh make_box(const Point& extents, int nx, int ny, int nz) {
       for (int i = 0; i < cells[u]; ++i) {
         for (int j = 0; j < cells[v]; ++j) {
           std::array<unsigned, 4> quad{};
-          const int steps[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+          const int corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
           for (std::size_t k = 0; k < 4; ++k) {
             std::array<int, 3> place{};
             place[axis] = upper ? cells[axis] : 0;
-            place[u] = i + steps[k][0];
-            place[v] = j + steps[k][1];
+            place[u] = i + corners[k][0];
+            place[v] = j + corners[k][1];
             quad[upper ? k : 3 - k] = lattice.vertex(place);
           }
           add_quad(mesh, quad[0], quad[1], quad[2], quad[3]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes that move a little from step to step, as a simulation's do; objects keep their identities.
+// Scenes that move a little from pass to pass, as a simulation's do; objects keep their identities.
 #pragma once
 
 #include <cmath>
@@ -12,10 +12,10 @@ namespace ode_ext::test {
 
 class MovingScene {
  public:
-  // `count` pairs of overlapping meshes; each step moves every object by about `step` [m] and turns
-  // it by about `step` [rad].
-  MovingScene(const std::vector<TestMesh>& meshes, int count, double step, std::uint64_t seed)
-      : random_(seed), step_(step) {
+  // `count` pairs of overlapping meshes; each pass moves every object by about `motion` [m] and
+  // turns it by about `motion` [rad].
+  MovingScene(const std::vector<TestMesh>& meshes, int count, double motion, std::uint64_t seed)
+      : random_(seed), motion_(motion) {
     for (const TestMesh& mesh : meshes) scene_.add_mesh(mesh);
     for (int i = 0; i < count; ++i) {
       TestPose a = random_.pose(0.3), b = random_.pose(0.3);
@@ -35,7 +35,7 @@ class MovingScene {
   void advance() {
     for (Scene::Object& object : scene_.scene.objects) {
       const TestPose nudge = turned({random_.uniform(-1, 1), random_.uniform(-1, 1), 1},
-                                    random_.uniform(-step_, step_));
+                                    random_.uniform(-motion_, motion_));
       const Pose by = collider_pose(nudge);
       std::array<double, 9> rotation{};
       for (std::size_t r = 0; r < 3; ++r)
@@ -43,15 +43,15 @@ class MovingScene {
           for (std::size_t k = 0; k < 3; ++k)
             rotation[3 * r + c] += by.rotation[3 * r + k] * object.pose.rotation[3 * k + c];
       object.pose.rotation = rotation;
-      object.pose.position = object.pose.position + Vec3d{random_.uniform(-step_, step_),
-                                                          random_.uniform(-step_, step_),
-                                                          random_.uniform(-step_, step_)};
+      object.pose.position = object.pose.position + Vec3d{random_.uniform(-motion_, motion_),
+                                                          random_.uniform(-motion_, motion_),
+                                                          random_.uniform(-motion_, motion_)};
     }
   }
 
  private:
   Random random_;
-  double step_;
+  double motion_;
   TestScene scene_;
 };
 

@@ -2,7 +2,7 @@
 // Simple closed meshes with known distances, for the tests of the oracle.
 #pragma once
 
-#include "support/mesh_oracle.h"
+#include "geometry/mesh_oracle.h"
 
 namespace ode_ext::oracle {
 

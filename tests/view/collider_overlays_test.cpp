@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "falling_objects/scene.h"
 #include "falling_objects/show/coats.h"
 #include "falling_objects/show/space_view.h"
+#include "simulation/scene.h"
 #include "support/batch_collider.h"
 #include "view/spots.h"
 #include "view/studio.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "falling_objects/shapes.h"
+#include "meshes/shapes.h"
 #include "view/shaded_mesh.h"
 
 namespace view_tests {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "falling_objects/shapes.h"
 #include "falling_objects/show/hand.h"
 #include "makers/solids.h"
+#include "meshes/shapes.h"
 #include "view/spots.h"
 #include "view/studio.h"
 

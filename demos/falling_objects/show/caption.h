@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "falling_objects/options.h"
-#include "falling_objects/step_record.h"
+#include "simulation/step_record.h"
 
 namespace falling_objects {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/show/hand.h"
 
-#include "falling_objects/scene.h"
 #include "falling_objects/show/mesh_of_geom.h"
+#include "simulation/scene.h"
 
 namespace falling_objects {
 

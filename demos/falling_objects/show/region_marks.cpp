@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "falling_objects/scene.h"
 #include "falling_objects/show/mesh_of_geom.h"
+#include "simulation/scene.h"
 
 namespace falling_objects {
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "falling_objects/sheets.h"
+#include "simulation/sheets.h"
 #include "view/camera.h"
 #include "view/frame.h"
 #include "view/renderer.h"

@@ -44,7 +44,7 @@ std::vector<Stack> make_stacks(const Options& options, test::OdeWorld& world) {
 
 bool is_held_up(const Point2& corner, const test::Contacts& contacts) {
   for (const dContactGeom& c : contacts) {
-    if (std::hypot(c.pos[0] - corner[0], c.pos[1] - corner[1]) < kNear) return true;
+    if (std::hypot(c.pos[0] - corner.x(), c.pos[1] - corner.y()) < kNear) return true;
   }
   return false;
 }

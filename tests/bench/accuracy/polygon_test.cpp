@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/geometry/algorithms/area.hpp>
+#include <boost/geometry/strategies/strategies.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -11,18 +13,11 @@
 namespace ode_ext::accuracy {
 namespace {
 
-double area(const Polygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    twice += p[0] * q[1] - p[1] * q[0];
-  }
-  return twice / 2;
-}
+using boost::geometry::area;
 
 bool has_corner(const Polygon& polygon, const Point2& corner) {
   for (const Point2& p : polygon) {
-    if (std::hypot(p[0] - corner[0], p[1] - corner[1]) < 1e-9) return true;
+    if (std::hypot(p.x() - corner.x(), p.y() - corner.y()) < 1e-9) return true;
   }
   return false;
 }
@@ -31,7 +26,7 @@ TEST(Polygon, OfAlignedSquaresIsARectangle) {
   const Polygon common = intersection(square(2, {0, 0}, 0), square(2, {1, 0.5}, 0));
   ASSERT_EQ(common.size(), 4u);
   for (const Point2 corner : {Point2{0, -0.5}, Point2{1, -0.5}, Point2{1, 1}, Point2{0, 1}})
-    EXPECT_TRUE(has_corner(common, corner)) << corner[0] << ", " << corner[1];
+    EXPECT_TRUE(has_corner(common, corner)) << corner.x() << ", " << corner.y();
 }
 
 TEST(Polygon, OfASquareOnItselfTurnedByHalfARightAngleIsAnOctagon) {
@@ -61,7 +56,8 @@ TEST(Polygon, HoldsThePointsThatAreInBoth) {
     const auto inside = [](const Polygon& p, double x, double y) {
       for (std::size_t i = 0; i < 4; ++i) {
         const Point2 &from = p[i], &to = p[(i + 1) % 4];
-        if ((to[0] - from[0]) * (y - from[1]) < (to[1] - from[1]) * (x - from[0])) return false;
+        if ((to.x() - from.x()) * (y - from.y()) < (to.y() - from.y()) * (x - from.x()))
+          return false;
       }
       return true;
     };

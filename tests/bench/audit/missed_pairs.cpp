@@ -16,7 +16,7 @@
 #include "bench/audit/frames.h"
 #include "bench/audit/kind_pair.h"
 #include "bench/audit/scene_audit.h"
-#include "falling_objects/simulation.h"
+#include "simulation/simulation.h"
 
 namespace {
 
@@ -84,7 +84,7 @@ Answers answers_of(const Findings& findings) {
 
 void audit_scene(const Options& options, Report& report) {
   const OdeSession session;
-  falling_objects::Options scene_options;
+  falling_objects::SimulationSettings scene_options;
   scene_options.objects = options.objects;
   scene_options.seed = options.trial.seed;
   scene_options.max_contacts = options.trial.max_contacts;

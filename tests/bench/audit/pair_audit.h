@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bench/audit/pair_poses.h"
+#include "geometry/mesh_oracle.h"
 #include "support/fcl_oracle.h"
-#include "support/mesh_oracle.h"
 #include "support/regions.h"
 
 namespace ode_ext::audit {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/mesh_oracle.h"
 #include "support/mesh_makers.h"
-#include "support/mesh_oracle.h"
 
 namespace ode_ext::audit {
 

@@ -10,7 +10,7 @@
 
 #include "bench/audit/frames.h"
 #include "bench/audit/scene_audit.h"
-#include "falling_objects/simulation.h"
+#include "simulation/simulation.h"
 
 namespace {
 
@@ -39,7 +39,7 @@ void print_row(const char* name, const Findings& f) {
   std::fflush(stdout);
 }
 
-int audit(const falling_objects::Options& options, const Frames& frames) {
+int audit(const falling_objects::SimulationSettings& options, const Frames& frames) {
   const OdeSession session;
   std::vector<std::string> warnings;
   falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
@@ -67,7 +67,7 @@ int audit(const falling_objects::Options& options, const Frames& frames) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  falling_objects::Options options;
+  falling_objects::SimulationSettings options;
   Frames frames;
   CLI::App app("Compares the batch collider's contacts in a settled pile with FCL's answers.",
                "rigid_audit");

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "geometry/mesh_oracle.h"
 #include "support/mesh_makers.h"
-#include "support/mesh_oracle.h"
 
 namespace ode_ext::audit {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "falling_objects/scene.h"
+#include "simulation/scene.h"
 
 namespace ode_ext::audit {
 

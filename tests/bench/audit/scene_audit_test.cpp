@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "falling_objects/simulation.h"
+#include "simulation/simulation.h"
 
 namespace ode_ext::audit {
 namespace {
@@ -39,7 +39,7 @@ class SceneAuditTest : public ::testing::Test {
     return {list_.contacts().begin(), list_.contacts().end()};
   }
 
-  falling_objects::Options options_;
+  falling_objects::SimulationSettings options_;
   std::unique_ptr<falling_objects::Scene> scene_;
   std::unique_ptr<falling_objects::Collision> collision_;
   std::unique_ptr<falling_objects::Simulation> simulation_;

@@ -18,10 +18,10 @@
 #include "bench/audit/kinds.h"
 #include "bench/audit/pair_poses.h"
 #include "bench/audit/rounding.h"
-#include "falling_objects/simulation.h"
+#include "geometry/mesh_oracle.h"
 #include "search/crossing_comparison.h"
 #include "search/inside_oracle.h"
-#include "support/mesh_oracle.h"
+#include "simulation/simulation.h"
 #include "support/ode_world.h"
 #include "support/rig.h"
 
@@ -161,7 +161,7 @@ struct OdeSession {
   ~OdeSession() { dCloseODE(); }
 };
 
-Counts audit_pile(const falling_objects::Options& options, const Frames& frames) {
+Counts audit_pile(const falling_objects::SimulationSettings& options, const Frames& frames) {
   const OdeSession session;
   std::vector<std::string> warnings;
   falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
@@ -219,7 +219,7 @@ Counts audit_kinds(int poses, std::uint64_t seed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  falling_objects::Options options;
+  falling_objects::SimulationSettings options;
   options.objects = 300;
   Frames frames{.first_step = 60};
   int poses = 10;

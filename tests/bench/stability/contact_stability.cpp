@@ -12,7 +12,7 @@
 
 #include "bench/stability/bench.h"
 #include "bench/stability/trials.h"
-#include "falling_objects/collision.h"
+#include "simulation/collision.h"
 
 namespace ode_ext::stability {
 

@@ -9,8 +9,8 @@
 #include "bench/stability/bench.h"
 #include "bench/stability/ground.h"
 #include "bench/stability/trials.h"
-#include "falling_objects/shapes.h"
-#include "support/mesh_oracle.h"
+#include "geometry/mesh_oracle.h"
+#include "meshes/shapes.h"
 
 namespace ode_ext::stability {
 namespace {

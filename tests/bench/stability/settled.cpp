@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "bench/stability/trials.h"
-#include "falling_objects/penetration.h"
-#include "falling_objects/shapes.h"
-#include "falling_objects/simulation.h"
-#include "falling_objects/speeds.h"
+#include "judging/penetration.h"
+#include "meshes/shapes.h"
+#include "simulation/simulation.h"
+#include "simulation/speeds.h"
 
 namespace ode_ext::stability {
 namespace {
@@ -31,29 +31,29 @@ struct Pile {
 };
 
 Pile run(falling_objects::Collider collider, const TrialOptions& trial) {
-  falling_objects::Options options;
-  options.objects = trial.quick ? std::min(trial.objects, 60) : trial.objects;
-  options.steps = trial.quick ? std::min(trial.steps, 240) : trial.steps;
-  options.seed = trial.seed;
-  options.max_contacts = trial.max_contacts;
-  options.collider = collider;
+  const int steps = trial.quick ? std::min(trial.steps, 240) : trial.steps;
+  falling_objects::SimulationSettings settings;
+  settings.objects = trial.quick ? std::min(trial.objects, 60) : trial.objects;
+  settings.seed = trial.seed;
+  settings.max_contacts = trial.max_contacts;
+  settings.collider = collider;
   const OdeSession session;
   std::vector<std::string> warnings;
-  falling_objects::Scene scene(falling_objects::make_shapes(), options, warnings);
-  falling_objects::Collision collision(options, scene.space());
-  falling_objects::Simulation simulation(options, scene, collision, nullptr);
+  falling_objects::Scene scene(falling_objects::make_shapes(), settings, warnings);
+  falling_objects::Collision collision(settings, scene.space());
+  falling_objects::Simulation simulation(settings, scene, collision, nullptr);
   const falling_objects::PenetrationMeter meter(scene);
-  const int half_second = static_cast<int>(std::lround(options.hz / 2));
+  const int half_second = static_cast<int>(std::lround(settings.hz / 2));
   Pile pile;
-  for (int step = 0; step < options.steps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     const falling_objects::StepRecord record = simulation.step();
-    const bool last = step + 1 == options.steps;
+    const bool last = step + 1 == steps;
     if ((step + 1) % (4 * half_second) == 0) {
-      say("settled: step %d of %d, %lld contacts", step + 1, options.steps, record.contacts);
+      say("settled: step %d of %d, %lld contacts", step + 1, steps, record.contacts);
     }
     const bool look = (step + 1) % half_second == 0 || last;
     if (look) pile.deepest = std::max(pile.deepest, meter.measure().deepest);
-    if (step < options.steps - options.steps / 3) continue;
+    if (step < steps - steps / 3) continue;
     pile.contacts.push_back(static_cast<double>(record.contacts));
     pile.collide_ms.push_back(record.collide_ms);
     pile.solver_ms.push_back(record.solver_ms);

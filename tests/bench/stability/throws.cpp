@@ -7,7 +7,7 @@
 
 #include "bench/stability/bench.h"
 #include "bench/stability/trials.h"
-#include "falling_objects/shapes.h"
+#include "meshes/shapes.h"
 
 namespace ode_ext::stability {
 namespace {

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of the user's own.
+#pragma once
+
+#include <string>
+
+#include "meshes/triangle_mesh.h"
+
+namespace falling_objects {
+
+// Reads whatever Assimp reads: all meshes of the file as one, in their places, welded, wound
+// outwards. Throws std::runtime_error with a sentence that names the file.
+TriangleMesh read_mesh_file(const std::string& path);
+
+// The same, centred and scaled like the demo's own shapes.
+TriangleMesh load_mesh(const std::string& path);
+
+}  // namespace falling_objects

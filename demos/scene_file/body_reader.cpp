@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_file/body_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "makers/catalog.h"
+#include "meshes/mesh_file.h"
+#include "meshes/random.h"
+#include "scene_file/rotation.h"
+
+namespace falling_objects {
+namespace {
+
+std::vector<std::string> shape_names() {
+  std::vector<std::string> names;
+  for (const ShapeMaker& maker : shape_makers()) names.emplace_back(maker.name);
+  return names;
+}
+
+TriangleMesh make_shape(const ShapeMaker& maker, TomlTable& table) {
+  std::vector<double> values;
+  for (const ShapeParameter& p : maker.parameters) {
+    if (p.whole) {
+      values.push_back(table.whole(p.name, static_cast<int>(p.fallback), static_cast<int>(p.least),
+                                   static_cast<int>(p.most)));
+    } else {
+      values.push_back(table.number(p.name, p.fallback, {p.least, p.most}));
+    }
+  }
+  try {
+    return maker.make(values);
+  } catch (const std::invalid_argument& e) {
+    table.fail(std::string("a ") + maker.name + ": " + e.what());
+  }
+}
+
+TriangleMesh make_shape(const ShapeMaker& maker) {
+  std::vector<double> values;
+  for (const ShapeParameter& p : maker.parameters) values.push_back(p.fallback);
+  return maker.make(values);
+}
+
+// Where the bodies of a table stand, seen from the first, and how far they are twisted [rad].
+struct Site {
+  Point position;
+  double twist;
+};
+
+std::vector<Site> read_sites(TomlTable& table) {
+  const Point spacing = table.point("spacing", {1, 1, 1});
+  const double twist = table.number("twist", 0) * std::numbers::pi / 180;
+  const int layers = table.whole("pyramid", 0, 1, 1000);
+  const std::vector<double> counts =
+      table.optional_numbers("count", 3).value_or(std::vector<double>{1, 1, 1});
+  for (const double count : counts) {
+    if (!(count >= 1 && count <= 1e6 && count == std::floor(count))) {
+      table.fail("count", "'count' must be three whole numbers from 1 on");
+    }
+  }
+  if (layers > 0 && table.has("count")) table.fail("pyramid", "'pyramid' goes without 'count'");
+  std::vector<Site> sites;
+  if (layers > 0) {
+    // A wall that narrows: each layer has one body less than the one below.
+    for (int layer = 0; layer < layers; ++layer) {
+      for (int i = 0; i < layers - layer; ++i) {
+        sites.push_back({{spacing[0] * (i - (layers - 1 - layer) / 2.0), 0, spacing[2] * layer},
+                         twist * layer});
+      }
+    }
+    return sites;
+  }
+  for (int k = 0; k < counts[2]; ++k) {
+    for (int j = 0; j < counts[1]; ++j) {
+      for (int i = 0; i < counts[0]; ++i) {
+        sites.push_back({{spacing[0] * (i - (counts[0] - 1) / 2),
+                          spacing[1] * (j - (counts[1] - 1) / 2), spacing[2] * k},
+                         twist * k});
+      }
+    }
+  }
+  return sites;
+}
+
+}  // namespace
+
+BodyReader::BodyReader(SceneDescription& scene, std::string folder)
+    : scene_(scene), folder_(std::move(folder)) {}
+
+void BodyReader::add_mesh(const std::string& name, TriangleMesh mesh) {
+  const Point middle = center_on_mass(mesh);
+  numbers_.emplace(name, scene_.meshes.size());
+  origins_.push_back({-middle[0], -middle[1], -middle[2]});
+  scene_.meshes.push_back({name, std::move(mesh)});
+}
+
+void BodyReader::read_mesh(const std::string& name, TomlTable& table) {
+  if (const std::string file = table.text("file", ""); !file.empty()) {
+    if (table.has("shape")) table.fail("shape", "a mesh has 'shape' or 'file', not both");
+    const std::filesystem::path path = std::filesystem::path(folder_) / file;
+    const auto radius = table.optional_number("radius", kPositive);
+    const double scale = table.number("scale", 1, kPositive);
+    TriangleMesh mesh;
+    try {
+      mesh = read_mesh_file(path.string());
+    } catch (const std::runtime_error& e) {
+      table.fail("file", e.what());
+    }
+    center_on_mass(mesh);
+    scale_mesh(mesh, radius ? *radius / bounding_radius(mesh) : scale);
+    add_mesh(name, std::move(mesh));
+  } else {
+    const std::string shape = table.text("shape");
+    const ShapeMaker* maker = find_shape_maker(shape);
+    if (maker == nullptr) {
+      table.fail("shape", "'" + shape + "' is no shape; there are " + list(shape_names()));
+    }
+    add_mesh(name, make_shape(*maker, table));
+  }
+  table.finish();
+}
+
+std::size_t BodyReader::mesh_named(const std::string& name, const char* key,
+                                   const TomlTable& table) {
+  if (const auto found = numbers_.find(name); found != numbers_.end()) return found->second;
+  const ShapeMaker* maker = find_shape_maker(name);
+  if (maker == nullptr) {
+    std::vector<std::string> own;
+    for (const auto& [known, number] : numbers_) own.push_back(known);
+    table.fail(key,
+               "there is no mesh '" + name + "'; " +
+                   (own.empty() ? std::string("the file has none") : "the file has " + list(own)) +
+                   ", and every shape is one: " + list(shape_names()));
+  }
+  add_mesh(name, make_shape(*maker));
+  return scene_.meshes.size() - 1;
+}
+
+void BodyReader::read_body(TomlTable& table) {
+  BodyDescription body;
+  const std::string mesh = table.text("mesh");
+  body.mesh = mesh_named(mesh, "mesh", table);
+  const std::string name = table.text("name", mesh);
+  const Point at = table.point("at", {0, 0, 0});
+  if (const auto v = table.optional_numbers("turn", 4)) {
+    const Point axis{(*v)[0], (*v)[1], (*v)[2]};
+    if (axis == Point{0, 0, 0}) {
+      table.fail("turn", "'turn' is an axis, which must have a length, and an angle in degrees");
+    }
+    body.rotation = rotation_about(axis, (*v)[3] * std::numbers::pi / 180);
+  }
+  body.velocity = table.point("velocity", {0, 0, 0});
+  body.spin = table.point("spin", {0, 0, 0});
+  body.density = table.number("density", body.density, kPositive);
+  body.mu = table.optional_number("mu", kNotNegative);
+  const std::string motion = table.choice("motion", "free", {"free", "fixed", "driven"});
+  body.motion = motion == "free"    ? Motion::kFree
+                : motion == "fixed" ? Motion::kFixed
+                                    : Motion::kDriven;
+  const double jitter = table.number("jitter", 0, kNotNegative);
+  const bool tumble = table.flag("tumble", false);
+  Random random(static_cast<std::uint64_t>(table.whole("seed", 1, 0, 1000000000)));
+  const std::vector<Site> sites = read_sites(table);
+  table.finish();
+  const Quaternion turn = body.rotation;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    body.name = sites.size() == 1 ? name : name + ' ' + std::to_string(i + 1);
+    const Quaternion twisted = product(rotation_about({0, 0, 1}, sites[i].twist), turn);
+    body.rotation = tumble ? random_rotation(random) : twisted;
+    const Point origin = rotate(body.rotation, origins_[body.mesh]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double aside = jitter > 0 ? random.between(-jitter, jitter) : 0;
+      body.position[k] = at[k] + sites[i].position[k] + aside - origin[k];
+    }
+    scene_.bodies.push_back(body);
+  }
+}
+
+std::size_t BodyReader::body_named(const char* key, TomlTable& table) const {
+  const std::string name = table.text(key);
+  const auto& bodies = scene_.bodies;
+  const auto found = std::find_if(bodies.begin(), bodies.end(),
+                                  [&](const BodyDescription& body) { return body.name == name; });
+  if (found == bodies.end()) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min<std::size_t>(bodies.size(), 20); ++i)
+      names.push_back(bodies[i].name);
+    table.fail(key, "there is no body '" + name + "'; there are " + list(names) +
+                        (bodies.size() > 20 ? ", ..." : ""));
+  }
+  return static_cast<std::size_t>(found - bodies.begin());
+}
+
+std::vector<std::size_t> BodyReader::bodies_named(const char* key, TomlTable& table) const {
+  const std::string first = table.text(key) + " 1";
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+    const std::string& name = scene_.bodies[i].name;
+    if (name == first ||
+        (!numbers.empty() && name == table.text(key) + ' ' + std::to_string(numbers.size() + 1))) {
+      numbers.push_back(i);
+    }
+  }
+  if (numbers.empty()) numbers.push_back(body_named(key, table));
+  return numbers;
+}
+
+}  // namespace falling_objects

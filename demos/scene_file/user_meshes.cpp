@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_file/user_meshes.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "meshes/mesh_file.h"
+
+namespace falling_objects {
+namespace {
+
+std::size_t number_of(const SceneDescription& scene, const std::string& name) {
+  std::set<std::size_t> that_move;
+  std::string names;
+  for (const BodyDescription& body : scene.bodies) {
+    if (body.motion == Motion::kFree) that_move.insert(body.mesh);
+  }
+  if (name.empty() && that_move.size() == 1) return *that_move.begin();
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    if (scene.meshes[i].name == name) return i;
+    names += (names.empty() ? "" : ", ") + scene.meshes[i].name;
+  }
+  throw std::runtime_error("--mesh: write NAME=FILE with one of the meshes of the scene: " + names);
+}
+
+}  // namespace
+
+void use_meshes(SceneDescription& scene, const std::vector<std::string>& meshes) {
+  if (meshes.empty()) return;
+  if (scene.drop) {
+    scene.meshes.clear();
+    for (const std::string& path : meshes) scene.meshes.push_back({path, load_mesh(path)});
+    return;
+  }
+  for (const std::string& text : meshes) {
+    const auto equals = text.find('=');
+    const bool named = equals != std::string::npos;
+    NamedMesh& mesh = scene.meshes[number_of(scene, named ? text.substr(0, equals) : "")];
+    const double radius = bounding_radius(mesh.mesh);
+    mesh.mesh = load_mesh(named ? text.substr(equals + 1) : text);
+    scale_mesh(mesh.mesh, radius / kShapeRadius);
+  }
+}
+
+}  // namespace falling_objects
