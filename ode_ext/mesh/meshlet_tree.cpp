@@ -14,9 +14,9 @@ struct Part {
   std::uint32_t node;  // kNone: none
 };
 
-class Builder {
+class TreeBuilder {
  public:
-  explicit Builder(const std::vector<BvhNode>& top) : top_(top), parts_(top.size()) {
+  explicit TreeBuilder(const std::vector<BvhNode>& top) : top_(top), parts_(top.size()) {
     std::uint32_t meshlets = 0;
     for (const BvhNode& node : top)
       if (node.leaf != 0) {
@@ -124,7 +124,7 @@ class Builder {
 }  // namespace
 
 std::vector<MeshletNode> build_meshlet_tree(const std::vector<BvhNode>& top) {
-  return Builder(top).build();
+  return TreeBuilder(top).build();
 }
 
 }  // namespace ode_ext
