@@ -8,18 +8,28 @@ find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 
+# Worlds, meshes and poses, all that the tests of threads and the soak need: apart, so that
+# ThreadSanitizer is not waited for longer.
+add_library(ode_ext_test_world STATIC EXCLUDE_FROM_ALL tests/support/contacts.cpp
+            tests/support/mesh_makers.cpp tests/support/ode_world.cpp tests/support/poses.cpp)
+ode_ext_compile_options(ode_ext_test_world)
+
 # The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
 list(FILTER support_sources EXCLUDE REGEX "_test\\.cpp$")
 list(FILTER support_sources EXCLUDE REGEX "/(fcl|ccd|cgal)_[a-z_]*\\.cpp$")  # in Tests.cmake
+get_target_property(world_sources ode_ext_test_world SOURCES)
+list(TRANSFORM world_sources PREPEND ${PROJECT_SOURCE_DIR}/)
+list(REMOVE_ITEM support_sources ${world_sources} ${PROJECT_SOURCE_DIR}/tests/support/leak_check.cpp)
 add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
 set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
 ode_ext_compile_options(ode_ext_test_support)
 # Headers only: the objects of ode_ext_core come from whoever links this.
-target_include_directories(ode_ext_test_support PUBLIC
+target_include_directories(ode_ext_test_world PUBLIC
   tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
-target_compile_options(ode_ext_test_support PUBLIC ${public_options})
-target_link_libraries(ode_ext_test_support PUBLIC ODE::ODE Threads::Threads)
+target_compile_options(ode_ext_test_world PUBLIC ${public_options})
+target_link_libraries(ode_ext_test_world PUBLIC ODE::ODE Threads::Threads)
+target_link_libraries(ode_ext_test_support PUBLIC ode_ext_test_world)
 
 # All of falling_objects but main, once for the program and once for its tests.
 file(GLOB falling_objects_sources CONFIGURE_DEPENDS
