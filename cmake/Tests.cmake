@@ -236,6 +236,10 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer
            COMMAND ${PROJECT_SOURCE_DIR}/tests/install/run.sh ${PROJECT_BINARY_DIR})
+  if(BUILD_SHARED_LIBS)
+    add_test(NAME programs_built_before_fit
+             COMMAND ${PROJECT_SOURCE_DIR}/tests/install/abi.py ${PROJECT_BINARY_DIR})
+  endif()
   file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
   add_test(NAME code_in_documentation
            COMMAND ${PROJECT_SOURCE_DIR}/tests/docs/code_blocks.py ${PROJECT_BINARY_DIR}
