@@ -8,18 +8,28 @@ find_package(fcl REQUIRED)
 find_package(ccd REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
+# Worlds, meshes and poses, all that the tests of threads and the soak need: apart, so that
+# ThreadSanitizer is not waited for longer.
+add_library(ode_ext_test_world STATIC EXCLUDE_FROM_ALL tests/support/contacts.cpp
+            tests/support/mesh_makers.cpp tests/support/ode_world.cpp tests/support/poses.cpp)
+ode_ext_compile_options(ode_ext_test_world)
+# Headers only: the objects of ode_ext_core come from whoever links this.
+target_include_directories(ode_ext_test_world PUBLIC
+  tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_options(ode_ext_test_world PUBLIC ${public_options})
+target_link_libraries(ode_ext_test_world PUBLIC demo_geometry ODE::ODE Threads::Threads)
+
 # The slow, obvious oracle and the measurements. Needs nothing that the library does not need.
 file(GLOB support_sources CONFIGURE_DEPENDS tests/support/*.cpp tests/reference/*.cpp)
 list(FILTER support_sources EXCLUDE REGEX "_test\\.cpp$")
 list(FILTER support_sources EXCLUDE REGEX "/(fcl|ccd|cgal)_[a-z_]*\\.cpp$")  # below
+get_target_property(world_sources ode_ext_test_world SOURCES)
+list(TRANSFORM world_sources PREPEND ${PROJECT_SOURCE_DIR}/)
+list(REMOVE_ITEM support_sources ${world_sources} ${PROJECT_SOURCE_DIR}/tests/support/leak_check.cpp)
 add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
 set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
 ode_ext_compile_options(ode_ext_test_support)
-# Headers only: the objects of ode_ext_core come from whoever links this.
-target_include_directories(ode_ext_test_support PUBLIC
-  tests $<TARGET_PROPERTY:ode_ext_core,INTERFACE_INCLUDE_DIRECTORIES>)
-target_compile_options(ode_ext_test_support PUBLIC ${public_options})
-target_link_libraries(ode_ext_test_support PUBLIC demo_geometry ODE::ODE Threads::Threads)
+target_link_libraries(ode_ext_test_support PUBLIC ode_ext_test_world)
 
 # All of contact_accuracy but main, once for the program and once for its tests.
 file(GLOB accuracy_sources CONFIGURE_DEPENDS tests/bench/accuracy/*.cpp)
@@ -37,30 +47,53 @@ ode_ext_compile_options(ode_ext_cgal_oracle)
 target_include_directories(ode_ext_cgal_oracle PRIVATE tests)
 target_link_libraries(ode_ext_cgal_oracle PRIVATE CGAL::CGAL)
 
+# Oracles by libraries of others, and by brute force, which takes long enough to be optimized.
+file(GLOB oracle_sources CONFIGURE_DEPENDS tests/support/fcl_*.cpp tests/support/ccd_*.cpp
+     tests/search/*_comparison.cpp tests/search/*_oracle.cpp)
+add_library(ode_ext_oracles STATIC EXCLUDE_FROM_ALL ${oracle_sources})
+ode_ext_compile_options(ode_ext_oracles)
+target_link_libraries(ode_ext_oracles PUBLIC ode_ext_test_support fcl ccd Eigen3::Eigen)
+
 include(Fuzz)
 
-file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test.cpp
-     tests/support/fcl_*.cpp tests/support/ccd_*.cpp tests/support/leak_check.cpp
+# Of programs that measure, what the tests try.
+file(GLOB measuring_sources CONFIGURE_DEPENDS
      tests/bench/audit/scene_audit.cpp tests/bench/audit/kind*.cpp tests/bench/audit/pair_*.cpp
      tests/bench/stability/bench.cpp tests/bench/stability/ground.cpp
      tests/bench/stability/report.cpp tests/bench/stability/shape.cpp
-     tests/bench/stability/stack.cpp tests/search/*_comparison.cpp)
+     tests/bench/stability/stack.cpp)
+list(FILTER measuring_sources EXCLUDE REGEX "_test\\.cpp$")
+add_library(ode_ext_measuring_parts OBJECT EXCLUDE_FROM_ALL ${measuring_sources})
+ode_ext_compile_options(ode_ext_measuring_parts)
+target_link_libraries(ode_ext_measuring_parts PUBLIC
+  ode_ext_test_support demo_parts nlohmann_json::nlohmann_json CLI11::CLI11 fcl Eigen3::Eigen)
+
+# ode_ext_gtest(<program>)
+function(ode_ext_gtest program)
+  ode_ext_compile_options(${program})
+  target_compile_definitions(${program} PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Half of what compiling a test takes is this header, and half of the rest optimizing what runs
+  # once; what a test needs much time for is in the libraries above.
+  target_precompile_headers(${program} PRIVATE <gtest/gtest.h>)
+  target_compile_options(${program} PRIVATE -O0)
+  target_sources(${program} PRIVATE tests/support/leak_check.cpp)
+  target_link_libraries(${program} PRIVATE
+    ode_ext_core ode_ext_oracles ode_ext_test_support GTest::gtest_main GTest::gmock rapidcheck
+    ${CMAKE_DL_LIBS})
+endfunction()
+
+file(GLOB test_sources CONFIGURE_DEPENDS tests/*/*_test.cpp tests/bench/*/*_test.cpp)
 list(FILTER test_sources EXCLUDE REGEX "/tests/view/")
 if(test_sources)
   add_executable(ode_ext_tests ${test_sources})
-  ode_ext_compile_options(ode_ext_tests)
-  target_compile_definitions(ode_ext_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  ode_ext_gtest(ode_ext_tests)
   target_link_libraries(ode_ext_tests PRIVATE
-    ode_ext_core ode_ext_test_support falling_objects_parts demo_parts
-    paper_parts contact_accuracy_parts ode_ext_cgal_oracle
-    ode_ext_fuzz_parts nlohmann_json::nlohmann_json GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
-    ${CMAKE_DL_LIBS})
-  # Half of what compiling a test takes is this header.
-  target_precompile_headers(ode_ext_tests PRIVATE <gtest/gtest.h>)
+    falling_objects_parts demo_parts paper_parts ode_ext_measuring_parts
+    contact_accuracy_parts ode_ext_cgal_oracle ode_ext_fuzz_parts)
   # A fixed seed: a run that fails must fail again. For other seeds run bin/ode_ext_tests itself.
   gtest_discover_tests(ode_ext_tests
     NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1")
+    PROPERTIES TIMEOUT 300 LABELS gtest ENVIRONMENT "RC_PARAMS=seed=1")
 endif()
 
 # The tests of the product's rooms: what sanitizers are run over. They see the host's code, and of
@@ -68,15 +101,10 @@ endif()
 file(GLOB product_test_sources CONFIGURE_DEPENDS
      tests/api/*_test.cpp tests/collide/*_test.cpp tests/contacts/*_test.cpp tests/mesh/*_test.cpp
      tests/opencl/*_test.cpp tests/paper/*_test.cpp tests/search/*_test.cpp
-     tests/search/*_comparison.cpp tests/threads/*_test.cpp tests/support/fcl_*.cpp
-     tests/support/ccd_*.cpp tests/support/leak_check.cpp tests/bench/accuracy/contact_match.cpp)
-add_executable(product_tests EXCLUDE_FROM_ALL ${product_test_sources})
-ode_ext_compile_options(product_tests)
-target_compile_definitions(product_tests PRIVATE ODE_EXT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-target_link_libraries(product_tests PRIVATE
-  ode_ext_core ode_ext_test_support GTest::gtest_main GTest::gmock rapidcheck fcl ccd Eigen3::Eigen
-  ${CMAKE_DL_LIBS})
-target_precompile_headers(product_tests PRIVATE <gtest/gtest.h>)
+     tests/threads/*_test.cpp)
+add_executable(product_tests EXCLUDE_FROM_ALL ${product_test_sources}
+  tests/bench/accuracy/contact_match.cpp)
+ode_ext_gtest(product_tests)
 
 # The readers of the demos' files, which are given what anybody wrote: for sanitizers too, without
 # all that demos do with a scene.
@@ -95,65 +123,64 @@ target_link_libraries(reader_tests PRIVATE
 file(GLOB thread_test_sources CONFIGURE_DEPENDS tests/threads/*_test.cpp)
 add_executable(thread_tests EXCLUDE_FROM_ALL tests/api/threads_test.cpp ${thread_test_sources})
 ode_ext_compile_options(thread_tests)
-target_link_libraries(thread_tests PRIVATE ode_ext_core ode_ext_test_support GTest::gtest_main)
+target_link_libraries(thread_tests PRIVATE ode_ext_core ode_ext_test_world GTest::gtest_main)
 
 # Passes by the thousand in a scene that never stays the same, with a table of memory and speed.
 file(GLOB soak_sources CONFIGURE_DEPENDS tests/soak/*.cpp)
 list(FILTER soak_sources EXCLUDE REGEX "_test\\.cpp$")
 add_executable(soak ${soak_sources})
 ode_ext_compile_options(soak)
-target_link_libraries(soak PRIVATE ode_ext_core ode_ext_test_support CLI11::CLI11)
+target_link_libraries(soak PRIVATE ode_ext_core ode_ext_test_world CLI11::CLI11)
 add_test(NAME short_soak COMMAND soak --passes 300)
 set_tests_properties(short_soak PROPERTIES TIMEOUT 120)
 
 # The contacts of a whole run against FCL; too long for the tests, which audit a small scene.
 add_executable(rigid_audit EXCLUDE_FROM_ALL
   tests/bench/audit/rigid_audit.cpp tests/bench/audit/scene_audit.cpp tests/bench/audit/pair_audit.cpp
-  tests/bench/audit/pair_poses.cpp tests/support/fcl_oracle.cpp)
+  tests/bench/audit/pair_poses.cpp)
 ode_ext_compile_options(rigid_audit)
-target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_test_support demo_parts
-                      CLI11::CLI11 fcl Eigen3::Eigen)
+target_link_libraries(rigid_audit PRIVATE ode_ext_core ode_ext_oracles demo_parts
+                      CLI11::CLI11)
 
 # What the search finds, crossings and vertices inside, beside brute force. Minutes.
 add_executable(search_audit EXCLUDE_FROM_ALL
-  tests/bench/audit/search_audit.cpp tests/bench/audit/kinds.cpp tests/bench/audit/pair_poses.cpp
-  tests/search/crossing_comparison.cpp)
+  tests/bench/audit/search_audit.cpp tests/bench/audit/kinds.cpp tests/bench/audit/pair_poses.cpp)
 ode_ext_compile_options(search_audit)
-target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_test_support demo_parts
+target_link_libraries(search_audit PRIVATE ode_ext_core ode_ext_oracles demo_parts
                       CLI11::CLI11)
 
 # Do bodies rest, slide and stand on the contacts? Minutes; the tests try its parts.
 file(GLOB stability_sources CONFIGURE_DEPENDS tests/bench/stability/*.cpp)
 list(FILTER stability_sources EXCLUDE REGEX "_test\\.cpp$")
+list(REMOVE_ITEM stability_sources ${measuring_sources})
 add_executable(contact_stability ${stability_sources})
 ode_ext_compile_options(contact_stability)
 target_link_libraries(contact_stability PRIVATE
-  ode_ext_core ode_ext_test_support demo_parts CLI11::CLI11
-  nlohmann_json::nlohmann_json)
+  ode_ext_core ode_ext_measuring_parts ode_ext_oracles demo_parts)
 
 # How true are the contacts, against oracles and beside ODE's own collider? Half a minute; the tests judge its trials.
-add_executable(contact_accuracy tests/bench/accuracy/main.cpp tests/support/ccd_oracle.cpp)
+add_executable(contact_accuracy tests/bench/accuracy/main.cpp)
 ode_ext_compile_options(contact_accuracy)
 target_link_libraries(contact_accuracy PRIVATE
-  ode_ext::ode_ext contact_accuracy_parts ode_ext_test_support CLI11::CLI11 ccd)
+  ode_ext::ode_ext contact_accuracy_parts ode_ext_oracles CLI11::CLI11)
 
 # Every kind of mesh against every other in random poses, and the same scene.
-file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/bench/audit/*.cpp tests/support/fcl_*.cpp)
+file(GLOB missed_pairs_sources CONFIGURE_DEPENDS tests/bench/audit/*.cpp)
 list(FILTER missed_pairs_sources EXCLUDE REGEX "(_test|rigid_audit|search_audit)\\.cpp$")
 add_executable(missed_pairs EXCLUDE_FROM_ALL ${missed_pairs_sources})
 ode_ext_compile_options(missed_pairs)
-target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_test_support demo_parts
-                      CLI11::CLI11 nlohmann_json::nlohmann_json fcl Eigen3::Eigen)
+target_link_libraries(missed_pairs PRIVATE ode_ext_core ode_ext_oracles demo_parts
+                      CLI11::CLI11 nlohmann_json::nlohmann_json)
 
 # What a mesh, a pair and a pass cost, beside ODE's own collider, FCL and Bullet's GImpact. Minutes.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(Bullet REQUIRED IMPORTED_TARGET bullet)
 add_library(ode_ext_bench OBJECT EXCLUDE_FROM_ALL
   tests/bench/pair_cases.cpp tests/bench/captured_cases.cpp
-  ode_ext/tools/replay/capture_file.cpp tests/bench/rivals.cpp tests/support/fcl_oracle.cpp)
+  ode_ext/tools/replay/capture_file.cpp tests/bench/rivals.cpp)
 ode_ext_compile_options(ode_ext_bench)
 target_link_libraries(ode_ext_bench PUBLIC
-  ode_ext_test_support fcl Eigen3::Eigen PkgConfig::Bullet)
+  ode_ext_oracles PkgConfig::Bullet)
 foreach(bench mesh_times pair_times pile_times)
   add_executable(${bench} tests/bench/${bench}.cpp)
   ode_ext_compile_options(${bench})
@@ -208,10 +235,12 @@ elseif(TARGET view)
   file(GLOB view_test_sources CONFIGURE_DEPENDS tests/view/*.cpp)
   add_executable(view_tests ${view_test_sources})
   ode_ext_compile_options(view_tests)
+  target_precompile_headers(view_tests PRIVATE <gtest/gtest.h>)
+  target_compile_options(view_tests PRIVATE -O0)
   target_link_libraries(view_tests PRIVATE falling_objects_show falling_objects_parts
     demo_parts ode_ext_test_support ode_ext::ode_ext GTest::gtest_main GTest::gmock)
   gtest_discover_tests(view_tests NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 120)
+                       PROPERTIES TIMEOUT 120 LABELS gtest)
   if(TARGET falling_objects)
     foreach(shown pictures window)
       add_test(NAME ${shown}_of_falling_objects
@@ -240,6 +269,10 @@ endif()
 if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME install_consumer
            COMMAND ${PROJECT_SOURCE_DIR}/tests/install/run.sh ${PROJECT_BINARY_DIR})
+  if(BUILD_SHARED_LIBS)
+    add_test(NAME programs_built_before_fit
+             COMMAND ${PROJECT_SOURCE_DIR}/tests/install/abi.py ${PROJECT_BINARY_DIR})
+  endif()
   file(GLOB documents CONFIGURE_DEPENDS docs/*.md)
   add_test(NAME code_in_documentation
            COMMAND ${PROJECT_SOURCE_DIR}/tests/docs/code_blocks.py ${PROJECT_BINARY_DIR}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/picture_options.h"
 
+#include <CLI/CLI.hpp>
 #include <sstream>
 #include <vector>
 

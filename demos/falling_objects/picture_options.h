@@ -2,10 +2,13 @@
 // What of a run is drawn, and where to.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <set>
 #include <string>
+
+namespace CLI {
+class App;  // its header takes seconds to compile
+}
 
 namespace falling_objects {
 

@@ -95,7 +95,26 @@ JointDescription read_joint(TomlTable& table, const SceneDescription& scene,
   return joint;
 }
 
-Expectation read_expectation(TomlTable& table, const BodyReader& bodies) {
+// What cannot move stays where it is and above all, which would show nothing. Named bodies may be
+// driven; where all that can move are meant, those are the free ones.
+void check_can_move(const Expectation& e, const SceneDescription& scene, const TomlTable& table) {
+  const auto can_move = [&](std::size_t body) {
+    return scene.bodies[body].motion != Motion::kFixed;
+  };
+  if (!e.bodies.empty()) {
+    if (!std::any_of(e.bodies.begin(), e.bodies.end(), can_move)) {
+      table.fail("body", "'" + scene.bodies[e.bodies[0]].name +
+                             "' is fixed: nothing can be expected of what cannot move");
+    }
+  } else if (!scene.bodies.empty() &&
+             std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                          [](const BodyDescription& b) { return b.motion == Motion::kFree; })) {
+    table.fail("kind", "no body of the scene is free: nothing can be expected of what cannot move");
+  }
+}
+
+Expectation read_expectation(TomlTable& table, const SceneDescription& scene,
+                             const BodyReader& bodies) {
   Expectation e;
   using Kind = Expectation::Kind;
   const std::string kind = table.choice(
@@ -131,6 +150,7 @@ Expectation read_expectation(TomlTable& table, const BodyReader& bodies) {
   e.after = table.number("after", 0, kNotNegative);
   if (kind == "stays") e.until = table.number("until", e.until, kNotNegative);
   if (e.until <= e.after) table.fail("until", "'until' must be later than 'after'");
+  check_can_move(e, scene, table);
   table.finish();
   return e;
 }
@@ -199,7 +219,7 @@ SceneDescription read_scene(const std::string& text, const std::string& path) {
     scene.joints.push_back(read_joint(table, scene, bodies));
   }
   for (TomlTable& table : file.tables("expect")) {
-    scene.expectations.push_back(read_expectation(table, bodies));
+    scene.expectations.push_back(read_expectation(table, scene, bodies));
   }
   file.finish();
   if (scene.bodies.empty() && !scene.drop) file.fail("a scene needs [[body]] or [drop]");

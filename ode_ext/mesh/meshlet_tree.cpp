@@ -14,9 +14,9 @@ struct Part {
   std::uint32_t node;  // kNone: none
 };
 
-class Builder {
+class TreeBuilder {
  public:
-  explicit Builder(const std::vector<BvhNode>& top)
+  explicit TreeBuilder(const std::vector<BvhNode>& top)
       : top_(top), collapse_(top), parts_(top.size()) {
     std::uint32_t meshlets = 0;
     for (const BvhNode& node : top)
@@ -114,7 +114,7 @@ class Builder {
 }  // namespace
 
 std::vector<MeshletNode> build_meshlet_tree(const std::vector<BvhNode>& top) {
-  return Builder(top).build();
+  return TreeBuilder(top).build();
 }
 
 }  // namespace ode_ext

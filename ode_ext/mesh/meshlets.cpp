@@ -30,9 +30,10 @@ EdgesByPlace edges_by_place(const Bvh& bvh, const std::vector<Edge>& edges) {
   return result;
 }
 
-class Builder {
+class MeshletBuilder {
  public:
-  Builder(const Bvh& bvh, const std::vector<Triangle>& triangles, const std::vector<Edge>& edges)
+  MeshletBuilder(const Bvh& bvh, const std::vector<Triangle>& triangles,
+                 const std::vector<Edge>& edges)
       : bvh_(bvh), triangles_(triangles), edges_(edges), by_place_(edges_by_place(bvh, edges)) {
     find_ends();
   }
@@ -121,7 +122,7 @@ class Builder {
 
 Meshlets build_meshlets(const Bvh& bvh, const std::vector<Triangle>& triangles,
                         const std::vector<Edge>& edges) {
-  return Builder(bvh, triangles, edges).build();
+  return MeshletBuilder(bvh, triangles, edges).build();
 }
 
 }  // namespace ode_ext

@@ -158,7 +158,7 @@ class CaptureFile {
   std::uint32_t next_pass_ = 0;
 };
 
-std::mutex mutex;
+std::mutex capture_mutex;
 std::unique_ptr<CaptureFile> file;
 bool is_opened = false;  // and is not again, whatever became of it: that would erase what it has
 std::atomic<bool> capturing{false};
@@ -168,7 +168,7 @@ std::atomic<bool> capturing{false};
 template <class Write>
 void write_record(Write write) {
   if (!capturing.load(std::memory_order_relaxed)) return;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(capture_mutex);
   if (file == nullptr) return;
   std::string reason;
   try {
@@ -189,7 +189,7 @@ void write_record(Write write) {
 void open_capture_of_environment() {
   const char* path = std::getenv("ODE_EXT_CAPTURE");
   if (path == nullptr || *path == '\0') return;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(capture_mutex);
   if (is_opened) return;
   std::FILE* opened = std::fopen(path, "wb");
   if (opened == nullptr)

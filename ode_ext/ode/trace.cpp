@@ -14,13 +14,13 @@ namespace ode_ext {
 namespace {
 
 struct CloseTrace {
-  void operator()(std::FILE* file) const {
-    std::fputs("\n]\n", file);
-    std::fclose(file);
+  void operator()(std::FILE* stream) const {
+    std::fputs("\n]\n", stream);
+    std::fclose(stream);
   }
 };
 
-std::mutex mutex;
+std::mutex trace_mutex;
 std::unique_ptr<std::FILE, CloseTrace> trace;
 bool is_first = true;
 
@@ -37,7 +37,7 @@ void write_event(const char* name, int track, double start_us, double duration_u
 void open_trace_of_environment() {
   const char* path = std::getenv("ODE_EXT_TRACE");
   if (path == nullptr || *path == '\0') return;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(trace_mutex);
   if (trace != nullptr) return;
   trace.reset(std::fopen(path, "w"));
   if (trace == nullptr)
@@ -47,7 +47,7 @@ void open_trace_of_environment() {
 }
 
 void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& stats) {
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(trace_mutex);
   if (trace == nullptr) return;
   const double begin = std::chrono::duration<double, std::micro>(start.time_since_epoch()).count();
   std::string counts;

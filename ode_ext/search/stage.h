@@ -8,7 +8,7 @@
 
 namespace ode_ext {
 
-// What is timed on the device. The order is public (dBatchStageDeformStep and on).
+// What is timed on the device; what each is called in public is in ode/pass_stats.cpp.
 enum class Stage : std::size_t {
   kDeformStep,
   kPairStep,

@@ -48,7 +48,7 @@ class ApiDeviceFailure : public testing::Test {
   dSpaceID space_ = world_.space(SpaceKind::Simple);
   Pile pile_{world_, space_, 12, 5};
   Collected stock_ = stock();  // before any collider exists
-  const Disarm disarm_;
+  const Disarm disarm_{};
 };
 
 TEST_F(ApiDeviceFailure, AtAnyCallOfAPassIsAnsweredByOdesOwnColliderAndThenForgotten) {

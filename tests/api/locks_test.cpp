@@ -149,7 +149,7 @@ TEST_F(ApiLocks, AreNotHeldWhileAProgramsGeomClassIsAskedForABox) {
 
 TEST_F(ApiLocks, AreNotHeldWhileAProgramsMessageHandlerRuns) {
   dSetMessageHandler(&message_that_calls);
-  run_both("message handlers", [this](Task& task) {
+  run_both("message handlers", [](Task& task) {
     TestMesh broken = make_cube(1);
     broken.vertices[0] = NAN;
     OdeMesh mesh(broken);

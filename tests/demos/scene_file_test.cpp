@@ -202,6 +202,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"stays\"\ndistance = 1\n"
               "after = 2\nuntil = 1\n",
               "7: ", "'until' must be later than 'after'"},
+        Wrong{"[[body]]\nmesh = \"cube\"\nmotion = \"fixed\"\n[[expect]]\nkind = \"above\"\n"
+              "height = 0\n",
+              "5: ", "no body of the scene is free: nothing can be expected of what cannot move"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[body]]\nname = \"wall\"\nmesh = \"cube\"\n"
+              "motion = \"fixed\"\n[[expect]]\nkind = \"stays\"\nbody = \"wall\"\ndistance = 1\n",
+              "9: ", "'wall' is fixed: nothing can be expected of what cannot move"},
         Wrong{"[drop]\nobjects = 3\nmeshes = []\n", "3: ", "'meshes' must be texts in brackets"},
         Wrong{"[drop]\nmeshes = [\"plate\"]\n", "1: ", "must fit into a ball of radius 0.5"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[drop]\nmeshes = [\"jack\"]\n", "3: ", "not both"}));

@@ -30,7 +30,7 @@ is_there() { "$python" -c "import panda3d.ode, dartpy" > /dev/null 2>&1; }
 if ! is_there; then
   # With the packages of the system: dartpy is one.
   /usr/bin/python3 -m venv --clear --system-site-packages "$folder" >&2 &&
-    "$python" -m pip install --quiet --disable-pip-version-check "panda3d==$version" >&2 &&
+    "$python" -m pip install --quiet --disable-pip-version-check --retries 1 "panda3d==$version" >&2 &&
     is_there || {
     echo "install_panda: panda3d $version is not in build/panda, and pip does not install it; please" \
       "run tests/preload/install_panda.sh where a Python package index can be reached" >&2

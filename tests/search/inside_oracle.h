@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -43,16 +42,7 @@ class InsideOracle {
   }
   // By the sum of the triangles' solid angles (van Oosterom and Strackee 1983): right too of a
   // surface that cuts itself.
-  bool is_inside(const Point& p) const {
-    double halves = 0;
-    for (const auto& corner : corners_) {
-      const Point a = corner[0] - p, b = corner[1] - p, c = corner[2] - p;
-      const double la = length(a), lb = length(b), lc = length(c);
-      halves += std::atan2(dot(a, cross(b, c)),
-                           la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-    }
-    return halves > std::numbers::pi;
-  }
+  bool is_inside(const Point& p) const;
 
  private:
   static oracle::Vector vector(const Point& p) { return {p[0], p[1], p[2]}; }

@@ -123,8 +123,9 @@ TEST(VertexStep, CastsARayAtAnOpenMeshWhereItMeetsItAndNoneThatDoesNotReachTheBo
                                   scene.add_mesh(make_torus(0.5, 0.1, 16, 8))};
   Random random(14);
   for (int i = 0; i < 60; ++i) {
-    const TestPose a = random.pose(0.4);
-    scene.add_pair(closed[i % 2], a, open[random.below(2)], random.pose(0.4));
+    // Drawn one after the other: compilers differ in the order of arguments.
+    const TestPose a = random.pose(0.4), b = random.pose(0.4);
+    scene.add_pair(closed[i % 2], a, open[random.below(2)], b);
   }
   const StepRecords records = Rig::shared().run(scene.scene);
   const auto rays = rays_of(scene, records);

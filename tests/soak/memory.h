@@ -9,11 +9,13 @@
 #include <cstdio>
 #include <vector>
 
+#include "support/sanitizers.h"
+
 namespace ode_ext::soak {
 
 // A sanitizer keeps shadows of all memory ever touched, several times its size, and freed blocks in
 // quarantine: resident memory then says nothing about this program.
-#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+#if ODE_EXT_THREAD_SANITIZER || ODE_EXT_ADDRESS_SANITIZER
 constexpr bool kResidentMemoryIsOurs = false;
 #else
 constexpr bool kResidentMemoryIsOurs = true;

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#ifdef __SANITIZE_ADDRESS__
+#include "support/sanitizers.h"
+
+#if ODE_EXT_ADDRESS_SANITIZER
 #include <sanitizer/lsan_interface.h>
 
 namespace ode_ext::test {
