@@ -204,6 +204,8 @@ add_test(NAME format COMMAND ${scripts}/check-format)
 add_test(NAME checks_fail_on_violations COMMAND ${PROJECT_SOURCE_DIR}/tests/support/checks_test.sh)
 set_tests_properties(house_rules kernels_compile format checks_fail_on_violations PROPERTIES
                      TIMEOUT 120)
+# Those that take longest go first, so that no core waits for them.
+set_tests_properties(checks_fail_on_violations PROPERTIES COST 20)
 
 if(TARGET falling_objects)
   add_test(NAME same_contacts_in_every_run
@@ -248,7 +250,7 @@ elseif(TARGET view)
                        $<TARGET_FILE:falling_objects>)
     endforeach()
     set_tests_properties(pictures_of_falling_objects PROPERTIES TIMEOUT 180)
-    set_tests_properties(window_of_falling_objects PROPERTIES TIMEOUT 400)
+    set_tests_properties(window_of_falling_objects PROPERTIES TIMEOUT 400 COST 30)
   endif()
 endif()
 
