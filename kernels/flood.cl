@@ -99,10 +99,10 @@ static void ox_look_at_all(const ox_flood_state* s, __global ox_chunk_task* task
   for (uint k = 0u; k < s->source->chunk_count; ++k) {
     const uint chunk = s->source->chunk_first + k;
     if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene.chunks + chunk)) continue;
-    const uint slot = ox_append(&s->scene, OX_LIST_CHUNKS);
-    if (slot == OX_NONE) continue;
-    tasks[slot].pair_side = s->pair_side;
-    tasks[slot].chunk = chunk;
+    const uint index = ox_append(&s->scene, OX_LIST_CHUNKS);
+    if (index == OX_NONE) continue;
+    tasks[index].pair_side = s->pair_side;
+    tasks[index].chunk = chunk;
   }
 }
 

@@ -6,11 +6,11 @@
 
 #include "abi/types.h"
 
-// Where the temporal data of a pair are (paper/temporal_cache.h). OX_NONE as slot: nowhere.
+// Where the temporal data of a pair are (paper/temporal_cache.h). OX_NONE as pose: nowhere.
 typedef struct {
-  ox_u32 slot;          // its pose in the last step
+  ox_u32 pose;          // the number of its pose in the last pass
   ox_u32 directory[2];  // per side its first directory entry, one per chunk of the source
-  ox_u32 known;         // whether the last step left anything there
+  ox_u32 known;         // whether the last pass left anything there
 } ox_link;
 OX_STATIC_ASSERT(sizeof(ox_link) == 16, ox_link_is_16_bytes);
 
@@ -18,7 +18,7 @@ OX_STATIC_ASSERT(sizeof(ox_link) == 16, ox_link_is_16_bytes);
 typedef struct {
   ox_f32 rotation[9];
   ox_f32 offset[2][3];
-  ox_u32 step;  // that wrote it
+  ox_u32 pass;  // that wrote it
 } ox_relative_pose;
 OX_STATIC_ASSERT(sizeof(ox_relative_pose) == 64, ox_relative_pose_is_64_bytes);
 
@@ -29,15 +29,15 @@ typedef struct {
 } ox_temporal;
 OX_STATIC_ASSERT(sizeof(ox_temporal) == 8, ox_temporal_is_8_bytes);
 
-// The block of temporal data that a chunk had in a step: OX_CHUNK_VERTICES of them.
+// The block of temporal data that a chunk had in a pass: OX_CHUNK_VERTICES of them.
 typedef struct {
   ox_u32 block;
-  ox_u32 step;
+  ox_u32 pass;
 } ox_directory_entry;
 OX_STATIC_ASSERT(sizeof(ox_directory_entry) == 8, ox_directory_entry_is_8_bytes);
 
 // Of an ox_chunk_task. Its block of temporal data has the task's own index; `previous` is the one
-// that the chunk had in the last step, or OX_NONE. OX_NONE as chunk: nothing to do (the monolithic
+// that the chunk had in the last pass, or OX_NONE. OX_NONE as chunk: nothing to do (the monolithic
 // organization keeps a place for every chunk). `category` is one of these,
 #define OX_CATEGORY_SMALL OX_LIST_CHUNKS_SMALL
 #define OX_CATEGORY_HIGH OX_LIST_CHUNKS
@@ -46,7 +46,7 @@ OX_STATIC_ASSERT(sizeof(ox_directory_entry) == 8, ox_directory_entry_is_8_bytes)
 // and this, where the pair keeps temporal data.
 #define OX_CATEGORY_REMEMBERED 4u
 
-// Of an ox_ray: `memory` is where its temporal datum goes, `triangle` that of the last step;
+// Of an ox_ray: `memory` is where its temporal datum goes, `triangle` that of the last pass;
 // OX_NONE: nowhere, none.
 
 // What a work-item did, by algorithm, in units of about one box test.

@@ -67,7 +67,7 @@ typedef struct {
 } ox_list;
 OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 
-// What a step does (options.h). Whether rays are iterative at all is decided by whether pairs keep
+// What a batch does (options.h). Whether rays are iterative at all is decided by whether pairs keep
 // temporal data.
 #define OX_MODE_PAPER 1u  // paper: where there is temporal data only rays that have some, as found
 #define OX_MODE_BASIC 2u  // paper: deformable targets without their tree
@@ -85,7 +85,7 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_MESH_DEFORMABLE 2u  // its vertices move: what depends on them is made on the device
 #define OX_MESH_TWO_SIDED 4u   // deformable and open: a sheet, with no inside
 
-// A geom of this step. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
+// A geom of this batch. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin.
 typedef struct {
   ox_f32 rotation[9];
@@ -237,7 +237,7 @@ typedef struct {
   ox_f32 epsilon;  // [m] what rounding can do to a coordinate of this pair
   ox_u32 mesh[2];
   // Paper: [m] per side, how far a vertex of the source moved in the frame of the target at most
-  // since the last step; infinite: not known.
+  // since the last pass; infinite: not known.
   ox_f32 displacement[2];
   ox_u32 near;    // whether the oriented boxes of the meshes overlap; else the rest may be void
   ox_f32 margin;  // [m] farther apart nothing of it meets

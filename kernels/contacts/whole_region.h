@@ -228,7 +228,7 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
 
 // From a plane to the best of those next to it on the map of directions (Gauss): the edges of its
 // face, or its own, with the edges at what is farthest past it. False: none is better.
-static inline bool ox_step_on(const ox_region_view* r, ox_search* search, ox_plane_choice* best) {
+static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_plane_choice* best) {
   const ox_plane from = best->plane;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(&from, side)) continue;
@@ -275,7 +275,7 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   const float worth = OX_WORTH * least.judged;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) {
     if (best[i].plane.kind == OX_PLANE_NONE || !(best[i].judged <= worth)) continue;
-    while (ox_step_on(r, search, best + i)) {
+    while (ox_walk_on(r, search, best + i)) {
     }
     if (ox_is_better_choice(best + i, &least)) least = best[i];
   }

@@ -11,9 +11,9 @@
 // Where the next record of a list goes; OX_NONE: it is full, and the counter says by how much.
 static inline uint ox_append(const ox_scene* scene, uint list) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
-  const uint slot = atomic_inc(counter);
-  if (slot >= OX_MOST_COUNTED) atomic_dec(counter);
-  return slot < scene->lists[list].capacity ? scene->lists[list].first + slot : OX_NONE;
+  const uint index = atomic_inc(counter);
+  if (index >= OX_MOST_COUNTED) atomic_dec(counter);
+  return index < scene->lists[list].capacity ? scene->lists[list].first + index : OX_NONE;
 }
 
 // The same for so many at once: a counter that all threads add to is what appending one by one

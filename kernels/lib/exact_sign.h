@@ -4,8 +4,8 @@
 // Coordinates are whole numbers of the grid of the pair (lib/general_position.h), below 2^22.
 // Their differences are below 2^23, 2x2 minors of those below 2^47, a determinant below 2^71: two
 // words of 64 bits hold it. Where one is 0, mesh A is taken to be moved by an infinitely small
-// step, as Edelsbrunner and Muecke ("Simulation of Simplicity", 1990) move every point by its own:
-// what the two meshes are to one another only changes by a motion of one of them, and a common step
+// shift, as Edelsbrunner and Muecke ("Simulation of Simplicity", 1990) move every point by its own:
+// what two meshes are to one another only changes by a motion of one of them, and a common shift
 // keeps the signs of all their triangles those of one real configuration. So two triangles that
 // cross have two crossings, and the curve in which two surfaces meet is closed.
 #ifndef ODE_EXT_KERNELS_LIB_EXACT_SIGN_H
@@ -56,20 +56,20 @@ static inline int ox_whole_dot_sign(ox_whole a, ox_whole b) {
   return high != 0L || low == 0ul ? ox_sign_of(high) : 1;
 }
 
-// The step of A is along this: of primes, so that hardly any other vector is at right angles to it.
+// The shift of A is along this: of primes, so that hardly any vector is at right angles to it.
 // Below 2^11: times a minor, three of them, below 2^60.
-static inline int ox_step_sign(ox_whole v, uint side) {
+static inline int ox_shift_sign(ox_whole v, uint side) {
   const int sign = ox_sign_of(577L * v.x + 769L * v.y + 1283L * v.z);
   return side == 0u ? sign : -sign;
 }
 
 // Above (1) or below (-1) the plane of a triangle; the point is of mesh `side`, the triangle of the
-// other. What the step leaves at 0 counts as above: so does every point over a triangle of no area,
+// other. What the shift leaves at 0 counts as above: so does any point over a triangle of no area,
 // which nothing crosses.
 static int ox_exact_height_sign(uint side, ox_whole p, ox_whole a, ox_whole b, ox_whole c) {
   const ox_whole n = ox_whole_cross(ox_whole_difference(b, a), ox_whole_difference(c, a));
   int sign = ox_whole_dot_sign(n, ox_whole_difference(p, a));
-  if (sign == 0) sign = ox_step_sign(n, side);
+  if (sign == 0) sign = ox_shift_sign(n, side);
   return sign == 0 ? 1 : sign;
 }
 
@@ -80,8 +80,8 @@ static int ox_exact_pass_sign(uint side, ox_whole d, ox_whole p, ox_whole r, ox_
   const ox_whole to_s = ox_whole_difference(s, p);
   const int sign = ox_whole_dot_sign(ox_whole_cross(to_r, to_s), d);
   if (sign != 0) return sign;
-  // d . ((r - step) x (s - step)) less what it was: step . (d x (s - r))
-  return ox_step_sign(ox_whole_cross(d, ox_whole_difference(s, r)), side);
+  // d . ((r - shift) x (s - shift)) less what it was: shift . (d x (s - r))
+  return ox_shift_sign(ox_whole_cross(d, ox_whole_difference(s, r)), side);
 }
 
 #define OX_NO_CROSSING 0u

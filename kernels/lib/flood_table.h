@@ -73,7 +73,7 @@ static inline bool ox_grow_table(const ox_scene* scene, __global uint* words,
   }
   ox_flood_table larger = ox_empty_table(scene, words, 2u * table->places);
   if (larger.places == 0u) {
-    // More than is needed now: the less often a step is redone.
+    // More than is needed now: the less often a batch is redone.
     ox_take_words(scene, 16u * min(table->places, OX_MOST_COUNTED / 16u));
     return false;
   }

@@ -173,7 +173,7 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   return ray;
 }
 
-// Casts it in full. *remember becomes the triangle for the next step, over all meshes; `behind`
+// Casts it in full. *remember becomes the triangle for the next pass, over all meshes; `behind`
 // [m]: how far behind the vertex it may be.
 static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
                                          __global const ox_mesh* mesh, const ox_surfaces* surfaces,

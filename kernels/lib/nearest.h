@@ -188,7 +188,7 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
   return outcome;
 }
 
-// The triangle by which the next step will find its place again: where the line leaves the target
+// The triangle by which the next pass will find its place again: where the line leaves the target
 // if the vertex is inside, else the nearest surface on the line; OX_NONE: nothing near.
 static inline uint ox_to_remember(const ox_nearest* nearest) {
   if (nearest->back_t < nearest->front_t) return nearest->back;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every kernel of a step works on: the counters and lists, the pairs, the meshes. Kernels take
+// What each kernel of a batch works on: the counters and lists, the pairs, the meshes. Kernels take
 // it as OX_SCENE_PARAMETERS first, and hand their functions a pointer to the ox_scene that OX_SCENE
 // makes of it. Device only.
 #ifndef ODE_EXT_KERNELS_LIB_SCENE_H
@@ -34,7 +34,7 @@ typedef struct {
   ox_surfaces surfaces;
 } ox_scene;
 
-// In the order of StepData::launch (search/step_data.h). `pairs` are written by the pair step,
+// In the order of BatchData::launch (search/batch_data.h). `pairs` are written by the pair step,
 // and by paper/chunk_tasks.cl.
 #define OX_SCENE_PARAMETERS                                                                     \
   __global volatile uint *counters, __global const ox_list *lists, uint modes, uint pair_count, \

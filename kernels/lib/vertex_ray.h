@@ -19,23 +19,23 @@ static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint ver
       !ox_keep_vertex(scene->pairs + (pair_side >> 1), pair_side & 1u, scene->meshes,
                       scene->vertices + vertex))
     return;
-  const uint slot = ox_append(scene, OX_LIST_RAYS);
-  if (slot == OX_NONE) return;
-  rays[slot].pair_side = pair_side;
-  rays[slot].vertex = vertex;
-  rays[slot].memory = OX_RAY_ASKING;
-  rays[slot].triangle = OX_NONE;
+  const uint index = ox_append(scene, OX_LIST_RAYS);
+  if (index == OX_NONE) return;
+  rays[index].pair_side = pair_side;
+  rays[index].vertex = vertex;
+  rays[index].memory = OX_RAY_ASKING;
+  rays[index].triangle = OX_NONE;
 }
 
 // Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
 static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
                                     uint from, __global ox_ray* rays) {
-  const uint slot = ox_append(scene, OX_LIST_RAYS);
-  if (slot == OX_NONE) return;
-  rays[slot].pair_side = pair_side;
-  rays[slot].vertex = vertex;
-  rays[slot].memory = memory;
-  rays[slot].triangle = from;
+  const uint index = ox_append(scene, OX_LIST_RAYS);
+  if (index == OX_NONE) return;
+  rays[index].pair_side = pair_side;
+  rays[index].vertex = vertex;
+  rays[index].memory = memory;
+  rays[index].triangle = from;
 }
 
 // The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in
@@ -45,9 +45,9 @@ static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool 
   const uint kind = outcome->kind & OX_HIT_KIND;
   const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
   if (!leaves && !known) return;
-  const uint slot = ox_append(scene, OX_LIST_HITS);
-  if (slot == OX_NONE) return;
-  __global ox_hit* hit = hits + slot;
+  const uint index = ox_append(scene, OX_LIST_HITS);
+  if (index == OX_NONE) return;
+  __global ox_hit* hit = hits + index;
   hit->pair_side = ray->pair_side;
   hit->vertex = ray->vertex;
   hit->triangle = leaves ? outcome->triangle : OX_NONE;

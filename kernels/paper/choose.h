@@ -18,7 +18,7 @@ typedef struct {
   uint triangle;  // as in ox_ray
 } ox_choice;
 
-// How far a vertex moved in the frame of the target since the last step, at most [m]. For rigid
+// How far a vertex moved in the frame of the target since the last pass, at most [m]. For rigid
 // pairs chunk_tasks.cl has judged that already.
 static inline float ox_displacement(__global const ox_pair* pair, uint side,
                                     __global const ox_mesh* target,

@@ -6,7 +6,7 @@
 // out   tasks: runs of vertices whose box reaches the target's, in three lists: rigid pairs with
 //       small displacement, with high displacement, pairs with a deformable mesh
 //       pairs: displacement
-//       poses, directory: what the next step needs to find its temporal data
+//       poses, directory: what the next pass needs to find its temporal data
 // item  1 pair (grid-stride)
 // may overflow: OX_LIST_CHUNKS_SMALL, OX_LIST_CHUNKS, OX_LIST_CHUNKS_DEFORMABLE
 #include "abi/paper.h"
@@ -47,9 +47,9 @@ static void ox_displace(__global ox_pair* pair, __global const ox_relative_pose*
   pair->displacement[1] = sqrt(ox_dot(b_moved, b_moved)) + angle * b->radius;
 }
 
-static void ox_store_pose(__global const ox_pair* pair, uint step,
+static void ox_store_pose(__global const ox_pair* pair, uint pass,
                           __global ox_relative_pose* pose) {
-  pose->step = step;
+  pose->pass = pass;
   for (uint i = 0u; i < 9u; ++i) pose->rotation[i] = pair->rotation[0][i];
   for (uint i = 0u; i < 3u; ++i) {
     pose->offset[0][i] = pair->offset[0][i];
@@ -68,12 +68,12 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
 
 // dense_first: used if is_dense. Per pair the place of its first chunk among those of all pairs.
 // Then a task is written for every chunk, at its own place, and those with nothing to do say so.
-__kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, uint step,
+__kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, uint pass,
                           float displacement_limit, __global ox_relative_pose* poses,
                           __global ox_directory_entry* directory, uint is_dense,
                           __global const uint* dense_first, __global ox_chunk_task* tasks) {
   const ox_scene scene = OX_SCENE;
-  const uint parity = step & 1u;  // what is read and what is written: a step may be run again
+  const uint parity = pass & 1u;  // what is read and what is written: a pass may be run again
   const uint stride = (uint)get_global_size(0);
   for (uint p = (uint)get_global_id(0); p < pair_count; p += stride) {
     __global ox_pair* pair = pairs + p;
@@ -81,20 +81,20 @@ __kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, ui
     __global const ox_mesh* mesh_b = meshes + pair->mesh[1];
     const bool near = pair->near != 0u;
     __global const ox_link* link = links + p;
-    const bool remembered = link->slot != OX_NONE;
+    const bool remembered = link->pose != OX_NONE;
     bool known = false;
     uint category[2] = {OX_CATEGORY_HIGH, OX_CATEGORY_HIGH};
     if (near) {
-      __global ox_relative_pose* now = poses + 2u * link->slot + parity;
-      __global ox_relative_pose* before = poses + 2u * link->slot + (1u - parity);
-      known = remembered && link->known != 0u && before->step == step - 1u;
+      __global ox_relative_pose* now = poses + 2u * link->pose + parity;
+      __global ox_relative_pose* before = poses + 2u * link->pose + (1u - parity);
+      known = remembered && link->known != 0u && before->pass == pass - 1u;
       pair->displacement[0] = INFINITY;
       pair->displacement[1] = INFINITY;
       if (known) ox_displace(pair, before, mesh_a, mesh_b);
       category[0] = ox_category(pair, 0u, mesh_a, mesh_b, displacement_limit);
       category[1] = ox_category(pair, 1u, mesh_b, mesh_a, displacement_limit);
       const bool both_small = category[0] == OX_CATEGORY_SMALL && category[1] == OX_CATEGORY_SMALL;
-      // Temporal data that are complete after every step are as good as the last pose. Where
+      // Temporal data that are complete after every pass are as good as the last pose. Where
       // vertices without them are dropped, that is only so after the pair was last cast in full.
       const bool paper = (modes & OX_MODE_PAPER) != 0u;
       if (paper && !both_small && category[0] != OX_CATEGORY_DEFORMABLE)
@@ -102,9 +102,9 @@ __kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, ui
       if (remembered) {
         if (paper && both_small) {
           *now = *before;
-          now->step = step;
+          now->pass = pass;
         } else {
-          ox_store_pose(pair, step, now);
+          ox_store_pose(pair, pass, now);
         }
       }
     }
@@ -117,25 +117,25 @@ __kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, ui
       for (uint k = 0u; k < source->chunk_count; ++k) {
         const uint chunk = source->chunk_first + k;
         const bool keep = near && ox_keep_chunk(pair, side, target, chunks + chunk);
-        uint slot_of_task;
+        uint task_index;
         if (is_dense != 0u) {
-          slot_of_task = place++;
-          tasks[slot_of_task].chunk = OX_NONE;
+          task_index = place++;
+          tasks[task_index].chunk = OX_NONE;
         }
         if (!keep) continue;
-        if (is_dense == 0u) slot_of_task = ox_append(&scene, category[side]);
-        if (slot_of_task == OX_NONE) continue;
-        __global ox_chunk_task* task = tasks + slot_of_task;
+        if (is_dense == 0u) task_index = ox_append(&scene, category[side]);
+        if (task_index == OX_NONE) continue;
+        __global ox_chunk_task* task = tasks + task_index;
         task->pair_side = p << 1 | side;
         task->chunk = chunk;
         task->category = category[side] | (remembered ? OX_CATEGORY_REMEMBERED : 0u);
         task->previous = OX_NONE;
         if (!remembered) continue;
         __global ox_directory_entry* entry = directory + 2u * (link->directory[side] + k);
-        if (known && entry[1u - parity].step == step - 1u)
+        if (known && entry[1u - parity].pass == pass - 1u)
           task->previous = entry[1u - parity].block;
-        entry[parity].block = slot_of_task;
-        entry[parity].step = step;
+        entry[parity].block = task_index;
+        entry[parity].pass = pass;
       }
     }
   }

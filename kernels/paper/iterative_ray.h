@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The iterative ray algorithm (GRAPP section 3, from Lehericey 2013): from the triangle that the
-// line of this vertex met in the last step, walk across edges to the one that it meets now. Device
+// line of this vertex met in the last pass, walk across edges to the one that it meets now. Device
 // only.
 //
 // A triangle on the line need not be the first. The paper takes it for that; else a full ray looks
@@ -27,7 +27,7 @@ static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangl
   ox_crossing crossing;
   crossing.triangle = OX_NONE;
   uint k = start;
-  for (uint step = 0u; step <= limit; ++step) {
+  for (uint crossed = 0u; crossed <= limit; ++crossed) {
     *work += OX_WORK_TRIANGLE;
     __global const ox_triangle* triangle = triangles + first + k;
     const float3 corner_a = vload3(0, triangle->a);
@@ -80,7 +80,7 @@ static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const 
   const float3 direction = turned ? -ray->direction : ray->direction;
   const float t = turned ? -crossing.t : crossing.t;
   const bool back = two_sided || crossing.back != turned;
-  if (!back || t < 0.0f) {  // outside; a face that is far behind is no use to the next step
+  if (!back || t < 0.0f) {  // outside; a face that is far behind is no use to the next pass
     if (t < -behind) *triangle = OX_NONE;
     return true;
   }

@@ -5,7 +5,7 @@
 // in    rays of one algorithm (its list), pairs, meshes, vertices, triangles, meshlets,
 //       meshlet_nodes
 // out   hits: of vertices that are inside
-//       temporal: the triangle from which the next step may start
+//       temporal: the triangle from which the next pass may start
 //       rays: those that the iterative algorithm hands on to a full one
 // item  1 ray (grid-stride); no barrier
 // may overflow: OX_LIST_HITS; the iterative kernel also OX_LIST_RAYS, OX_LIST_RAYS_BASIC
@@ -30,8 +30,8 @@ static inline void ox_cast_list(const ox_scene* scene, uint list, __global ox_ra
       continue;
     }
     ox_count(scene, OX_COUNTER_UNPROVEN);
-    const uint slot = ox_append(scene, ox_full_list(scene, ray.pair_side));
-    if (slot != OX_NONE) rays[slot] = ray;
+    const uint index = ox_append(scene, ox_full_list(scene, ray.pair_side));
+    if (index != OX_NONE) rays[index] = ray;
   }
 }
 

@@ -25,11 +25,11 @@ __kernel void vertex_rays(OX_SCENE_PARAMETERS, uint category, __global const ox_
                                        displacement_limit, temporal_before, temporal, &work);
     ox_note_work(works, i, &work);
     if (choice.list == OX_NONE) continue;
-    const uint slot = ox_append(&scene, choice.list);
-    if (slot == OX_NONE) continue;
-    rays[slot].pair_side = tasks[task].pair_side;
-    rays[slot].vertex = choice.vertex;
-    rays[slot].memory = choice.memory;
-    rays[slot].triangle = choice.triangle;
+    const uint index = ox_append(&scene, choice.list);
+    if (index == OX_NONE) continue;
+    rays[index].pair_side = tasks[task].pair_side;
+    rays[index].vertex = choice.vertex;
+    rays[index].memory = choice.memory;
+    rays[index].triangle = choice.triangle;
   }
 }

@@ -17,16 +17,16 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   result_.clear();
   if (scene.pairs.empty()) return result_;
 
-  Step step{scene, memory, report_,
-            Workload(options_, device_, data_.lists, scene, memory, report_)};
+  Batch batch{scene, memory, report_,
+              Workload(options_, device_, data_.lists, scene, memory, report_)};
   try {
-    upload(step);
-    while (step.workload.next()) collide_tile(step);
+    upload(batch);
+    while (batch.workload.next()) collide_tile(batch);
   } catch (...) {
-    drop(step);
+    drop(batch);
     throw;
   }
-  finish(step);
+  finish(batch);
   report_.synchronizations = static_cast<int>(device_.synchronizations() - waits);
   report_.ms_total =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -34,35 +34,35 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
 }
 
 // What all tiles have in common.
-void Collider::upload(Step& step) {
-  data_.meshes.set(step.scene.meshes);  // the deform step
-  data_.pairs.upload_objects(step.scene);
-  if (paper_) paper_->begin_step(step);
+void Collider::upload(Batch& batch) {
+  data_.meshes.set(batch.scene.meshes);  // the deform step
+  data_.pairs.upload_objects(batch.scene);
+  if (paper_) paper_->begin_batch(batch);
 }
 
-void Collider::collide_tile(Step& step) {
+void Collider::collide_tile(Batch& batch) {
   const auto work = report_.work;  // of the tiles before
   try {
     do {
       report_.work = work;
-      attempt(step);
-    } while (!step.workload.is_settled());
+      attempt(batch);
+    } while (!batch.workload.is_settled());
     read_back_.read_rest(data_);
   } catch (const DeviceError& error) {
     report_.work = work;
     forget_uploads();  // some may not have been made
-    if (!step.workload.try_smaller(error.code())) throw;
+    if (!batch.workload.try_smaller(error.code())) throw;
     return;
   }
-  deliver(step);
+  deliver(batch);
 }
 
 // Between launches nobody waits, unless pairs are left to the kernels, or for exact workloads.
-void Collider::attempt(Step& step) {
-  Workload& workload = step.workload;
+void Collider::attempt(Batch& batch) {
+  Workload& workload = batch.workload;
   workload.begin_attempt();
-  data_.pairs.upload_pairs(step.scene, workload.tile());
-  if (paper_) paper_->begin_attempt(data_, step);
+  data_.pairs.upload_pairs(batch.scene, workload.tile());
+  if (paper_) paper_->begin_attempt(data_, batch);
   read_back_.reserve(data_);
 
   if (whole_step_) {
@@ -72,14 +72,14 @@ void Collider::attempt(Step& step) {
       if (data_.lists.counted(OX_COUNTER_LEFT) == 0) return;
     }
   }
-  launch_steps(step);
+  launch_steps(batch);
   read_back_.read(data_, workload.predicted(List::kContacts));
 }
 
 // GRAPP figure 1, top to bottom: pairs, where their edges cross, which vertices are inside, where
 // their rays leave, contacts.
-void Collider::launch_steps(Step& step) {
-  Workload& workload = step.workload;
+void Collider::launch_steps(Batch& batch) {
+  Workload& workload = batch.workload;
   const std::size_t pairs = workload.tile().count;
   if (!whole_step_) search_.relate(workload.launch(pairs), data_);
   if (options_.edges) {
@@ -89,10 +89,10 @@ void Collider::launch_steps(Step& step) {
                   data_);
   }
   if (paper_) {
-    paper_->run(data_, step);
+    paper_->run(data_, batch);
   } else {
     search_.flood(workload.launch_queue(2 * pairs), data_);
-    if (!step.floods_all) search_.choose_vertices(workload.settle_launch(List::kChunks), data_);
+    if (!batch.floods_all) search_.choose_vertices(workload.settle_launch(List::kChunks), data_);
     search_.cast(workload.settle_launch(List::kRays), data_);
   }
   workload.settle_launches();
@@ -102,13 +102,13 @@ void Collider::launch_steps(Step& step) {
   assembly_.reduce(workload.launch_queue(pairs), data_);
 }
 
-void Collider::deliver(Step& step) {
-  step.workload.report_tile();
+void Collider::deliver(Batch& batch) {
+  batch.workload.report_tile();
   if (report_.backtracked) {
     result_.clear();
     return;
   }
-  append_contacts(step.scene, data_.meshes, step.workload.tile().first, read_back_.ranges(data_),
+  append_contacts(batch.scene, data_.meshes, batch.workload.tile().first, read_back_.ranges(data_),
                   read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
 }
 
@@ -117,15 +117,15 @@ void Collider::forget_uploads() {  // of what is uploaded only where it changed
   if (paper_) paper_->forget();
 }
 
-// A step that failed. What it has left may be half written: nobody is to start from it.
-void Collider::drop(Step& step) {
-  device_.settle();     // what is still in flight must not write into what the next step reuses
-  take_milliseconds();  // of what ran; the next step starts afresh
+// A batch that failed. What it has left may be half written: nobody is to start from it.
+void Collider::drop(Batch& batch) {
+  device_.settle();     // what is still in flight must not write into what the next batch reuses
+  take_milliseconds();  // of what ran; the next batch starts afresh
   data_.meshes.forget();
   forget_uploads();
-  if (step.memory == nullptr) return;
-  step.memory->temporal.reset();
-  step.memory->tile_pairs = step.tile_pairs;  // no size failed: that tells nothing
+  if (batch.memory == nullptr) return;
+  batch.memory->temporal.reset();
+  batch.memory->tile_pairs = batch.tile_pairs;  // no size failed: that tells nothing
 }
 
 StageTimes Collider::take_milliseconds() {
@@ -138,15 +138,15 @@ StageTimes Collider::take_milliseconds() {
   return ms;
 }
 
-void Collider::finish(Step& step) {
+void Collider::finish(Batch& batch) {
   report_.capacity = data_.lists.capacities();
-  report_.temporal_pairs = step.remembers() ? step.memory->temporal->pairs() : 0;
+  report_.temporal_pairs = batch.remembers() ? batch.memory->temporal->pairs() : 0;
   report_.ms = take_milliseconds();
-  data_.lists.note_use(report_.actual, step.memory != nullptr);
-  if (step.memory == nullptr) return;
-  step.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
+  data_.lists.note_use(report_.actual, batch.memory != nullptr);
+  if (batch.memory == nullptr) return;
+  batch.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
   // A little more each time: what did not fit once may have been short of memory for a moment.
-  if (step.memory->tile_pairs != 0) step.memory->tile_pairs += step.memory->tile_pairs / 16 + 1;
+  if (batch.memory->tile_pairs != 0) batch.memory->tile_pairs += batch.memory->tile_pairs / 16 + 1;
 }
 
 }  // namespace ode_ext

@@ -4,19 +4,19 @@
 
 #include <optional>
 
+#include "collide/batch.h"
+#include "collide/batch_report.h"
 #include "collide/options.h"
 #include "collide/pass_memory.h"
 #include "collide/read_back.h"
-#include "collide/step.h"
-#include "collide/step_report.h"
 #include "collide/whole_step.h"
 #include "contacts/contact.h"
 #include "contacts/plane_assembly.h"
 #include "opencl/program.h"
 #include "paper/vertex_rays.h"
+#include "search/batch_data.h"
 #include "search/scene.h"
 #include "search/search.h"
-#include "search/step_data.h"
 
 namespace ode_ext {
 
@@ -31,18 +31,18 @@ class Collider {
   // result.contacts. No ranges at all: nothing is delivered (Misprediction::kBacktrack).
   const PairContacts& collide(const Scene& scene, PassMemory* memory);
 
-  const StepReport& report() const { return report_; }
+  const BatchReport& report() const { return report_; }
   const DeviceInfo& device_info() const { return device_.info(); }
 
  private:
-  void upload(Step& step);
-  void collide_tile(Step& step);
-  void attempt(Step& step);
-  void launch_steps(Step& step);
-  void deliver(Step& step);
+  void upload(Batch& batch);
+  void collide_tile(Batch& batch);
+  void attempt(Batch& batch);
+  void launch_steps(Batch& batch);
+  void deliver(Batch& batch);
   void forget_uploads();
-  void drop(Step& step);
-  void finish(Step& step);
+  void drop(Batch& batch);
+  void finish(Batch& batch);
   StageTimes take_milliseconds();
   void warm_up();
 
@@ -51,13 +51,13 @@ class Collider {
   Program program_;
   Search search_;
   PlaneAssembly assembly_;
-  StepData data_;
+  BatchData data_;
   // Where options ask for them.
   std::optional<WholeStep> whole_step_;
   std::optional<paper::VertexRays> paper_;
   ReadBack read_back_;
   PairContacts result_;
-  StepReport report_;
+  BatchReport report_;
 };
 
 }  // namespace ode_ext

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Collider, before its first step.
+// Collider, before its first batch.
 #include <stdexcept>
 #include <string>
 
@@ -8,8 +8,8 @@
 namespace ode_ext {
 namespace {
 
-StepSettings settings_of(const ColliderOptions& options) {
-  StepSettings settings;
+BatchSettings settings_of(const ColliderOptions& options) {
+  BatchSettings settings;
   if (options.rays == Rays::kIterativePaper) settings.modes |= OX_MODE_PAPER;
   if (options.deformable_target == DeformableTarget::kBasic) settings.modes |= OX_MODE_BASIC;
   if (options.edges) settings.modes |= OX_MODE_EDGES;
@@ -79,9 +79,9 @@ Collider::Collider(const ColliderOptions& options)
 // more, wherever that falls in a simulation; launching that many settles both.
 void Collider::warm_up() {
   const Scene scene;
-  Step step{scene, nullptr, report_,
-            Workload(options_, device_, data_.lists, scene, nullptr, report_)};
-  step.workload.begin_attempt();
+  Batch batch{scene, nullptr, report_,
+              Workload(options_, device_, data_.lists, scene, nullptr, report_)};
+  batch.workload.begin_attempt();
   data_.meshes.set({});
   data_.pairs.upload_objects(scene);
   data_.pairs.upload_pairs(scene, {0, 0});
@@ -94,7 +94,7 @@ void Collider::warm_up() {
   search_.match(wide, data_);
   search_.cross(wide, data_);
   if (paper_) {
-    paper_->warm_up(wide, data_, step);
+    paper_->warm_up(wide, data_, batch);
   } else {
     search_.flood(wide, data_);
     search_.choose_vertices(wide, data_);

@@ -5,18 +5,18 @@
 
 namespace ode_ext {
 
-void ReadBack::reserve(const StepData& data) {
+void ReadBack::reserve(const BatchData& data) {
   ranges_.reserve(data.pairs.count * sizeof(ox_range));
   contacts_.reserve(data.lists.capacity(List::kContacts) * sizeof(ox_contact));
 }
 
-void ReadBack::read(StepData& data, std::uint64_t expected) {
+void ReadBack::read(BatchData& data, std::uint64_t expected) {
   data.pairs.ranges.read(ranges_.data(), data.pairs.count * sizeof(ox_range));
   read_contacts(data, expected);
   data.lists.count();
 }
 
-void ReadBack::read_rest(const StepData& data) {
+void ReadBack::read_rest(const BatchData& data) {
   const std::uint64_t count = data.lists.length(List::kContacts);
   if (count <= read_) return;
   read_contacts(data, count);
@@ -24,7 +24,7 @@ void ReadBack::read_rest(const StepData& data) {
 }
 
 // At most as many as there is room for.
-void ReadBack::read_contacts(const StepData& data, std::uint64_t count) {
+void ReadBack::read_contacts(const BatchData& data, std::uint64_t count) {
   read_ = std::min(count, data.lists.capacity(List::kContacts));
   data.lists.contacts().read(contacts_.data(), read_ * sizeof(ox_contact));
 }

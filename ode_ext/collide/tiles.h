@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A step in parts that fit the device.
+// A batch in parts that fit the device.
 #pragma once
 
 #include <cstddef>

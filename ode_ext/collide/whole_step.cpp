@@ -3,7 +3,7 @@
 
 namespace ode_ext {
 
-void WholeStep::run(Launch shares, const StepData& data) {
+void WholeStep::run(Launch shares, const BatchData& data) {
   const auto& [meshes, pairs, lists, settings] = data;
   data.launch(kernel_, shares, pairs.objects, pairs.members, pairs.ranges, lists.meshlets(),
               lists.meshlet_pairs(), lists.crossings(), lists.tasks(), lists.rays(),

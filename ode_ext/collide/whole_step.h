@@ -5,8 +5,8 @@
 
 #include "opencl/launch.h"
 #include "opencl/program.h"
+#include "search/batch_data.h"
 #include "search/stage.h"
-#include "search/step_data.h"
 
 namespace ode_ext {
 
@@ -16,7 +16,7 @@ class WholeStep {
 
   explicit WholeStep(Program& program) : kernel_(program, "whole_step") {}
 
-  void run(Launch shares, const StepData& data);
+  void run(Launch shares, const BatchData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms) { add_time(ms, Stage::kWholeStep, kernel_); }

@@ -22,7 +22,7 @@ bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device) {
 }
 
 Workload::Workload(const ColliderOptions& options, const Device& device, AppendLists& lists,
-                   const Scene& scene, PassMemory* memory, StepReport& report)
+                   const Scene& scene, PassMemory* memory, BatchReport& report)
     : options_(options),
       device_(device.info()),
       lists_(lists),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How much a step takes before that is known (GRAPP section 4): the tiles it is cut into, room in
+// How much a batch takes before that is known (GRAPP section 4): the tiles it is cut into, room in
 // the append lists, the size of launches; and what to do where an expectation was wrong.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "collide/batch_report.h"
 #include "collide/options.h"
 #include "collide/pass_memory.h"
-#include "collide/step_report.h"
 #include "collide/tiles.h"
 #include "opencl/device.h"
 #include "opencl/launch.h"
@@ -21,13 +21,13 @@ namespace ode_ext {
 // where the lists are what the product's are.
 bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device);
 
-// Of one step. What it finds out is noted in `memory`, if there is one, and in `report`.
+// Of one batch. What it finds out is noted in `memory`, if there is one, and in `report`.
 class Workload {
  public:
   Workload(const ColliderOptions& options, const Device& device, AppendLists& lists,
-           const Scene& scene, PassMemory* memory, StepReport& report);
+           const Scene& scene, PassMemory* memory, BatchReport& report);
 
-  // Whether all pairs of the step fit into one tile, as far as is known now.
+  // Whether all pairs of the batch fit into one tile, as far as is known now.
   bool is_whole() const { return tiles_.size() == 1; }
   // Goes on to the next tile; false: there is none.
   bool next();
@@ -57,7 +57,7 @@ class Workload {
   }
   // Of the whole step: a work-item for each share of the lists.
   Launch launch_shares() const;
-  // Whether some pairs will not fit into a share, as in the last step.
+  // Whether some pairs will not fit into a share, as in the last batch.
   bool expects_left() const;
   // Where launches go by what there is: waits until it is known of all lists.
   void settle_launches();
@@ -84,7 +84,7 @@ class Workload {
   AppendLists& lists_;
   const Scene& scene_;
   PassMemory* memory_;
-  StepReport& report_;
+  BatchReport& report_;
   Misprediction misprediction_;
   std::vector<ExpectedTile> tiles_;  // to be collided, the last one first
   ExpectedTile tile_{};

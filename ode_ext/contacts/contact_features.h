@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What contacts are of: a vertex, an edge or a facet of each mesh, by numbers that depend on that
-// mesh alone. So they tell which contact of a pair is which of those it had in the step before.
+// mesh alone. So they tell which contact of a pair is which of those it had in the pass before.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ PlaneAssembly::PlaneAssembly(Program& program)
       reduce_(program, "reduce_candidates") {}
 
 void PlaneAssembly::assemble(Launch per_pair, Launch per_feature, Launch per_region,
-                             const StepData& data) {
+                             const BatchData& data) {
   const AppendLists& lists = data.lists;
   data.launch(gather_, per_feature, lists.crossings(), lists.hits(), lists.features(),
               lists.feature_parents(), lists.feature_slots(), lists.faces());
@@ -36,7 +36,7 @@ void PlaneAssembly::assemble(Launch per_pair, Launch per_feature, Launch per_reg
               lists.faces(), lists.planes(), lists.edge_planes(), lists.candidates());
 }
 
-void PlaneAssembly::reduce(Launch per_pair, const StepData& data) {
+void PlaneAssembly::reduce(Launch per_pair, const BatchData& data) {
   data.launch(reduce_, per_pair, data.lists.candidates(), data.settings.max_contacts,
               data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
 }

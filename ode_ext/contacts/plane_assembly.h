@@ -4,8 +4,8 @@
 
 #include "opencl/launch.h"
 #include "opencl/program.h"
+#include "search/batch_data.h"
 #include "search/stage.h"
-#include "search/step_data.h"
 
 namespace ode_ext {
 
@@ -14,9 +14,9 @@ class PlaneAssembly {
   explicit PlaneAssembly(Program& program);
 
   // Features, regions and their planes, and candidates for contacts: features.cl, choose.cl.
-  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const StepData& data);
+  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const BatchData& data);
   // Of each pair a few of them: reduce.cl.
-  void reduce(Launch per_pair, const StepData& data);
+  void reduce(Launch per_pair, const BatchData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Detects accidents, not attacks: every step is a bijection of the state for a given word and of
+// Detects accidents, not attacks: every round is a bijection of the state for a given word and of
 // the word for a given state, so soups of equal length that differ within one 8-byte word always
 // have different hashes, and others the same by chance, 1 in 2^64. Whoever wants collisions can
 // make them, so that a hash only says where to look: what is found there has to be compared.

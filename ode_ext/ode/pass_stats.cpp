@@ -123,7 +123,7 @@ std::vector<Counter> all_counters() {
 
 }  // namespace
 
-void note_report(const StepReport& report, PassStats& stats) {
+void note_report(const BatchReport& report, PassStats& stats) {
   stats.report = report;
   stats.pairs_computed = static_cast<std::int64_t>(report.pairs);
   stats.ms_device = report.ms_total;

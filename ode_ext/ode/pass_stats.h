@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "collide/step_report.h"
+#include "collide/batch_report.h"
 #include "ode_ext/ode_ext.h"
 
 namespace ode_ext {
@@ -29,7 +29,7 @@ struct Totals {
 
 struct PassStats {
   unsigned status = 0;  // dBatchStatus... bits
-  StepReport report;    // of the last batch
+  BatchReport report;   // of the last batch
   std::int64_t pairs = 0, pairs_computed = 0, pairs_colliding = 0, deformed = 0;
   std::int64_t passes = 0, pairs_alone = 0, pairs_stock = 0, meshes = 0;  // since creation
   Totals totals;
@@ -48,7 +48,7 @@ struct PassStats {
 };
 
 // Takes over what the pipeline reports.
-void note_report(const StepReport& report, PassStats& stats);
+void note_report(const BatchReport& report, PassStats& stats);
 
 // A timed stage. Those on the host follow one another, but for the pass, which holds them all;
 // those on the device are within dBatchStageDevice.

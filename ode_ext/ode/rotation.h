@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which matrices are rotations. Turned by another one a mesh is in one place in the frame of the
-// other mesh and in another place in its own, and it would depend on the step which of them counts.
+// other mesh and in another place in its own, and it would depend on the pass which of them counts.
 #pragma once
 
 #include <array>

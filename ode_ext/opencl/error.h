@@ -27,7 +27,7 @@ const char* opencl_error_name(int code);  // "CL_OUT_OF_RESOURCES"; never null
 void check(int code, const char* call, const std::string& device);
 
 // The same, with `describe()` appended to the message. It runs only if the call failed, so that the
-// calls of every step put no text together.
+// calls of every pass put no text together.
 template <class Describe>
 void check(int code, const char* call, const std::string& device, const Describe& describe) {
   try {

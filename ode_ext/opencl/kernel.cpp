@@ -71,7 +71,7 @@ double Kernel::take_milliseconds() {
     events_.clear();
     throw;
   }
-  events_.clear();  // keeps its memory: a step like the last one allocates nothing here
+  events_.clear();  // keeps its memory: a batch like the last one allocates nothing here
   return sum;
 }
 

@@ -7,7 +7,7 @@
 #include "opencl/launch.h"
 #include "opencl/program.h"
 #include "paper/temporal_cache.h"
-#include "search/step_data.h"
+#include "search/batch_data.h"
 
 namespace ode_ext::paper {
 
@@ -30,27 +30,27 @@ class Kernels {
         monolithic(program, "monolithic") {}
 
   // dense: a task for every chunk of every pair, at its own place.
-  void list_chunks(Launch per_pair, const StepData& data, const TemporalCache& temporal, bool dense,
-                   const DensePlaces& places) {
-    data.launch(chunk_tasks, per_pair, temporal.links(), temporal.step(),
+  void list_chunks(Launch per_pair, const BatchData& data, const TemporalCache& temporal,
+                   bool dense, const DensePlaces& places) {
+    data.launch(chunk_tasks, per_pair, temporal.links(), temporal.pass(),
                 data.settings.displacement_limit, temporal.poses(), temporal.directory(),
                 cl_uint{dense}, places.first, data.lists.tasks());
   }
   // `category`: one of the lists of chunks.
-  void choose_vertices(List category, Launch per_vertex, const StepData& data,
+  void choose_vertices(List category, Launch per_vertex, const BatchData& data,
                        const TemporalCache& temporal, const Buffer& works) {
     data.launch(vertex_rays, per_vertex, static_cast<cl_uint>(category), data.lists.tasks(),
                 data.settings.displacement_limit, temporal.before(), temporal.now(),
                 data.lists.rays(), works);
   }
   // `rays`: one of the three.
-  void cast(Kernel& rays, Launch per_ray, const StepData& data, const TemporalCache& temporal,
+  void cast(Kernel& rays, Launch per_ray, const BatchData& data, const TemporalCache& temporal,
             const Buffer& works) {
     data.launch(rays, per_ray, data.lists.rays(), data.settings.walk_limit, temporal.now(),
                 data.lists.hits(), works);
   }
   // Of tasks that are dense.
-  void run_monolithic(Launch per_vertex, const StepData& data, const TemporalCache& temporal,
+  void run_monolithic(Launch per_vertex, const BatchData& data, const TemporalCache& temporal,
                       const DensePlaces& places, const Buffer& works) {
     data.launch(monolithic, per_vertex, data.lists.tasks(), places.chunks,
                 data.settings.displacement_limit, data.settings.walk_limit, temporal.before(),

@@ -7,8 +7,8 @@
 namespace ode_ext {
 namespace {
 
-// A pair that nobody has collided for so many steps starts anew.
-constexpr std::uint32_t kStepsKept = 8;
+// A pair that nobody has collided for so many passes starts anew.
+constexpr std::uint32_t kPassesKept = 8;
 
 // 16 million chunks: 256 million vertices of all pairs, 256 MiB.
 constexpr std::uint32_t kMostEntries = std::uint32_t{1} << 24;
@@ -42,12 +42,12 @@ std::size_t TemporalCache::KeyHash::operator()(const Key& key) const {
 }
 
 void TemporalCache::begin(const Scene& scene) {
-  if (step_ == UINT32_MAX) clear();
-  ++step_;
+  if (pass_ == UINT32_MAX) clear();
+  ++pass_;
   host_links_.clear();
   for (const auto& pair : scene.pairs) host_links_.push_back(link(scene, pair));
   evict();
-  poses_.extend(slot_count_ * kPoseBytes);
+  poses_.extend(pose_count_ * kPoseBytes);
   directory_.extend(entry_count_ * kEntryBytes);
   upload();
 }
@@ -70,29 +70,29 @@ ox_link TemporalCache::link(const Scene& scene, const std::array<std::uint32_t, 
   const Scene::Object& b = scene.objects[pair[1]];
   ox_link link{OX_NONE, {OX_NONE, OX_NONE}, 0};
   if (a.identity == 0 || b.identity == 0) return link;
-  // The order within the pair may change from step to step.
+  // The order within the pair may change from pass to pass.
   const bool swapped = b.identity < a.identity;
   const Scene::Object& low = swapped ? b : a;
   const Scene::Object& high = swapped ? a : b;
   const auto& low_mesh = scene.meshes[low.mesh]->topology;
   const auto& high_mesh = scene.meshes[high.mesh]->topology;
 
-  const auto [found, is_new] = slots_.try_emplace(Key{low.identity, high.identity});
-  Slot& slot = found->second;
-  const bool same = !is_new && slot.meshes[0] == low_mesh && slot.meshes[1] == high_mesh;
+  const auto [found, is_new] = kept_.try_emplace(Key{low.identity, high.identity});
+  Kept& kept = found->second;
+  const bool same = !is_new && kept.meshes[0] == low_mesh && kept.meshes[1] == high_mesh;
   if (!same) {
-    if (!is_new) release(slot);
-    slot = {{}, {low_mesh, high_mesh}, 0};
-    if (!place(chunk_count(*low_mesh) + chunk_count(*high_mesh), slot.place)) {
-      slots_.erase(found);
+    if (!is_new) release(kept);
+    kept = {{}, {low_mesh, high_mesh}, 0};
+    if (!place(chunk_count(*low_mesh) + chunk_count(*high_mesh), kept.place)) {
+      kept_.erase(found);
       return link;
     }
   }
-  link.slot = slot.place.slot;
-  link.directory[swapped ? 1 : 0] = slot.place.directory;
-  link.directory[swapped ? 0 : 1] = slot.place.directory + chunk_count(*low_mesh);
-  link.known = same && slot.last_step + 1 == step_ ? 1 : 0;
-  slot.last_step = step_;
+  link.pose = kept.place.pose;
+  link.directory[swapped ? 1 : 0] = kept.place.directory;
+  link.directory[swapped ? 0 : 1] = kept.place.directory + chunk_count(*low_mesh);
+  link.known = same && kept.last_pass + 1 == pass_ ? 1 : 0;
+  kept.last_pass = pass_;
   return link;
 }
 
@@ -106,30 +106,30 @@ bool TemporalCache::place(std::uint32_t chunks, Place& place) {
     return true;
   }
   if (size > kMostEntries - entry_count_) return false;
-  place = {slot_count_++, entry_count_};
+  place = {pose_count_++, entry_count_};
   entry_count_ += size;
   return true;
 }
 
-void TemporalCache::release(const Slot& slot) {
-  const std::uint32_t chunks = chunk_count(*slot.meshes[0]) + chunk_count(*slot.meshes[1]);
-  free_[place_size(chunks)].push_back(slot.place);
+void TemporalCache::release(const Kept& kept) {
+  const std::uint32_t chunks = chunk_count(*kept.meshes[0]) + chunk_count(*kept.meshes[1]);
+  free_[place_size(chunks)].push_back(kept.place);
 }
 
 void TemporalCache::evict() {
-  for (auto it = slots_.begin(); it != slots_.end();) {
-    if (it->second.last_step + kStepsKept >= step_) {
+  for (auto it = kept_.begin(); it != kept_.end();) {
+    if (it->second.last_pass + kPassesKept >= pass_) {
       ++it;
       continue;
     }
     release(it->second);
-    it = slots_.erase(it);
+    it = kept_.erase(it);
   }
 }
 
 void TemporalCache::reserve_blocks(std::uint64_t tasks) {
-  blocks_[step_ & 1].reserve(tasks * OX_CHUNK_VERTICES * sizeof(ox_temporal));
-  blocks_[1 - (step_ & 1)].reserve(sizeof(ox_temporal));
+  blocks_[pass_ & 1].reserve(tasks * OX_CHUNK_VERTICES * sizeof(ox_temporal));
+  blocks_[1 - (pass_ & 1)].reserve(sizeof(ox_temporal));
 }
 
 std::size_t TemporalCache::bytes() const {
@@ -138,11 +138,11 @@ std::size_t TemporalCache::bytes() const {
 }
 
 void TemporalCache::clear() {
-  slots_.clear();
+  kept_.clear();
   free_.clear();
-  slot_count_ = entry_count_ = 0;
-  step_ = 1;
-  // What carries a number must not be taken for what a new step of that number wrote.
+  pose_count_ = entry_count_ = 0;
+  pass_ = 1;
+  // What carries a number must not be taken for what a new pass of that number wrote.
   poses_.fill_zero(poses_.capacity());
   directory_.fill_zero(directory_.capacity());
 }

@@ -10,13 +10,13 @@
 #include "preload/find_ode_functions.h"
 
 #if defined(__x86_64__)
-#define ODE_EXT_JUMP(slot) "jmp *" slot "(%rip)\n"
+#define ODE_EXT_JUMP(pointer) "jmp *" pointer "(%rip)\n"
 #elif defined(__aarch64__)
-#define ODE_EXT_JUMP(slot)     \
-  "adrp x16, " slot            \
-  "\n"                         \
-  "ldr x16, [x16, :lo12:" slot \
-  "]\n"                        \
+#define ODE_EXT_JUMP(pointer)     \
+  "adrp x16, " pointer            \
+  "\n"                            \
+  "ldr x16, [x16, :lo12:" pointer \
+  "]\n"                           \
   "br x16\n"
 #else
 #error "a jump through a variable, in the assembly of this processor, is missing here"

@@ -68,9 +68,9 @@ std::uint64_t bytes_of(const ListCounts& counts) {
   return bytes;
 }
 
-// Memory goes back where for this many steps, a few seconds of simulation, less than a quarter of
+// Memory goes back where for this many passes, a few seconds of simulation, less than a quarter of
 // it was of use; what is less than the floor is not worth the growing again.
-constexpr int kStepsNoted = 256;
+constexpr int kPassesNoted = 256;
 constexpr std::uint64_t kNotWorthReleasing = std::uint64_t{32} << 20;  // [bytes]
 
 }  // namespace
@@ -134,13 +134,13 @@ void AppendLists::release() {
     buffer->release();
 }
 
-void AppendLists::note_use(const ListCounts& stored, bool is_step) {
+void AppendLists::note_use(const ListCounts& stored, bool is_pass) {
   for (std::size_t i = 0; i < kListCount; ++i) most_used_[i] = std::max(most_used_[i], stored[i]);
-  if (!is_step || ++steps_noted_ < kStepsNoted) return;
+  if (!is_pass || ++passes_noted_ < kPassesNoted) return;
   const std::uint64_t held = bytes_of(capacities_);
   if (held > kNotWorthReleasing && held / 4 > bytes_of(most_used_)) release();
   most_used_ = {};
-  steps_noted_ = 0;
+  passes_noted_ = 0;
 }
 
 AppendLists::Ends AppendLists::lay_out(const ListCounts& room) {

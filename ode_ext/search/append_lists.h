@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The append lists of a step (GRAPP section 3.1): records in device memory behind counters that run
+// The append lists of a batch (GRAPP 3.1): records in device memory behind counters that run
 // on past the capacity. Lists of one kind of record share a buffer.
 #pragma once
 
@@ -20,7 +20,7 @@ class AppendLists {
 
   // Room for at least so many records; a quarter more where a list has to grow, so that it rarely
   // does. Throws DeviceError where the device has no room for them: then there is none at all, and
-  // what the lists held before is given back for a smaller step to take.
+  // what the lists held before is given back for a smaller batch to take.
   void reserve(const ListCounts& counts);
   // Room for exactly so many, whatever there was.
   void limit(const ListCounts& counts);
@@ -30,9 +30,9 @@ class AppendLists {
   ListCounts affordable(const ListCounts& expected) const;
   // Gives all room back.
   void release();
-  // After each step, with what it stored, and other calls: lists that were far too large for many
-  // steps are given back, so that one crowded moment is not paid for ever after.
-  void note_use(const ListCounts& stored, bool is_step);
+  // After each pass, with what it stored, and other calls: lists that were far too large for many
+  // passes are given back, so that one crowded moment is not paid for ever after.
+  void note_use(const ListCounts& stored, bool is_pass);
   const ListCounts& capacities() const { return capacities_; }
   std::uint64_t capacity(List list) const { return capacities_[static_cast<std::size_t>(list)]; }
   // The place of a list's first record in its buffer.
@@ -42,11 +42,11 @@ class AppendLists {
   void keep_shares(std::size_t count);
   std::size_t shares() const { return shares_; }
   bool overflowed(const ListCounts& counts) const;
-  // Records of all lists of vertex chunks of this step together; their indices are below that.
+  // Records of all lists of vertex chunks of this batch together; their indices are below that.
   std::uint64_t task_capacity() const;
 
-  // Before a step: counters at zero, lists as reserved, but none with more room than the step can
-  // `most` fill, so that the places of small steps are small numbers.
+  // Before a batch: counters at zero, lists as reserved, but none with more room than the batch can
+  // `most` fill, so that the places of small batches are small numbers.
   void begin(const ListCounts& most);
   // The device lost its contents.
   void forget() { written_lists_.reset(); }
@@ -98,8 +98,8 @@ class AppendLists {
 
   Device* device_;
   ListCounts capacities_{};
-  ListCounts most_used_{};  // in the steps noted so far
-  int steps_noted_ = 0;
+  ListCounts most_used_{};  // in the passes noted so far
+  int passes_noted_ = 0;
   using Layout = std::array<ox_list, 2 * kListCount>;  // of the lists, and of a share of them
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them

@@ -16,7 +16,7 @@ namespace ode_ext {
 
 class DeviceMeshes;
 
-// A mesh whose vertices moved, or one that moved in the last step and rests now.
+// A mesh whose vertices moved, or one that moved in the last pass and rests now.
 struct MeshMove {
   ox_move record{};
   bool rests = false;

@@ -166,7 +166,7 @@ DeviceMeshes::DeviceMeshes(Program& program)
       topologies_(program.device()) {}
 
 void DeviceMeshes::set(const MeshList& meshes) {
-  // Nothing is in flight here (a step ends with a wait), so the arrays may be rebuilt in place.
+  // Nothing is in flight here (a batch ends with a wait), so the arrays may be rebuilt in place.
   const bool anew = !are_shapes_of_the_same(meshes);
   if (anew)
     rebuild(meshes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The objects of a step and the pairs of one of its tiles in device memory.
+// The objects of a batch and the pairs of one of its tiles in device memory.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a step collides.
+// What a batch collides.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ struct Scene {
   struct Object {
     Pose pose;
     std::uint32_t mesh;          // index into meshes
-    std::uint64_t identity = 0;  // the same from step to step; 0: none, nothing is remembered of it
+    std::uint64_t identity = 0;  // the same from pass to pass; 0: none, nothing is remembered of it
   };
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Object> objects;

@@ -13,33 +13,33 @@ Search::Search(Program& program, std::uint32_t items_per_meshlet_pair)
       ray_step_(program, "ray_step"),
       items_per_meshlet_pair_(items_per_meshlet_pair) {}
 
-void Search::relate(Launch per_pair, const StepData& data) {
+void Search::relate(Launch per_pair, const BatchData& data) {
   data.launch(pair_step_, per_pair, data.pairs.objects, data.pairs.members, data.pairs.ranges);
 }
 
-void Search::cull(Launch per_pair, const StepData& data) {
+void Search::cull(Launch per_pair, const BatchData& data) {
   data.launch(cull_, per_pair, data.lists.meshlets());
 }
 
-void Search::match(Launch per_meshlet, const StepData& data) {
+void Search::match(Launch per_meshlet, const BatchData& data) {
   data.launch(match_, per_meshlet, data.lists.meshlets(), data.lists.meshlet_pairs(),
               data.lists.crossings());
 }
 
-void Search::cross(Launch per_item, const StepData& data) {
+void Search::cross(Launch per_item, const BatchData& data) {
   data.launch(cross_, per_item, data.lists.meshlet_pairs(), data.lists.crossings());
 }
 
-void Search::flood(Launch per_side, const StepData& data) {
+void Search::flood(Launch per_side, const BatchData& data) {
   data.launch(flood_, per_side, data.lists.crossings(), data.lists.tasks(), data.lists.rays(),
               data.lists.flood_words());
 }
 
-void Search::choose_vertices(Launch per_vertex, const StepData& data) {
+void Search::choose_vertices(Launch per_vertex, const BatchData& data) {
   data.launch(vertex_step_, per_vertex, data.lists.tasks(), data.lists.rays());
 }
 
-void Search::cast(Launch per_ray, const StepData& data) {
+void Search::cast(Launch per_ray, const BatchData& data) {
   data.launch(ray_step_, per_ray, data.lists.rays(), data.lists.crossings(), data.lists.hits());
 }
 

@@ -7,8 +7,8 @@
 
 #include "opencl/launch.h"
 #include "opencl/program.h"
+#include "search/batch_data.h"
 #include "search/stage.h"
-#include "search/step_data.h"
 
 namespace ode_ext {
 
@@ -20,16 +20,16 @@ class Search {
   std::uint32_t items_per_meshlet_pair() const { return items_per_meshlet_pair_; }
 
   // Which pairs overlap: kernels/pair_step.cl.
-  void relate(Launch per_pair, const StepData& data);
+  void relate(Launch per_pair, const BatchData& data);
   // Where their edges cross: cull.cl, match.cl, cross.cl.
-  void cull(Launch per_pair, const StepData& data);
-  void match(Launch per_meshlet, const StepData& data);
-  void cross(Launch per_item, const StepData& data);
+  void cull(Launch per_pair, const BatchData& data);
+  void match(Launch per_meshlet, const BatchData& data);
+  void cross(Launch per_item, const BatchData& data);
   // Which vertices are inside, and where their rays leave: flood.cl, vertex_step.cl,
   // ray_step.cl.
-  void flood(Launch per_side, const StepData& data);
-  void choose_vertices(Launch per_vertex, const StepData& data);
-  void cast(Launch per_ray, const StepData& data);
+  void flood(Launch per_side, const BatchData& data);
+  void choose_vertices(Launch per_vertex, const BatchData& data);
+  void cast(Launch per_ray, const BatchData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms);

@@ -41,11 +41,11 @@ TestScene aligned_scene(int pairs) {
                           scene.add_mesh(make_tetrahedron(1))};
   Random random(91);
   for (int i = 0; i < pairs; ++i) {
-    const auto step = [&](double size) { return size * std::floor(random.uniform(-4, 5)); };
+    const auto multiple = [&](double size) { return size * std::floor(random.uniform(-4, 5)); };
     const Point axis{double(i % 3 == 0), double(i % 3 == 1), double(i % 3 == 2)};
     scene.add_pair(meshes[i % 6], at(3.0 * i, 0, 0), meshes[(i / 6) % 6],
-                   turned(axis, step(std::numbers::pi / 4),
-                          {3.0 * i + step(0.125), step(0.125), step(0.125)}));
+                   turned(axis, multiple(std::numbers::pi / 4),
+                          {3.0 * i + multiple(0.125), multiple(0.125), multiple(0.125)}));
   }
   return scene;
 }

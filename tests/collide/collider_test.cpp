@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The pipeline as a whole: what decides how long a step takes must not decide what it gives.
+// The pipeline as a whole: what decides how long a batch takes must not decide what it gives.
 #include "collide/collider.h"
 
 #include <gtest/gtest.h>
@@ -228,7 +228,7 @@ TEST(Collider, GivesTheSameBytesInManyTiles) {
     }
 }
 
-// What does not fit the device is cut up, pass after pass, and small steps are as ever.
+// What does not fit the device is cut up, pass after pass, and small batches are as ever.
 TEST(Collider, GivesTheSameBytesOnADeviceOfSmallBuffers) {
   const TestScene scene = random_scene(4000, 51), small = random_scene(3, 57);
   Collider whole({});
@@ -341,7 +341,7 @@ TEST(Collider, GivesTheSameDepthsAMillionMetresFromTheOrigin) {
     EXPECT_EQ(a.depth, b.depth);
     EXPECT_EQ(a.normal, b.normal);
     EXPECT_EQ(a.triangles, b.triangles);
-    // A double at 1e6 m has steps of 2^-33 m.
+    // A double at 1e6 m is known to 2^-33 m.
     EXPECT_LT(distance(point_of(b.position) - place, point_of(a.position)), 0x1p-31);
   }
 }
@@ -353,9 +353,9 @@ TEST(Collider, WaitsForTheDeviceOnceInAStepLikeTheLast) {
     PassMemory history;
     collider.collide(scene.scene, &history);
     collider.collide(scene.scene, &history);
-    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, second step";
+    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, second batch";
     collider.collide(scene.scene, &history);
-    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, third step";
+    EXPECT_EQ(collider.report().synchronizations, 1) << pairs << " pairs, third batch";
   }
 }
 
@@ -375,13 +375,13 @@ TEST(Collider, ReportsWhatItPredictedAndWhatCame) {
   Collider collider({});
   PassMemory history;
   collider.collide(scene.scene, &history);
-  const StepReport first = collider.report();
+  const BatchReport first = collider.report();
   EXPECT_EQ(first.pairs, 100u);
   EXPECT_EQ(history.history.pairs, 100u);
   EXPECT_EQ(history.history.counts, first.actual);
   EXPECT_EQ(first.predicted, (ListCounts{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}));
   collider.collide(scene.scene, &history);
-  const StepReport& second = collider.report();
+  const BatchReport& second = collider.report();
   EXPECT_EQ(second.actual, first.actual);
   for (std::size_t i = 0; i < kListCount; ++i) {
     const double expected = std::ceil(1.2 * static_cast<double>(first.actual[i]));

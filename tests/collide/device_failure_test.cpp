@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A device that fails in any of its calls: the step throws, and the next one is whole again.
+// A device that fails in any of its calls: the batch throws, and the next one is whole again.
 #include <gtest/gtest.h>
 
 #include "collide/collider.h"
@@ -18,9 +18,9 @@ class DeviceFailure : public ::testing::Test {
 
 constexpr int kCode = CL_INVALID_OPERATION;  // says nothing of memory: there is no second try
 
-// Makes the nth call of a step fail, for n = 1 until the step has no more calls; `prepare` comes
-// before each. Returns how many calls were made to fail. The last calls of a step only read the
-// kernels' clocks, after the contacts: only those may fail without taking the step along.
+// Makes the nth call of a batch fail, for n = 1 until the batch has no more calls; `prepare` comes
+// before each. Returns how many calls were made to fail. The last calls of a batch only read the
+// kernels' clocks, after the contacts: only those may fail without taking the batch along.
 template <class Prepare>
 int fail_every_call(Collider& collider, const Scene& scene, const Bits& expected, int code,
                     const Prepare& prepare) {
@@ -72,7 +72,7 @@ TEST_F(DeviceFailure, IsReportedWhileMeshesAreUploaded) {
             26);
 }
 
-// Of a step whose lists have room for next to nothing.
+// Of a batch whose lists have room for next to nothing.
 void fail_while_buffers_grow(bool whole_steps, int every, int at_least) {
   const TestScene scene = random_scene(20, 74);
   ColliderOptions options;
@@ -82,7 +82,7 @@ void fail_while_buffers_grow(bool whole_steps, int every, int at_least) {
   const Bits expected = bits_of(reference.collide(scene.scene, nullptr));
   ASSERT_GT(reference.report().redone, 0);
   int failures = 0;
-  // Not every call, since each needs a collider of its own; the rounds of the redone step repeat
+  // Not every call, since each needs a collider of its own; the rounds of the redone batch repeat
   // their calls, and not in so many.
   for (int n = 1;; n += every) {
     Collider collider(options);
@@ -123,7 +123,7 @@ TEST_F(DeviceFailure, IsReportedWhereEveryCountIsWaitedFor) {
   EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);
 }
 
-// Memory that runs out in the middle of a step: halves of it may fit.
+// Memory that runs out in the middle of a batch: halves of it may fit.
 TEST_F(DeviceFailure, OfMemoryIsMetWithSmallerTilesOrReported) {
   const TestScene scene = random_scene(20, 76), other = random_scene(5, 77);
   for (const int code : {CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_RESOURCES}) {
@@ -150,7 +150,7 @@ TEST_F(DeviceFailure, OfASinglePairIsReportedWhateverTheCode) {
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
 }
 
-// What a step that failed, or was halved, left of its temporal data is not taken for whole by the
+// What a batch that failed, or was halved, left of its temporal data is not taken for whole by the
 // next one.
 TEST_F(DeviceFailure, LeavesNoTemporalDataHalfWritten) {
   ColliderOptions full;

@@ -378,7 +378,7 @@ ColliderOptions whole_options(Misprediction misprediction) {
 // All lists but this one, which is predicted at 10.
 class EdgeLists : public testing::TestWithParam<List> {
  protected:
-  std::uint64_t count(const StepReport& report) const {
+  std::uint64_t count(const BatchReport& report) const {
     return report.actual[static_cast<std::size_t>(GetParam())];
   }
 };
@@ -387,7 +387,7 @@ TEST_P(EdgeLists, ThatOverflowAreMendedByRedoing) {
   const TestScene scene = random_scene(100, 84);
   Collider whole({});
   const Bits expected = bits_of(whole.collide(scene.scene, nullptr));
-  const StepReport report = whole.report();
+  const BatchReport report = whole.report();
   ASSERT_GT(count(report), 100u);
   Collider redoing(tight_options(Misprediction::kRedo));
   PassMemory memory;
@@ -403,7 +403,7 @@ TEST_P(EdgeLists, ThatOverflowAreCountedWhereThatIsIgnored) {
   const TestScene scene = random_scene(100, 84);
   Collider whole(whole_options(Misprediction::kIgnore));
   const std::size_t contacts = whole.collide(scene.scene, nullptr).contacts.size();
-  const StepReport report = whole.report();
+  const BatchReport report = whole.report();
   Collider ignoring(tight_options(Misprediction::kIgnore));
   PassMemory memory;
   memory.history = {100, report.actual};
@@ -423,7 +423,7 @@ TEST(MeshletPairs, ThatTheirListHasNoRoomForAreCrossedAtOnce) {
   for (const Misprediction misprediction : {Misprediction::kRedo, Misprediction::kIgnore}) {
     Collider whole(whole_options(misprediction));
     const Bits expected = bits_of(whole.collide(scene.scene, nullptr));
-    const StepReport report = whole.report();
+    const BatchReport report = whole.report();
     constexpr auto kPairs = static_cast<std::size_t>(List::kMeshletPairs);
     ASSERT_GT(report.actual[kPairs], 100u);
     Collider short_of_room(tight_options(misprediction));

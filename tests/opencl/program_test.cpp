@@ -224,7 +224,7 @@ TEST(Kernel, TellsTheTimeOfEachLaunchOnce) {
     const double time = kernel.take_milliseconds();
     EXPECT_GT(time, 0);
     // It lies within what the host saw pass; two clocks may differ by some parts in 10'000, and a
-    // GPU's has steps of a microsecond.
+    // GPU's has ticks of a microsecond.
     EXPECT_LT(time, 1.001 * passed.count() + 0.002);
     EXPECT_EQ(kernel.take_milliseconds(), 0);
   }

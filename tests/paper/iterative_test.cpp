@@ -18,10 +18,10 @@ ColliderOptions with_rays(Rays rays) {
   return options;
 }
 
-std::uint64_t iterative(const StepReport& report) {
+std::uint64_t iterative(const BatchReport& report) {
   return report.actual[static_cast<std::size_t>(List::kRaysIterative)];
 }
-std::uint64_t bvh(const StepReport& report) {
+std::uint64_t bvh(const BatchReport& report) {
   return report.actual[static_cast<std::size_t>(List::kRays)];
 }
 

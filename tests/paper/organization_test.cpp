@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The modes of a step: the organizations and workloads give the same bytes, the paper's ways to
+// The modes of a batch: the organizations and workloads give the same bytes, the paper's ways to
 // meet a wrong prediction lose what they say they lose.
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using Bits = std::vector<std::vector<ContactBits>>;
 
-std::uint64_t count(const StepReport& report, List list) {
+std::uint64_t count(const BatchReport& report, List list) {
   return report.actual[static_cast<std::size_t>(list)];
 }
 
@@ -175,7 +175,7 @@ TEST(Misprediction, IgnoredLosesWhatWasNotPredictedAndSaysHowMuch) {
   EXPECT_LT(found.contacts.size(), contacts);
   EXPECT_EQ(found.ranges.size(), 40u);
   std::uint64_t missed = 0;
-  const StepReport& report = ignoring.report();
+  const BatchReport& report = ignoring.report();
   for (std::size_t i = 0; i < kListCount; ++i)
     if (report.actual[i] > report.predicted[i]) missed += report.actual[i] - report.predicted[i];
   EXPECT_EQ(report.missed, missed);

@@ -114,7 +114,7 @@ TEST_F(Places, AreNeverThoseOfTwoPairs) {
     const std::vector<ox_link> links = pass();
     ASSERT_EQ(taken_twice(links), 0u) << i;
     ASSERT_TRUE(std::none_of(links.begin(), links.end(),
-                             [](const ox_link& link) { return link.slot == OX_NONE; }));
+                             [](const ox_link& link) { return link.pose == OX_NONE; }));
   }
 }
 

@@ -93,7 +93,7 @@ TEST(AppendLists, CanBeLimitedToExactlyWhatWasPredicted) {
   EXPECT_TRUE(lists.overflowed(all(4)));
 }
 
-// A list with more room than there is memory would fail every later step, however small.
+// A list with more room than there is memory would fail every later batch, however small.
 TEST(AppendLists, AreAsEmptyAsBeforeWhereTheDeviceHasNoRoomForThem) {
   Device device("");
   AppendLists lists(device);
@@ -129,7 +129,7 @@ TEST(AppendLists, GiveBackWhatNobodyUsedForLong) {
   for (int i = 0; i < 255; ++i) lists.note_use(all(1000), true);
   EXPECT_GE(lists.capacities()[0], 1000000u) << "the peak was not long ago";
   for (int i = 0; i < 1000; ++i) lists.note_use(all(1), false);
-  EXPECT_GE(lists.capacities()[0], 1000000u) << "single pairs are no steps";
+  EXPECT_GE(lists.capacities()[0], 1000000u) << "single pairs are no passes";
   for (int i = 0; i < 256; ++i) lists.note_use(all(1000), true);
   EXPECT_EQ(lists.capacities(), all(0));
   EXPECT_EQ(lists.candidates().capacity(), 0u);

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "search/batch_data.h"
 #include "search/search.h"
-#include "search/step_data.h"
 #include "support/test_scene.h"
 
 namespace ode_ext::test {
@@ -32,7 +32,7 @@ Curves find_curves(const TestScene& scene) {
   Device device("");
   Program program(device, "");
   Search search(program, 1);
-  StepData data(program);
+  BatchData data(program);
   data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
   data.meshes.set(meshes);
   data.pairs.upload_objects(scene.scene);

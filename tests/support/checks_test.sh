@@ -28,7 +28,7 @@ plant_clean_tree() {
   source_file ode_ext/contacts/contacts.h '#include "abi/types.h"' '#include "search/scene.h"'
   source_file ode_ext/search/scene.h '#include "mesh/mesh.h"' '#include "opencl/buffer.h"'
   source_file ode_ext/collide/collider.h '#include "paper/rays.h"'
-  source_file ode_ext/paper/rays.h '#include "collide/step.h"'
+  source_file ode_ext/paper/rays.h '#include "collide/batch.h"'
   source_file ode_ext/mesh/mesh.cpp '#include "mesh/bvh.h"' \
     "// $(printf '%95s' '') ε"
   source_file ode_ext/opencl/device.cpp '#include <CL/cl.h>'

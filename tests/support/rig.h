@@ -13,8 +13,8 @@
 #include "contacts/plane_assembly.h"
 #include "paper/kernels.h"
 #include "paper/temporal_cache.h"
+#include "search/batch_data.h"
 #include "search/search.h"
-#include "search/step_data.h"
 #include "support/test_scene.h"
 
 namespace ode_ext::test {
@@ -122,7 +122,7 @@ class Rig {
     return read_back();
   }
 
-  // Its first step alone.
+  // Its first batch alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1, false);
     search_.relate(launch, data_);
@@ -292,7 +292,7 @@ class Rig {
   Search search_;
   PlaneAssembly assembly_;
   paper::Kernels paper_;
-  StepData data_;
+  BatchData data_;
   TemporalCache temporal_{device_};
   Buffer works_{device_};
   Buffer dense_first_{device_};

@@ -5,8 +5,8 @@
 
 namespace ode_ext {
 
-// What the kernels of a step are told about its algorithms.
-struct StepSettings {
+// What the kernels of a batch are told about its algorithms.
+struct BatchSettings {
   cl_uint modes = 0;  // OX_MODE_...
   cl_float displacement_limit = 1;
   cl_uint walk_limit = 32;

@@ -3,20 +3,20 @@
 
 #include <algorithm>
 
+#include "collide/batch_report.h"
 #include "collide/pass_memory.h"
-#include "collide/step_report.h"
 #include "collide/workload.h"
 #include "search/scene.h"
 
 namespace ode_ext {
 
-// One step of the simulation, as long as it runs.
-struct Step {
+// Pairs that are collided together, as long as that takes.
+struct Batch {
   const Scene& scene;
   PassMemory* memory;  // of the same space; null: a call outside of any pass
-  StepReport& report;
+  BatchReport& report;
   Workload workload;
-  std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the step
+  std::size_t tile_pairs = memory != nullptr ? memory->tile_pairs : 0;  // before the batch
   // What is among its objects: deformable meshes, and closed ones alone, of which a flood leaves
   // nothing to the vertex step (flood.cl).
   bool deforms = any_object([](const Mesh& mesh) { return mesh.deformable; });

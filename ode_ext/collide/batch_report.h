@@ -20,8 +20,8 @@ enum class CountedKernel : std::size_t {
 };
 inline constexpr std::size_t kCountedKernelCount = 5;
 
-// What the last step did.
-struct StepReport {
+// What the last batch took.
+struct BatchReport {
   std::uint64_t pairs = 0;
   std::uint64_t pairs_bounded = 0;               // whose bounding volumes overlap
   ListCounts predicted{}, actual{}, capacity{};  // [records], all tiles together

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernels of a step work on.
+// What the kernels of a batch work on.
 #pragma once
 
 #include "opencl/launch.h"
 #include "opencl/program.h"
 #include "search/append_lists.h"
+#include "search/batch_settings.h"
 #include "search/device_meshes.h"
 #include "search/pair_buffers.h"
-#include "search/step_settings.h"
 
 namespace ode_ext {
 
-struct StepData {
-  explicit StepData(Program& program)
+struct BatchData {
+  explicit BatchData(Program& program)
       : meshes(program), pairs(program.device()), lists(program.device()) {}
 
   // A kernel whose first parameters are OX_SCENE_PARAMETERS (kernels/lib/scene.h).
@@ -28,7 +28,7 @@ struct StepData {
   DeviceMeshes meshes;
   PairBuffers pairs;
   AppendLists lists;
-  StepSettings settings;
+  BatchSettings settings;
 };
 
 }  // namespace ode_ext
