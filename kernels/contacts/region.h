@@ -21,10 +21,11 @@ typedef struct {
 
 // A face that looks back from a plane by more than this is one through which the body goes on.
 #define OX_LOOKS_BACK -0.1f
-// A pair of edges holds a body at one point, a face at more. Where both are as deep, as where a box
-// rests on a face, rounding is not to choose the pair: it has to be better by so much, in epsilons,
-// which is what the growth of A and rounding may make of either depth.
-#define OX_EDGE_TIE (4.0f * OX_INFLATION)
+// Two depths are the same where they differ by no more, in epsilons: twice what the growth of A
+// and rounding may make of either. It is not for rounding to say which of two units is the first,
+// nor to choose a pair of edges where a face is as deep, as where a box rests on a box: a pair
+// holds a body at one point, a face at more, so the pair has to be better by as much.
+#define OX_DEPTH_TIE (4.0f * OX_INFLATION)
 
 static inline float3 ox_position_of(const ox_region_view* r, uint k) {
   return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);

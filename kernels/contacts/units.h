@@ -105,7 +105,8 @@ static inline void ox_swap_members(const ox_region_view* r, uint a, uint b) {
   }
 }
 
-// Of the waiting units the deepest below what it has proposed so far; there is one.
+// Of the waiting units the deepest below what it has proposed so far; there is one. Of several that
+// are as deep (OX_DEPTH_TIE) the first.
 static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
   const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats most = (ox_floats)(-INFINITY);
@@ -114,10 +115,10 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
     const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
     most = left > 0 && least > most ? least : most;
   }
-  const float deepest = ox_greatest_of(&most);
+  const float deepest = ox_greatest_of(&most) - OX_DEPTH_TIE * r->scene->pairs[r->pair].epsilon;
   uint best = OX_NONE;
   for (uint block = 0u; block < blocks; ++block) {
-    const ox_ints is_deepest = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) == deepest;
+    const ox_ints is_deepest = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) >= deepest;
     uint lanes = ox_mask_of(&is_deepest) & ox_present_lanes(waiting, block);
     for (; lanes != 0u; lanes &= lanes - 1u) {
       const uint k = OX_VECTOR_WIDTH * block + ox_lowest(lanes);

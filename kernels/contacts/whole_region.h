@@ -25,7 +25,7 @@ static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint 
 }
 
 static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
-  return plane->kind == OX_PLANE_EDGES ? OX_EDGE_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
+  return plane->kind == OX_PLANE_EDGES ? OX_DEPTH_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
 }
 
 // Blocks of members which were farthest for planes that face one way, those of A and of B, and so
@@ -205,11 +205,33 @@ static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint secon
   return scene->facets[first] == facet || (second != OX_NONE && scene->facets[second] == facet);
 }
 
-// The edges of the facet of a triangle: its own, and those at features.
+// The edges of the facet of a triangle, as far as a walk over so many of its triangles finds them.
+static inline void ox_add_rim_near(const ox_region_view* r, uint side, uint triangle,
+                                   ox_edge_set* set) {
+  const ox_scene* scene = r->scene;
+  const uint first = scene->meshes[scene->pairs[r->pair].mesh[side]].triangle_first;
+  uint walked[OX_MOST_EDGES];
+  walked[0] = triangle;
+  uint count = 1u;
+  for (uint i = 0u; i < count; ++i)
+    for (uint k = 0u; k < 3u; ++k) {
+      const uint across = ox_across(scene->surfaces.triangles + walked[i], k);
+      const uint next = across == OX_NONE ? OX_NONE : first + across;
+      if (next == OX_NONE || scene->facets[next] != scene->facets[triangle]) {
+        ox_add_code(set, ox_code_of_side(scene, r->pair, side, walked[i], k));
+        continue;
+      }
+      uint at = 0u;
+      while (at < count && walked[at] != next) ++at;
+      if (at == count && count < OX_MOST_EDGES) walked[count++] = next;
+    }
+}
+
+// The edges of the facet of a triangle: those near it, and those at features.
 static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
   const ox_scene* scene = r->scene;
   const uint facet = scene->facets[triangle];
-  ox_add_sides(r, side, triangle, set);
+  ox_add_rim_near(r, side, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
     if (ox_side_of(ox_flags_of(r, k)) != side) continue;
     __global const ox_feature* f = ox_feature_of(r, k);

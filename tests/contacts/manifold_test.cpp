@@ -150,6 +150,19 @@ TEST(Manifolds, MoveACubeInsideACubeOutThroughItsNearestSide) {
   }
 }
 
+// Where rounding takes one to be inside the other, no edge of the outer one is crossed. What leads
+// out along the axis are pairs of edges of rings, of which each triangle of a facet has one; by the
+// faces of the tube the way out is 0.64 m.
+TEST(Manifolds, MoveATorusInItsOwnPlaceOutAlongItsAxis) {
+  const TestMesh torus = make_torus(0.5, 0.2, 24, 12);
+  const Placed tori{torus, torus, at(0, 0, 0), at(0, 0, 0)};
+  for (const TestPose& frame : frames(60)) {
+    const auto found = tori.contacts(frame);
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(found[0].depth, 0.4 + tori.tolerance(frame));
+  }
+}
+
 // Its near side, which is 0.4 m deep, would add nothing to the far one behind it.
 TEST(Manifolds, MoveABodyOutByItsDeepestSide) {
   const Placed cubes{make_cube(0.6), make_cube(2), at(0.3, 0.1, -0.05), at(0, 0, 0)};

@@ -44,11 +44,12 @@ inline constexpr double kBeyondTie = 4;
 inline constexpr double kOpposes = -0.5;
 inline constexpr double kDetour = 2;
 
-// A pair of edges has to be shallower than a face by that many eps: a face holds at more than one
+// Depths that differ by no more eps are the same: of units that are as deep the first is cleared
+// first. A pair of edges has to be shallower than a face by as much: a face holds at more than one
 // place, and of two boxes at rest an edge's axis is shallower by rounding alone. Without it towers
 // stand up to 4 of 10 cubes. A factor in its place (ODE's dBoxBox has 1.05) holds them as well, but
 // is wrong by as much: angles off by 16 to 18 degrees at the 99th percentile for 1 to 2.
-inline constexpr double kEdgeTie = 4;
+inline constexpr double kDepthTie = 4;
 
 // Contacts of which the normals agree within acos 0.9 = 26 degrees are compared across them.
 inline constexpr double kSamePatch = 0.9;

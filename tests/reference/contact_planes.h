@@ -16,7 +16,7 @@ namespace ode_ext::test {
 struct ContactOptions {
   double prefer_faces = 1;  // a pair of edges has to be so many times shallower than a face
   std::size_t max_contacts = 16;
-  double edge_tie = kEdgeTie;     // [eps] and by that
+  double edge_tie = kDepthTie;    // [eps] and by that
   bool hold_along_edges = false;  // a pair of edges has all of the region in contact, not a point
   bool all_edge_pairs = true;     // of a whole region's faces; false: of those that cross alone
   bool walk = true;               // from the chosen axis to its neighbours until none is less

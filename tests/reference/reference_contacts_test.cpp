@@ -218,7 +218,7 @@ TEST(ReferenceContacts, MovingByTheDeepestContactPartsConvexBodies) {
     ++colliding;
     EXPECT_LE(found.manifolds.size(), 1u);  // convex bodies overlap in one convex region
     EXPECT_GT(deepest(found), 0.9 * way.depth);
-    EXPECT_LT(deepest(found), 1.001 * way.depth + (kEdgeTie + 3) * found.epsilon);
+    EXPECT_LT(deepest(found), 1.001 * way.depth + (kDepthTie + 3) * found.epsilon);
     pa.position = pa.position + found.contacts[0].depth * found.contacts[0].normal;
     const double left = shortest_way_out(sa, pa, sb, pb).depth;
     EXPECT_LT(left, 0.1 * way.depth + 2 * found.epsilon);

@@ -28,10 +28,11 @@ class UnitRegion {
   std::vector<ContactManifold> clear() {
     pair_edges();
     for (const std::size_t i : units_) propose(features_.units[i]);
-    for (const std::size_t k : by_least_cost()) {
-      if (cleared_[k]) continue;
-      const std::optional<std::size_t> plane = choose(features_.units[units_[k]]);
-      if (plane) take(*plane, k);
+    for (std::size_t k = 0; k < units_.size(); ++k) least_.push_back(least_cost(k));
+    while (const std::optional<std::size_t> k = deepest()) {
+      const std::optional<std::size_t> plane = choose(features_.units[units_[*k]]);
+      if (plane) take(*plane, *k);
+      cleared_[*k] = true;
     }
     return manifolds_;
   }
@@ -92,19 +93,22 @@ class UnitRegion {
     cleared_.push_back(false);
   }
 
-  // The units' places, that of the largest least cost first.
-  std::vector<std::size_t> by_least_cost() const {
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t k = 0; k < units_.size(); ++k) {
-      double least = kInfinity;
-      for (const std::size_t q : own_[k])
-        least = std::min(least, judge_.of_unit(planes_[q], features_.units[units_[k]]).judged);
-      order.emplace_back(-least, k);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<std::size_t> places;
-    for (const auto& [cost, k] : order) places.push_back(k);
-    return places;
+  // Of the planes that a unit proposes.
+  double least_cost(std::size_t k) const {
+    double least = kInfinity;
+    for (const std::size_t q : own_[k])
+      least = std::min(least, judge_.of_unit(planes_[q], features_.units[units_[k]]).judged);
+    return least;
+  }
+
+  // The waiting unit with the largest least cost; of those with as large a one the first.
+  std::optional<std::size_t> deepest() const {
+    double most = -kInfinity;
+    for (std::size_t k = 0; k < units_.size(); ++k)
+      if (!cleared_[k]) most = std::max(most, least_[k]);
+    for (std::size_t k = 0; k < units_.size(); ++k)
+      if (!cleared_[k] && least_[k] >= most - kDepthTie * pair_.epsilon()) return k;
+    return std::nullopt;
   }
 
   // Of all planes of the region the least judged.
@@ -227,6 +231,7 @@ class UnitRegion {
   std::vector<ContactPlane> planes_;
   std::map<decltype(ContactPlane{}.key()), std::size_t> numbers_;
   std::vector<std::vector<std::size_t>> own_;  // planes each unit proposes
+  std::vector<double> least_;                  // cost of those
   std::vector<bool> cleared_;
   std::vector<std::size_t> chosen_;
   std::vector<ContactManifold> manifolds_;
