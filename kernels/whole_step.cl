@@ -112,7 +112,7 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   scene.item = 0u;
   scene.item_count = 1u;
   __global const ox_list* each = scene.lists;
-  const uint n = each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity;
+  const ulong n = (ulong)each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity;
   const ox_share share = {meshlet_tasks + item * each[OX_LIST_MESHLETS].capacity,
                           meshlet_pairs + item * each[OX_LIST_MESHLET_PAIRS].capacity,
                           crossings + item * each[OX_LIST_CROSSINGS].capacity,

@@ -44,7 +44,8 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 
 // OX_REGION_CROSSED: it has crossings
-#define OX_REGION_VALLEY 2u  // one of its features has a valley
+#define OX_REGION_VALLEY 2u                // one of its features has a valley
+#define OX_REGION_OF(side) (4u << (side))  // one is of an edge or a vertex of that mesh
 
 // The members of a region, features of it; where it is not whole some begin a unit: a vertex, or a
 // chord, the stretch of an edge that is inside. Each field lies for itself (contacts/fields.h).
@@ -91,7 +92,7 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 #define OX_CANDIDATE_SIDE_KIND 8u  // OX_HIT_REVERSED, OX_HIT_SIDE, OX_HIT_POINT
 #define OX_CANDIDATE_VERTEX 9u     // of a point: the triangle of the source, over all triangles
 #define OX_CANDIDATE_TRIANGLE 10u
-#define OX_CANDIDATE_MANIFOLD 11u  // the plane that it is a contact of, among all
+#define OX_CANDIDATE_MANIFOLD 11u  // the plane that it is a contact of, among those of its region
 #define OX_CANDIDATE_REGION 12u    // OX_REGION_KEY
 #define OX_CANDIDATE_TAKEN 13u     // contacts/reduce.cl
 #define OX_CANDIDATE_FEATURE 14u   // two, of A and B: OX_OF

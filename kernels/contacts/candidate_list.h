@@ -11,7 +11,7 @@
 
 static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair,
                                          __global float* candidates) {
-  const ox_fields list = {candidates + OX_CANDIDATE_WORDS * scene->found[pair].first,
+  const ox_fields list = {candidates + (ulong)OX_CANDIDATE_WORDS * scene->found[pair].first,
                           scene->found[pair].features};
   return list;
 }

@@ -117,14 +117,20 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   float3 on_b = (float3)(0.0f);
   bool any_a = true;
   bool any_b = true;
-  if (ox_find_stretch(r, 0u, &ridge_a, &first, &last))
+  if (ox_find_stretch(r, 0u, &ridge_a, &first, &last)) {
     on_a = a + clamp(ox_dot(ox_plain_cross(d, v), n) / area, first, last) * u;
-  else
-    any_a = ox_find_farthest(r, 0u, n, &on_a);
-  if (ox_find_stretch(r, 1u, &ridge_b, &first, &last))
+  } else {
+    const uint farthest = ox_find_farthest(r, 0u, n);
+    any_a = farthest != OX_NONE;
+    if (any_a) on_a = ox_position_of(r, farthest);
+  }
+  if (ox_find_stretch(r, 1u, &ridge_b, &first, &last)) {
     on_b = b + clamp(ox_dot(ox_plain_cross(d, u), n) / area, first, last) * v;
-  else
-    any_b = ox_find_farthest(r, 1u, n, &on_b);
+  } else {
+    const uint farthest = ox_find_farthest(r, 1u, n);
+    any_b = farthest != OX_NONE;
+    if (any_b) on_b = ox_position_of(r, farthest);
+  }
   if (!any_a) on_a = on_b;
   if (!any_b) on_b = on_a;
   ox_touch touch;

@@ -48,12 +48,14 @@ static void ox_choose_parts(ox_manifold* m) {
 
 // A sheet has no inside: what is behind it is what its ray meets it for, on whichever side. Each
 // vertex is cleared by the face that it is behind. Where there is none, the edge that goes through
-// with its shorter end the least is drawn back.
+// the sheet with its shorter end the least is drawn back; where there is none of those either, the
+// edge of the sheet that goes through the other mesh the least.
 static void ox_choose_sheet(ox_manifold* m) {
   const ox_region_view* r = m->region;
   bool any = false;
-  uint best = OX_NONE;
-  ox_plane_choice least = ox_no_choice();
+  // Of edges through a sheet, and through a closed mesh.
+  uint best[2] = {OX_NONE, OX_NONE};
+  ox_plane_choice least[2] = {ox_no_choice(), ox_no_choice()};
   for (uint k = 0u; k < r->count; ++k) {
     __global const ox_feature* f = ox_feature_of(r, k);
     if (f->triangle == OX_NONE) continue;
@@ -77,27 +79,32 @@ static void ox_choose_sheet(ox_manifold* m) {
       continue;
     }
     __global const ox_mesh* target = r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
-    if ((target->flags & OX_MESH_CLOSED) != 0u) continue;
-    __global const ox_edge* edge = r->scene->edges + f->source;
-    const float3 from = ox_vertex_of(r->scene, r->pair, side, edge->vertex[0]);
-    const float3 to = ox_vertex_of(r->scene, r->pair, side, edge->vertex[1]);
-    const float3 d = to - from;
-    float depth =
-        ox_plane_depth(&choice.plane, side, f->t * f->t < 0.25f * ox_dot(d, d) ? from : to);
-    if (depth < 0.0f) {
-      depth = -depth;
-      choice.plane.normal = -choice.plane.normal;
+    const bool is_solid = (target->flags & OX_MESH_CLOSED) != 0u;
+    if (is_solid) {  // as deep as the other end of the chord
+      const float3 end = ox_vector_of(&r->members, OX_MEMBER_END, k);
+      choice.depth = ox_max(ox_plane_depth(&choice.plane, side, end), 0.0f);
+    } else {
+      __global const ox_edge* edge = r->scene->edges + f->source;
+      const float3 from = ox_vertex_of(r->scene, r->pair, side, edge->vertex[0]);
+      const float3 to = ox_vertex_of(r->scene, r->pair, side, edge->vertex[1]);
+      const float3 d = to - from;
+      const float depth =
+          ox_plane_depth(&choice.plane, side, f->t * f->t < 0.25f * ox_dot(d, d) ? from : to);
+      if (depth < 0.0f) choice.plane.normal = -choice.plane.normal;
+      choice.depth = ox_min(fabs(depth), target->reach);
     }
     choice.plane.id[1] = f->source;  // of one face the first edge
-    choice.depth = choice.judged = ox_min(depth, target->reach);
-    if (!ox_is_better_choice(&choice, &least)) continue;
-    least = choice;
-    best = k;
+    choice.judged = choice.depth;
+    if (!ox_is_better_choice(&choice, least + is_solid)) continue;
+    least[is_solid] = choice;
+    best[is_solid] = k;
   }
-  if (any || best == OX_NONE) return;
-  __global const ox_feature* f = ox_feature_of(r, best);
-  ox_add_candidate(m, &least, ox_side_of(f->flags), vload3(0, f->position), least.depth,
-                   OX_HIT_POINT, f->at[0], f->triangle, ox_touch_of(f, f->triangle));
+  const uint through = best[0] != OX_NONE ? 0u : 1u;
+  if (any || best[through] == OX_NONE) return;
+  __global const ox_feature* f = ox_feature_of(r, best[through]);
+  ox_add_candidate(m, least + through, ox_side_of(f->flags), vload3(0, f->position),
+                   least[through].depth, OX_HIT_POINT, f->at[0], f->triangle,
+                   ox_touch_of(f, f->triangle));
 }
 
 static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* features,
@@ -124,7 +131,7 @@ static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* f
     manifold.region = &view;
     manifold.candidates = ox_candidates_of(scene, view.pair, candidates);
     manifold.count = &scene->found[view.pair].candidates;
-    manifold.manifold = i * OX_MOST_PLANES;
+    manifold.manifold = 0u;
     const uint mesh_flags = scene->meshes[scene->pairs[view.pair].mesh[0]].flags |
                             scene->meshes[scene->pairs[view.pair].mesh[1]].flags;
     if ((mesh_flags & OX_MESH_TWO_SIDED) != 0u) {

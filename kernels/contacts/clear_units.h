@@ -123,13 +123,11 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
 
 static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
                                  const ox_plane_choice* choice) {
-  const float3 end = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
-  return ox_stays_inside(r, seed->side, ox_position_of(r, seed->unit), &choice->plane,
-                         choice->depth) ||
-         ox_stays_inside(r, seed->side, end, &choice->plane, choice->depth);
+  return ox_stays_inside(r, seed->side, ox_middle_of(r, seed->unit), &choice->plane, choice->depth);
 }
 
-// The best plane for a unit. Where one does not separate it, all of the body has to pass it.
+// The best plane for a unit. Where one does not separate it, the way along its normal is past all
+// of both bodies.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_parting_move* before) {
   const ox_seed seed = ox_seed_of(r, unit, before);
@@ -140,9 +138,8 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
     if (!ox_unit_stays(r, &seed, &choice)) return choice;
     ox_plane_choice repriced = choice;
-    const float depth = ox_depth_of_body(r, &choice.plane, seed.side, INFINITY);
-    repriced.judged = ox_detour(before, &choice.plane) *
-                      (ox_max(choice.depth, depth) + ox_edge_tie(r, &choice.plane));
+    const float depth = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
+    repriced.judged = ox_detour(before, &choice.plane) * (depth + ox_edge_tie(r, &choice.plane));
     if (ox_is_better_choice(&repriced, &of_body)) of_body = repriced;
   }
   return of_body;

@@ -256,7 +256,7 @@ static void ox_count_members(const ox_scene* scene, __global ox_feature* feature
     features[i].region = region;
     atomic_inc(&regions[region].count);
     const uint known = regions[region].flags;
-    uint says = ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED;
+    uint says = OX_REGION_OF(ox_side_of(flags)) | (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED);
     if ((known & OX_REGION_VALLEY) == 0u && ox_is_in_valley(scene, features + i))
       says |= OX_REGION_VALLEY;
     if ((known & says) != says) atomic_or(&regions[region].flags, says);
@@ -348,7 +348,9 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
     __global ox_face* face = faces + i;
     if (face->key == OX_NONE) continue;
     __global ox_region* region = regions + (face->owner >> 1);
-    const ox_plane plane = ox_plane_of_face(scene, region->pair, face->key & 1u, face->triangle);
+    const uint side = face->key & 1u;
+    if (!ox_parts_by_faces_of(scene, region->pair, region->flags, side)) continue;
+    const ox_plane plane = ox_plane_of_face(scene, region->pair, side, face->triangle);
     face->plane =
         ox_add_plane(region, planes, &plane, (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }

@@ -15,7 +15,7 @@ typedef struct {
 } ox_fields;
 
 static inline __global float* ox_floats_of(const ox_fields* fields, uint field) {
-  return fields->words + field * fields->room;
+  return fields->words + (ulong)field * fields->room;
 }
 
 static inline __global uint* ox_words_of(const ox_fields* fields, uint field) {

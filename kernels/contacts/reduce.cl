@@ -67,11 +67,11 @@ static void ox_note_taken(const ox_fields* list, uint count, uint block, uint ta
   const int region = (int)ox_words_of(list, OX_CANDIDATE_REGION)[taken];
   const int manifold = (int)ox_words_of(list, OX_CANDIDATE_MANIFOLD)[taken];
   const ox_ints none = (ox_ints)(0);
-  b->taken |=
-      OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block) == region ? (ox_ints)(OX_TAKEN_REGION) : none;
-  b->taken |= OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == manifold
-                  ? (ox_ints)(OX_TAKEN_MANIFOLD)
-                  : none;
+  const ox_ints of_region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block) == region;
+  const ox_ints of_manifold =
+      of_region & (OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == manifold);
+  b->taken |= of_region ? (ox_ints)(OX_TAKEN_REGION) : none;
+  b->taken |= of_manifold ? (ox_ints)(OX_TAKEN_MANIFOLD) : none;
   float distance2[OX_VECTOR_WIDTH];
   int flags[OX_VECTOR_WIDTH];
   ox_store(b->distance2, 0, distance2);

@@ -31,6 +31,11 @@ static inline float3 ox_position_of(const ox_region_view* r, uint k) {
   return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);
 }
 
+// Of a chord; of a vertex inside its position.
+static inline float3 ox_middle_of(const ox_region_view* r, uint k) {
+  return 0.5f * (ox_position_of(r, k) + ox_vector_of(&r->members, OX_MEMBER_END, k));
+}
+
 static inline uint ox_flags_of(const ox_region_view* r, uint k) {
   return ox_words_of(&r->members, OX_MEMBER_FLAGS)[k];
 }
@@ -89,7 +94,13 @@ static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* pl
   return above + ox_reach_along(r->scene, r->pair, side, down, limit - above) + tie;
 }
 
-// The same of the bodies that go on beyond the region; 0 if neither does.
+// How far A has to go along a direction to be past all of B [m].
+static inline float ox_depth_of_both(const ox_region_view* r, float3 normal) {
+  return ox_reach_along(r->scene, r->pair, 0u, -normal, INFINITY) +
+         ox_reach_along(r->scene, r->pair, 1u, normal, INFINITY);
+}
+
+// How deep the bodies are that go on beyond the region; 0 if neither does.
 static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float limit) {
   float depth = 0.0f;
   for (uint side = 0u; side < 2u && !(depth > limit); ++side)

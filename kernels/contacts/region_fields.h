@@ -7,14 +7,24 @@
 #include "contacts/plane.h"
 
 static inline ox_fields ox_members_of(__global const ox_region* region, __global float* members) {
-  const ox_fields list = {members + OX_MEMBER_WORDS * region->first, region->count};
+  const ox_fields list = {members + (ulong)OX_MEMBER_WORDS * region->first, region->count};
   return list;
 }
 
 static inline ox_fields ox_planes_of(__global const ox_region* region, __global float* planes) {
-  const ox_fields list = {planes + OX_PLANE_WORDS * OX_PLANES_PER_FEATURE * region->first,
+  const ox_fields list = {planes + (ulong)OX_PLANE_WORDS * OX_PLANES_PER_FEATURE * region->first,
                           OX_PLANES_PER_FEATURE * region->count};
   return list;
+}
+
+// Whether faces of mesh `side` are planes for a region with these flags. In front of those of an
+// open mesh is nothing that is to be moved where the other has no edge and no vertex in it: a
+// card that stands in a block cuts the block's face, and is as deep in it as the card's own edges
+// are.
+static inline bool ox_parts_by_faces_of(const ox_scene* scene, uint pair, uint flags, uint side) {
+  const uint mesh = scene->pairs[pair].mesh[side];
+  return (scene->meshes[mesh].flags & OX_MESH_CLOSED) != 0u ||
+         (flags & OX_REGION_OF(1u - side)) != 0u;
 }
 
 static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane* plane,

@@ -60,12 +60,11 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
   if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
-  const float3 middle = 0.5f * (ox_position_of(r, k) + ox_vector_of(&r->members, OX_MEMBER_END, k));
   ox_plane_choice own;
   own.plane = ox_own_plane(r, k);
   own.depth = own.judged = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
   ox_plane_choice nearest;
-  nearest.plane = ox_nearest_face(r, side, middle, own.depth);
+  nearest.plane = ox_nearest_face(r, side, ox_middle_of(r, k), own.depth);
   nearest.depth = nearest.judged = ox_unit_depth(r, k, &nearest.plane);
   if (nearest.depth == INFINITY || !ox_is_better_choice(&nearest, &own)) return;
   ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.plane.id[0] | OX_OWN_NEAREST;

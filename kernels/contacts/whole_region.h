@@ -271,6 +271,7 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
   }
   if (from.kind == OX_PLANE_EDGES)
     for (uint side = 0u; side < 2u; ++side) {
+      if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, side)) continue;
       const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, side, from.id[side]);
       for (uint k = 0u; k < 2u; ++k) {
         if (ridge.face[k] == OX_NONE) continue;
@@ -304,10 +305,9 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   return least;
 }
 
-// The point of mesh `side` in the region that is farthest past a plane; false: the region has none,
+// Of the members that are points of mesh `side` the farthest past a plane; OX_NONE: there is none,
 // as of what contains the other mesh.
-static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 normal,
-                                    float3* point) {
+static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 normal) {
   const float3 past = side == 0u ? -normal : normal;
   uint best = OX_NONE;
   float farthest = -INFINITY;
@@ -319,9 +319,7 @@ static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 n
     farthest = here;
     best = k;
   }
-  if (best == OX_NONE) return false;
-  *point = ox_position_of(r, best);
-  return true;
+  return best;
 }
 
 // Where a body goes on beyond its region the faces at features may be far from the nearest: those
@@ -329,30 +327,31 @@ static inline bool ox_find_farthest(const ox_region_view* r, uint side, float3 n
 static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
                                   ox_plane_choice* best) {
   if (!(best->judged > best->depth + ox_edge_tie(r, &best->plane))) return;
+  const float bound = best->judged;  // the same for all, in whatever order they come
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
     if ((flags & OX_MEMBER_BEGINS) == 0u) continue;
-    const float3 middle =
-        0.5f * (ox_position_of(r, k) + ox_vector_of(&r->members, OX_MEMBER_END, k));
-    const ox_plane plane = ox_nearest_face(r, ox_side_of(flags), middle, best->judged);
+    const ox_plane plane = ox_nearest_face(r, ox_side_of(flags), ox_middle_of(r, k), bound);
     ox_try_whole(r, &plane, search, best);
   }
 }
 
-// Whether what of a body goes first or last stays inside the other where a plane takes it.
+// Whether what of a body goes first or last stays inside the other where a plane takes it. A
+// crossing says nothing: it is on the surface, and where it goes along a wall it stays on it.
 static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice* choice) {
   for (uint side = 0u; side < 2u; ++side)
-    for (uint end = 0u; end < 2u; ++end) {
-      float3 p;
+    for (uint end = 0u; end < 2u && ox_clears_side(&choice->plane, side); ++end) {
       const float3 normal = end == 0u ? choice->plane.normal : -choice->plane.normal;
-      if (ox_clears_side(&choice->plane, side) && ox_find_farthest(r, side, normal, &p) &&
-          ox_stays_inside(r, side, p, &choice->plane, choice->depth))
+      const uint k = ox_find_farthest(r, side, normal);
+      if (k != OX_NONE &&
+          ox_stays_inside(r, side, ox_middle_of(r, k), &choice->plane, choice->depth))
         return true;
     }
   return false;
 }
 
-// The least plane. Where one does not separate them, all of the body has to pass it.
+// The least plane. Where one does not separate the bodies, the way along its normal is past all of
+// both.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
@@ -364,9 +363,7 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;
     search.refused[search.refused_count] = best.plane.normal;
-    for (uint side = 0u; side < 2u; ++side)
-      if (ox_clears_side(&best.plane, side))
-        best.judged = ox_max(best.judged, ox_depth_of_body(r, &best.plane, side, INFINITY));
+    best.judged = ox_max(best.judged, ox_depth_of_both(r, best.plane.normal));
     if (ox_is_better_choice(&best, &of_body)) of_body = best;
   }
   return of_body;

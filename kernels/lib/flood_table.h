@@ -52,7 +52,7 @@ static inline ox_flood_table ox_empty_table(const ox_scene* scene, __global uint
 
 // The word of a key: where it is, or would be.
 static inline uint ox_find_key(__global const uint* words, const ox_flood_table* table, uint key) {
-  uint place = key * 0x9e3779b1u >> 7;  // multiplicative (Knuth)
+  uint place = mul_hi(key * 0x9e3779b1u, table->places);  // multiplicative (Knuth)
   for (;; ++place) {
     const uint word = table->first + 2u * (place & (table->places - 1u));
     if (words[word] == key || words[word] == 0u) return word;

@@ -93,6 +93,43 @@ TEST_F(Sheet, MeetOtherSheetsWithinTheirThickness) {
   EXPECT_TRUE(contacts(pair_of(sheet, at(0.01, 0.02, -0.025), other)).empty());
 }
 
+// No vertex is in the plate, and none of the plate's edges goes through the sheet.
+TEST_F(Sheet, WhoseEdgesAloneGoThroughAPlateAreDrawnBack) {
+  const auto plate = rigid(make_box({6, 6, 0.01}));
+  for (const double up : {0.02, -0.02}) {  // edges are 0.0625 m long
+    const auto found = contacts(pair_of(sheet, turned({1, 0, 0}, 1.5, {0, 0, up}), plate));
+    ASSERT_FALSE(found.empty());
+    EXPECT_NEAR(std::fabs(found[0].normal.z), 1, 1e-6);
+    EXPECT_NEAR(found[0].depth, 0.01, 1e-4);
+  }
+}
+
+// Of a sheet that lies on many posts there is a region of each, and more contacts in a region than
+// planes a rigid one may have.
+TEST_F(Sheet, KeepTheSameFewContactsInWhateverCompany) {
+  TestMesh posts;
+  for (int i = 0; i < 6; ++i)
+    posts = merged(posts, moved(make_box({0.2, 0.5, 1}), {0.3 * i - 0.75, 0, -0.5 + 0.002 * i}));
+  const auto ground = rigid(posts);
+  const Scene alone = pair_of(sheet, turned({1, 2, 0}, 0.002, {0.01, 0.02, 0}), ground);
+  Scene in_company = alone;
+  in_company.objects.push_back({collider_pose(turned({1, 0, 0}, 0.003)), 0, 3});
+  in_company.pairs = {{2, 1}, {0, 1}};
+  ColliderOptions options;
+  options.max_contacts_deformable = 24;
+  Collider whole(options);
+  options.whole_steps = false;
+  Collider by_kernels(options);
+  options.work_group_size = 1;
+  Collider one_by_one(options);
+  const auto expected = bits_of(whole.collide(alone, nullptr))[0];
+  ASSERT_EQ(expected.size(), 24u);
+  for (Collider* const any : {&whole, &by_kernels, &one_by_one}) {
+    EXPECT_EQ(bits_of(any->collide(alone, nullptr))[0], expected);
+    EXPECT_EQ(bits_of(any->collide(in_company, nullptr))[1], expected);
+  }
+}
+
 TEST_F(Sheet, GiveTheSameContactsTheOtherWayRound) {
   const Scene scene = pair_of(sheet, turned({1, 2, 0}, 0.3, {0.1, 0.05, 0.3}), cube);
   const auto one = contacts(scene);

@@ -126,6 +126,47 @@ TEST(SeparatingPlanes, DoNotTakeABodyForInsideByACornerOnTheSurface) {
   }
 }
 
+// Through the near side of its part the rod is out by half the way, and in the other part.
+TEST(SeparatingPlanes, DoNotLeadARodFromOnePartIntoAnother) {
+  const TestMesh parts =
+      merged(moved(make_box({1, 2, 4}), {0.5, 0, 2}), moved(make_box({1.8, 2, 4}), {2.1, 0, 2}));
+  const TestMesh rod = make_box({0.25, 0.2, 10});
+  for (const double roll : {0.05, 0.4, 3.0})
+    for (const double lean : {-0.01, 0.0, 0.01}) {
+      TestPose pose = composed(turned({0, 1, 0}, lean), turned({0, 0, 1}, roll));
+      pose.position = {0.7, 0.03, 2};
+      for (const bool is_first : {true, false}) {
+        const auto contacts = contacts_of(is_first ? one_pair(rod, pose, parts, at(0, 0, 0))
+                                                   : one_pair(parts, at(0, 0, 0), rod, pose));
+        ASSERT_FALSE(contacts.empty()) << roll << " " << lean;
+        EXPECT_LT((is_first ? 1 : -1) * contacts[0].normal.x, 0.5) << roll << " " << lean;
+      }
+    }
+}
+
+// Of one layer: its own faces have nothing of the block in front of them.
+TEST(SeparatingPlanes, LeadACardThatStandsInABlockUp) {
+  const TestMesh block = moved(make_box({1, 1, 1}), {0, 0, -0.5});
+  for (const TestMesh& card : {make_sheet(0.2, 1), make_sheet(0.2, 6), make_triangle(0.2)})
+    for (const double lean : {0.0, 0.3})
+      for (const double roll : {0.0, 0.7}) {
+        TestPose pose = composed(
+            turned({0, 0, 1}, 0.05),
+            composed(turned({1, 0, 0}, std::acos(-1.0) / 2 - lean), turned({0, 0, 1}, roll)));
+        double lowest = 0;
+        for (std::size_t i = 0; i < card.vertices.size() / 3; ++i)
+          lowest = std::min(lowest, rotate(pose, card.vertex(i))[2]);
+        pose.position = {0.01, 0.02, -0.03 - lowest};
+        for (const bool is_first : {true, false}) {
+          const auto contacts = contacts_of(is_first ? one_pair(card, pose, block, at(0, 0, 0))
+                                                     : one_pair(block, at(0, 0, 0), card, pose));
+          ASSERT_FALSE(contacts.empty());
+          EXPECT_NEAR(contacts[0].depth, 0.03, 1e-5);
+          EXPECT_NEAR(contacts[0].normal.z, is_first ? 1 : -1, 1e-6);
+        }
+      }
+}
+
 TEST(SeparatingPlanes, AreThereOfBodiesInOnePlace) {
   for (const TestMesh& mesh : {make_cube(1), make_cube(1, 3), make_torus(0.5, 0.2, 24, 12),
                                make_icosphere(0.5, 2), make_l(1), make_cone(0.5, 1, 16)}) {

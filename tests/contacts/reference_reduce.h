@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "contacts/field_records.h"
@@ -72,7 +73,7 @@ class ReferenceReduce {
 
   void take(std::size_t i) {
     regions_.insert(left_[i].region);
-    manifolds_.insert(left_[i].manifold);
+    manifolds_.emplace(left_[i].region, left_[i].manifold);
     result_.taken.push_back(left_[i]);
     left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -91,8 +92,9 @@ class ReferenceReduce {
     return take_first([&](const Candidate& c) { return !regions_.contains(c.region); });
   }
   bool take_of_new_manifold() {
-    return take_first(
-        [&](const Candidate& c) { return !manifolds_.contains(c.manifold) && is_apart(c); });
+    return take_first([&](const Candidate& c) {
+      return !manifolds_.contains({c.region, c.manifold}) && is_apart(c);
+    });
   }
   bool take_farthest() {
     std::size_t best = left_.size();
@@ -116,7 +118,8 @@ class ReferenceReduce {
   }
 
   std::vector<Candidate> left_;
-  std::set<ox_u32> regions_, manifolds_;
+  std::set<ox_u32> regions_;
+  std::set<std::pair<ox_u32, ox_u32>> manifolds_;  // of a region each
   float merge_;
   double size_;
   Reduction result_;

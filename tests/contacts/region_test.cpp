@@ -176,12 +176,14 @@ TEST(Regions, AreAsManyAsPostsInAFaceHoweverManyTheyAre) {
     EXPECT_EQ(records.regions.size(), static_cast<std::size_t>(count));
     EXPECT_EQ(records.hits.size(), 4u * static_cast<unsigned>(count));
     // A post each, and what is told of convex bodies: its surface is crossed, and has no valley.
+    // All edges and vertices are the posts'.
     std::map<int, ox_u32> region_of;
     for (const ox_feature& f : records.features)
       EXPECT_EQ(region_of.emplace(static_cast<int>(std::round(f.position[0] / 0.2f)), f.region)
                     .first->second,
                 f.region);
-    for (const ox_region& region : records.regions) EXPECT_EQ(region.flags, OX_REGION_CROSSED);
+    for (const ox_region& region : records.regions)
+      EXPECT_EQ(region.flags, OX_REGION_CROSSED | OX_REGION_OF(0u));
   }
 }
 
