@@ -211,6 +211,9 @@ if(TARGET falling_objects)
   add_test(NAME same_contacts_in_every_run
            COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/same_hash_test.sh $<TARGET_FILE:falling_objects>)
   set_tests_properties(same_contacts_in_every_run PROPERTIES TIMEOUT 120)
+  add_test(NAME refusals_of_falling_objects
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/refusals_test.sh $<TARGET_FILE:falling_objects>)
+  set_tests_properties(refusals_of_falling_objects PROPERTIES TIMEOUT 120)
 endif()
 
 if(TARGET falling_objects AND TARGET ode_ext-replay)

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 #include <map>
+#include <new>
 
 #include "scene_file/scene_file.h"
 #include "scene_file/scene_list.h"
@@ -167,6 +168,9 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
     parsed.exit_code = app.exit(e, out, err) == 0 ? kExitOk : kExitUsage;
   } catch (const SceneFileError& e) {
     err << e.what() << '\n';
+    parsed.exit_code = kExitUsage;
+  } catch (const std::bad_alloc&) {
+    err << "not enough memory for the scene '" << o.scene << "'\n";
     parsed.exit_code = kExitUsage;
   }
   return parsed;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -134,7 +135,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
 }
 
 template <class Work>
-int exit_code_of(Work work) {
+int exit_code_of(const Options& options, Work work) {
   try {
     const OdeSession session;
     return work();
@@ -143,6 +144,9 @@ int exit_code_of(Work work) {
     return kExitNoDevice;
   } catch (const UsageError& e) {
     std::cerr << e.what() << '\n';
+    return kExitUsage;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "not enough memory for " << options.objects << " objects\n";
     return kExitUsage;
   } catch (const std::exception& e) {
     std::cerr << e.what() << '\n';
@@ -153,11 +157,11 @@ int exit_code_of(Work work) {
 }  // namespace
 
 int run(const Options& options, const MakeSpectator& watch) {
-  return exit_code_of([&] { return run_scene(options, watch); });
+  return exit_code_of(options, [&] { return run_scene(options, watch); });
 }
 
 int run_window(const Options& options, const std::function<int(const Options&)>& show) {
-  return exit_code_of([&] { return show(options); });
+  return exit_code_of(options, [&] { return show(options); });
 }
 
 }  // namespace falling_objects

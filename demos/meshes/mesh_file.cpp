@@ -12,6 +12,39 @@
 #include "meshes/shapes.h"
 
 namespace falling_objects {
+namespace {
+
+// The library leaves alone what is less across [m] (README, "Limits").
+constexpr double kLeastExtent = 1.0 / (1 << 30);
+// Of a closed mesh, a share of the cube of its largest extent. Vertices are floats: a needle whose
+// thickness is rounding, 6e-8 of its length, has 4e-15. ODE aborts where a mass is not positive,
+// and where dividing by it gives no number.
+constexpr double kLeastVolume = 1e-13;
+
+}  // namespace
+
+void check_has_volume(const TriangleMesh& mesh, const std::string& path) {
+  Point low = mesh.vertex(0), high = low;
+  for (std::size_t i = 1; i < mesh.vertex_count(); ++i) {
+    const Point p = mesh.vertex(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  if (!std::isfinite(extent)) throw std::runtime_error("the mesh '" + path + "' is too large");
+  TriangleMesh unit;  // far from the origin its volume would be a difference of large numbers
+  unit.indices = mesh.indices;
+  for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
+    const Point p = mesh.vertex(i);
+    unit.add_vertex({(p[0] - low[0]) / extent, (p[1] - low[1]) / extent, (p[2] - low[2]) / extent});
+  }
+  const bool is_flat = is_closed(mesh) && !(std::abs(signed_volume(unit)) >= kLeastVolume);
+  if (!(extent >= kLeastExtent) || is_flat) {
+    throw std::runtime_error("the mesh '" + path + "' is too small or too flat to have a volume");
+  }
+}
 
 TriangleMesh read_mesh_file(const std::string& path) {
   Assimp::Importer importer;
@@ -51,6 +84,7 @@ TriangleMesh read_mesh_file(const std::string& path) {
   if (mesh.triangle_count() == 0) {
     throw std::runtime_error("the mesh '" + path + "' holds no triangle");
   }
+  check_has_volume(mesh, path);
   if (is_closed(mesh) && signed_volume(mesh) < 0) turn_inside_out(mesh);
   return mesh;
 }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 #include "makers/catalog.h"
@@ -14,6 +16,8 @@
 
 namespace falling_objects {
 namespace {
+
+constexpr int kMostBodies = 1000000;  // of a [[body]]; as many as [drop] takes
 
 std::vector<std::string> shape_names() {
   std::vector<std::string> names;
@@ -57,9 +61,15 @@ std::vector<Site> read_sites(TomlTable& table) {
   const std::vector<double> counts =
       table.optional_numbers("count", 3).value_or(std::vector<double>{1, 1, 1});
   for (const double count : counts) {
-    if (!(count >= 1 && count <= 1e6 && count == std::floor(count))) {
+    if (!(count >= 1 && count == std::floor(count))) {
       table.fail("count", "'count' must be three whole numbers from 1 on");
     }
+  }
+  if (const double bodies = counts[0] * counts[1] * counts[2]; bodies > kMostBodies) {
+    std::ostringstream text;
+    text << "'count' makes " << std::fixed << std::setprecision(0) << bodies << " bodies, at most "
+         << kMostBodies;
+    table.fail("count", text.str());
   }
   if (layers > 0 && table.has("count")) table.fail("pyramid", "'pyramid' goes without 'count'");
   std::vector<Site> sites;
@@ -106,11 +116,12 @@ void BodyReader::read_mesh(const std::string& name, TomlTable& table) {
     TriangleMesh mesh;
     try {
       mesh = read_mesh_file(path.string());
+      center_on_mass(mesh);
+      scale_mesh(mesh, radius ? *radius / bounding_radius(mesh) : scale);
+      check_has_volume(mesh, path.string());
     } catch (const std::runtime_error& e) {
       table.fail("file", e.what());
     }
-    center_on_mass(mesh);
-    scale_mesh(mesh, radius ? *radius / bounding_radius(mesh) : scale);
     add_mesh(name, std::move(mesh));
   } else {
     const std::string shape = table.text("shape");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -101,6 +102,35 @@ TEST_F(MeshFile, RefusesAMeshWithoutTriangles) {
   for (const char* text : {"", "v 0 0 0\n", "v 0 0 0\nv 1 0 0\nl 1 2\n"}) {
     const std::string path = write_file("empty.obj", text);
     EXPECT_NE(message_of(path).find("empty.obj"), std::string::npos) << text;
+  }
+}
+
+// A tetrahedron in the corner at x, with edges of this length along the axes.
+std::string tetrahedron(double edge, double x) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "v " << x << " 0 0\nv " << x + edge << " 0 0\nv " << x << ' ' << edge << " 0\nv " << x
+       << " 0 " << edge << "\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  return text.str();
+}
+
+TEST_F(MeshFile, RefusesAMeshThatIsTooSmallOrTooFlatForAMass) {
+  for (const std::string& text :
+       {tetrahedron(1e-12, 0), tetrahedron(1e-20, 0), tetrahedron(1e-7, 5),
+        std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 0\n"
+                    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")}) {
+    const std::string path = write_file("small.obj", text);
+    EXPECT_EQ(message_of(path), "the mesh '" + path + "' is too small or too flat to have a volume")
+        << text;
+  }
+}
+
+TEST_F(MeshFile, TakesAMeshThatIsSmallOrThinOrFarAway) {
+  for (const std::string& text : {tetrahedron(1e-7, 0), tetrahedron(1, 1e5), tetrahedron(1e30, 0),
+                                  std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 1e-5\n"
+                                              "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")}) {
+    const std::string path = write_file("small.obj", text);
+    EXPECT_EQ(message_of(path), "") << text;
   }
 }
 
