@@ -100,6 +100,22 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, const ox_
   return *first <= *last;
 }
 
+// Where an edge of mesh `side` passes one of the other, `part` of its length along it, on the
+// stretch of its line that is in the region; else what of its mesh is farthest past the plane.
+// False: the region has nothing of it.
+static inline bool ox_find_passing(const ox_region_view* r, uint side, const ox_ridge* ridge,
+                                   float part, float3 normal, float3* point) {
+  float first, last;
+  if (ox_find_stretch(r, side, ridge, &first, &last)) {
+    *point = ridge->from + clamp(part, first, last) * (ridge->to - ridge->from);
+    return true;
+  }
+  const uint farthest = ox_find_farthest(r, side, normal);
+  if (farthest == OX_NONE) return false;
+  *point = ox_position_of(r, farthest);
+  return true;
+}
+
 // Two edges: midway between them, where they pass one another seen along their normal.
 static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choice* choice) {
   const ox_region_view* r = m->region;
@@ -112,25 +128,12 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   const float3 n = choice->plane.normal;
   const float area = ox_dot(ox_plain_cross(u, v), n);
   const float3 d = b - a;
-  float first, last;
   float3 on_a = (float3)(0.0f);
   float3 on_b = (float3)(0.0f);
-  bool any_a = true;
-  bool any_b = true;
-  if (ox_find_stretch(r, 0u, &ridge_a, &first, &last)) {
-    on_a = a + clamp(ox_dot(ox_plain_cross(d, v), n) / area, first, last) * u;
-  } else {
-    const uint farthest = ox_find_farthest(r, 0u, n);
-    any_a = farthest != OX_NONE;
-    if (any_a) on_a = ox_position_of(r, farthest);
-  }
-  if (ox_find_stretch(r, 1u, &ridge_b, &first, &last)) {
-    on_b = b + clamp(ox_dot(ox_plain_cross(d, u), n) / area, first, last) * v;
-  } else {
-    const uint farthest = ox_find_farthest(r, 1u, n);
-    any_b = farthest != OX_NONE;
-    if (any_b) on_b = ox_position_of(r, farthest);
-  }
+  const bool any_a =
+      ox_find_passing(r, 0u, &ridge_a, ox_dot(ox_plain_cross(d, v), n) / area, n, &on_a);
+  const bool any_b =
+      ox_find_passing(r, 1u, &ridge_b, ox_dot(ox_plain_cross(d, u), n) / area, n, &on_b);
   if (!any_a) on_a = on_b;
   if (!any_b) on_b = on_a;
   ox_touch touch;
