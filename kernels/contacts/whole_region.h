@@ -205,12 +205,16 @@ static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint secon
   return scene->facets[first] == facet || (second != OX_NONE && scene->facets[second] == facet);
 }
 
-// The edges of the facet of a triangle, as far as a walk over so many of its triangles finds them.
+// Triangles of a facet that are walked over, so many at most. A quad has two. With 64 of them the
+// bowl of a thousand objects took a quarter longer, and no contact that is measured was truer.
+#define OX_MOST_OF_FACET 4u
+
+// The edges of the facet of a triangle, as far as a walk over it from there finds them.
 static inline void ox_add_rim_near(const ox_region_view* r, uint side, uint triangle,
                                    ox_edge_set* set) {
   const ox_scene* scene = r->scene;
   const uint first = scene->meshes[scene->pairs[r->pair].mesh[side]].triangle_first;
-  uint walked[OX_MOST_EDGES];
+  uint walked[OX_MOST_OF_FACET];
   walked[0] = triangle;
   uint count = 1u;
   for (uint i = 0u; i < count; ++i)
@@ -223,7 +227,7 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint side, uint tria
       }
       uint at = 0u;
       while (at < count && walked[at] != next) ++at;
-      if (at == count && count < OX_MOST_EDGES) walked[count++] = next;
+      if (at == count && count < OX_MOST_OF_FACET) walked[count++] = next;
     }
 }
 
