@@ -128,16 +128,30 @@ class Probe {
 
 using Probes = std::array<const Probe*, 4>;
 
-// The first place, of those on boundaries of `size`, where `has` holds in every probe.
-template <class Has>
-std::optional<std::size_t> place_of(const Probes& probes, std::size_t size, Has has) {
-  for (std::size_t place = 0; place + size <= kSearched; place += size) {
-    bool is_there = true;
-    for (const Probe* probe : probes) is_there = is_there && (probe->*has)(place);
-    if (is_there) return place;
+// Finds places one after the other, each in what those before it have left: a byte of an address
+// may be 1 or 0 in every probe, as its mesh is single or not.
+class Search {
+ public:
+  explicit Search(const Probes& probes) : probes_(probes) {}
+
+  // The first place, of those on boundaries of `size`, where `has` holds in every probe.
+  template <class Has>
+  std::optional<std::size_t> place_of(std::size_t size, Has has) {
+    for (std::size_t place = 0; place + size <= kSearched; place += size) {
+      bool is_there = true;
+      for (std::size_t i = 0; i < size; ++i) is_there = is_there && !is_taken_[place + i];
+      for (const Probe* probe : probes_) is_there = is_there && (probe->*has)(place);
+      if (!is_there) continue;
+      for (std::size_t i = 0; i < size; ++i) is_taken_[place + i] = true;
+      return place;
+    }
+    return std::nullopt;
   }
-  return std::nullopt;
-}
+
+ private:
+  const Probes& probes_;
+  std::array<bool, kSearched> is_taken_{};
+};
 
 std::optional<Layout> find_layout() {
   const Probe single(37, 41, true), other_single(43, 47, true);
@@ -147,13 +161,14 @@ std::optional<Layout> find_layout() {
   plain.build_after(other_single);
   other_plain.build_after(plain);
   const Probes probes = {&single, &other_single, &plain, &other_plain};
-  const auto vertices = place_of(probes, sizeof(void*), &Probe::has_vertices);
-  const auto vertex_stride = place_of(probes, sizeof(int), &Probe::has_vertex_stride);
-  const auto vertex_count = place_of(probes, sizeof(int), &Probe::has_vertex_count);
-  const auto indices = place_of(probes, sizeof(void*), &Probe::has_indices);
-  const auto index_stride = place_of(probes, sizeof(int), &Probe::has_index_stride);
-  const auto triangle_count = place_of(probes, sizeof(int), &Probe::has_triangle_count);
-  const auto is_single = place_of(probes, 1, &Probe::has_kind);
+  Search search(probes);
+  const auto vertices = search.place_of(sizeof(void*), &Probe::has_vertices);
+  const auto vertex_stride = search.place_of(sizeof(int), &Probe::has_vertex_stride);
+  const auto vertex_count = search.place_of(sizeof(int), &Probe::has_vertex_count);
+  const auto indices = search.place_of(sizeof(void*), &Probe::has_indices);
+  const auto index_stride = search.place_of(sizeof(int), &Probe::has_index_stride);
+  const auto triangle_count = search.place_of(sizeof(int), &Probe::has_triangle_count);
+  const auto is_single = search.place_of(1, &Probe::has_kind);
   if (!vertices || !vertex_stride || !vertex_count || !indices || !index_stride ||
       !triangle_count || !is_single)
     return std::nullopt;
