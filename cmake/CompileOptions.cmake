@@ -25,10 +25,10 @@ function(ode_ext_compile_options)
   endforeach()
 endfunction()
 
-# ode_ext_whole_rooms(<target>): if ODE_EXT_WHOLE_ROOMS is set, the sources of a folder are compiled
-# as one file. That takes a fifth of the time, of which the headers are the most.
+# ode_ext_whole_rooms(<target>): if ODE_EXT_WHOLE_ROOMS names the target, its sources of a folder are
+# compiled as one file. That takes a fifth of the time, of which the headers are the most.
 function(ode_ext_whole_rooms target)
-  if(NOT ODE_EXT_WHOLE_ROOMS)
+  if(NOT target IN_LIST ODE_EXT_WHOLE_ROOMS)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)

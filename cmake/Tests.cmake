@@ -77,6 +77,7 @@ function(ode_ext_gtest program)
   target_precompile_headers(${program} PRIVATE <gtest/gtest.h>)
   target_compile_options(${program} PRIVATE -O0)
   target_sources(${program} PRIVATE tests/support/leak_check.cpp)
+  ode_ext_whole_rooms(${program})
   target_link_libraries(${program} PRIVATE
     ode_ext_core ode_ext_oracles ode_ext_test_support GTest::gtest_main GTest::gmock rapidcheck
     ${CMAKE_DL_LIBS})

@@ -12,8 +12,8 @@
 namespace ode_ext::test {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 class ApiBadInput : public ::testing::Test {
  protected:
@@ -56,7 +56,7 @@ TEST_F(ApiBadInput, TwoSingleTrianglesApartHaveNoContacts) {
 
 // The message goes with the pass that met the mesh.
 TEST_F(ApiBadInput, VerticesThatAreNotFiniteRefuseTheMeshAndSayso) {
-  for (const float bad : {kNan, kInfinity, -kInfinity}) {
+  for (const float bad : {kFloatNan, kFloatInfinity, -kFloatInfinity}) {
     const dSpaceID space = world.space(SpaceKind::Simple);
     OdeMesh& broken = world.mesh(make_cube(2, 3));
     const dGeomID g1 = world.geom(broken, on_block, space);
@@ -80,7 +80,7 @@ TEST_F(ApiBadInput, ABrokenMeshDoesNotCostTheOthersTheirContacts) {
   world.geom(broken, at(0.5, 0.25, 1.75), space);
   const dGeomID g1 = world.geom(world.mesh(cube), on_block, space);
   const dGeomID g2 = world.geom(world.mesh(block), {}, space);
-  broken.edit().vertices[7] = kNan;
+  broken.edit().vertices[7] = kFloatNan;
   collider.pass(space);
   const Contacts contacts = collide(g1, g2);
   EXPECT_FALSE(contacts.empty());

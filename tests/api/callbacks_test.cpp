@@ -386,12 +386,12 @@ TEST_F(ApiCallbacks, MayAskForAnotherPair) {
 
 const BatchCollider* asked_elsewhere = nullptr;
 bool was_answered_elsewhere = false;
-std::thread elsewhere;
+std::thread other_thread;
 int wait_for_another_thread(dGeomID, int first, int) {
-  if (elsewhere.joinable()) return first;
+  if (other_thread.joinable()) return first;
   const auto done = std::make_shared<std::promise<void>>();
   std::future<void> answered = done->get_future();
-  elsewhere = std::thread([done] {
+  other_thread = std::thread([done] {
     asked_elsewhere->stats();
     done->set_value();
   });
@@ -404,16 +404,16 @@ TEST_F(ApiCallbacks, KeepNoOtherThreadFromTheCollider) {
   asked_elsewhere = &collider;
   dGeomTriMeshSetTriMergeCallback(upper, &wait_for_another_thread);
   collide(upper, lower);
-  ASSERT_TRUE(elsewhere.joinable());
-  elsewhere.join();
+  ASSERT_TRUE(other_thread.joinable());
+  other_thread.join();
   EXPECT_TRUE(was_answered_elsewhere);
 
   was_answered_elsewhere = false;
   const dGeomID pair[] = {upper, lower};
   Contacts contacts(64);
   dBatchColliderCollidePairs(collider, pair, 1, 64, contacts.data(), sizeof(dContactGeom), nullptr);
-  ASSERT_TRUE(elsewhere.joinable());
-  elsewhere.join();
+  ASSERT_TRUE(other_thread.joinable());
+  other_thread.join();
   EXPECT_TRUE(was_answered_elsewhere);
 }
 

@@ -255,13 +255,13 @@ TEST_F(ApiContactIds, AreNoneWithAColliderOfZero) {
   for (const dBatchContactId id : ids_as_found(nullptr, most())) EXPECT_TRUE(is_none(id));
 }
 
-int merge_into_nonsense(dGeomID, int first, int second) { return 1000 + first + second; }
+int merge_into_a_sum(dGeomID, int first, int second) { return 1000 + first + second; }
 
 TEST_F(ApiContactIds, AreFoundWhereAMergeCallbackMadeTheSides) {
   int changed = 0;
   for (const Contacts& plain : answers()) {
     const Ids ids = ids_of(collider, plain);
-    dGeomTriMeshSetTriMergeCallback(plain[0].g1, &merge_into_nonsense);
+    dGeomTriMeshSetTriMergeCallback(plain[0].g1, &merge_into_a_sum);
     const Contacts merged = collide(plain[0].g1, plain[0].g2);
     dGeomTriMeshSetTriMergeCallback(plain[0].g1, nullptr);
     changed += difference(merged, plain).empty() ? 0 : 1;
@@ -274,7 +274,7 @@ int refuse_odd(dGeomID, dGeomID, int triangle) { return triangle % 2 == 0 ? 1 : 
 
 TEST_F(ApiContactIds, AreThoseOfTheContactsThatATriangleCallbackLeaves) {
   const BatchCollider asking([](dBatchColliderParams& p) { p.triangle_callbacks = 1; });
-  std::size_t refused = 0;
+  std::size_t refused_count = 0;
   for (const Contacts& plain : answers()) {
     const dGeomID g1 = plain[0].g1, g2 = plain[0].g2;
     std::map<Point, dBatchContactId> at;
@@ -283,12 +283,12 @@ TEST_F(ApiContactIds, AreThoseOfTheContactsThatATriangleCallbackLeaves) {
     dGeomTriMeshSetCallback(g1, &refuse_odd);
     const Contacts left = answer_of(asking, g1, g2);
     dGeomTriMeshSetCallback(g1, nullptr);
-    refused += plain.size() - left.size();
+    refused_count += plain.size() - left.size();
     const Ids found = ids_of(asking, left);
     for (std::size_t i = 0; i < left.size(); ++i)
       EXPECT_EQ(key(found[i]), key(at.at(pos(left[i]))));
   }
-  EXPECT_GT(refused, 0u);
+  EXPECT_GT(refused_count, 0u);
 }
 
 TEST_F(ApiContactIds, AreNoneWhileOdesOwnColliderAnswersForADeviceThatFails) {

@@ -36,7 +36,7 @@ Regions regions_of(dBatchColliderID collider, const Contacts& contacts) {
   return regions;
 }
 
-int count(const Regions& regions) {
+int region_count(const Regions& regions) {
   std::set<int> numbers;
   for (const auto& region : regions) numbers.insert(region.region);
   return static_cast<int>(numbers.size());
@@ -68,7 +68,7 @@ TEST_P(ContactRegions, AreAsManyAsThereAreAndCross) {
     const Contacts contacts =
         answer_of(collider, world.geom(a, c.pose_a), world.geom(b, c.pose_b), 1000);
     const Regions regions = regions_of(collider, contacts);
-    EXPECT_EQ(count(regions), c.regions);
+    EXPECT_EQ(region_count(regions), c.regions);
     EXPECT_EQ(overlaps(regions), std::set<int>{dBatchOverlapCrossing});
   }
 }
@@ -97,7 +97,7 @@ TEST_F(ApiContactRegions, TellAPartThatIsInsideFromOneThatCrosses) {
   const TestMesh crossing = moved(make_cube(0.2), {0.5, 0, 0});
   const dGeomID both = world.geom(world.mesh(merged(crossing, make_cube(0.2))), at(0, 0.05, 0.03));
   const Regions regions = regions_of(collider, answer_of(collider, both, block));
-  EXPECT_EQ(count(regions), 2);
+  EXPECT_EQ(region_count(regions), 2);
   EXPECT_EQ(overlaps(regions), (std::set<int>{dBatchOverlapCrossing, dBatchOverlapFirstInside}));
   for (const auto& one : regions)
     for (const auto& other : regions)
@@ -114,7 +114,7 @@ TEST_F(ApiContactRegions, AreTheSameAloneAndInABatch) {
   for (const auto& [pair, contacts] : collected.contacts) {
     if (contacts.empty()) continue;
     const Regions regions = regions_of(collider, contacts);
-    found.insert(count(regions));
+    found.insert(region_count(regions));
     ASSERT_EQ(difference(answer_of(late, pair.first, pair.second), contacts), "");
     const Regions alone = regions_of(late, contacts);
     EXPECT_EQ(numbers(alone), numbers(regions));

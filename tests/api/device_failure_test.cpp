@@ -18,10 +18,10 @@ struct Disarm {
   ~Disarm() { fault_injector::disarm(); }
 };
 
-int messages = 0;
+int message_count = 0;
 std::string said;  // one a line
 void count_message(int, const char* format, va_list values) {
-  ++messages;
+  ++message_count;
   char text[1024];
   std::vsnprintf(text, sizeof(text), format, values);
   said += text + std::string("\n");
@@ -29,7 +29,7 @@ void count_message(int, const char* format, va_list values) {
 
 struct CountMessages {
   CountMessages() {
-    messages = 0;
+    message_count = 0;
     said.clear();
     dSetMessageHandler(&count_message);
   }
@@ -89,7 +89,7 @@ TEST_F(ApiDeviceFailure, IsSaidOnceForARunOfFailures) {
     fault_injector::disarm();
     EXPECT_NE(collider.stats().status & dBatchStatusDeviceFailed, 0u);
   }
-  EXPECT_EQ(messages, 1);
+  EXPECT_EQ(message_count, 1);
 }
 
 TEST_F(ApiDeviceFailure, WhileAPairIsComputedAloneIsAnsweredByOdesOwnCollider) {
@@ -132,6 +132,8 @@ TEST_F(ApiDeviceFailure, AtAnyCallOfCreateIsAMessageAndNoCollider) {
     if (collider != nullptr) continue;  // a platform that fails to answer is passed over
     ++failures;
     EXPECT_EQ(last_error().rfind("dBatchColliderCreate: ", 0), 0u) << last_error();
+    // Three of four calls set an argument of a kernel, all in one line: every seventh of these.
+    if (last_error().find("clSetKernelArg") != std::string::npos) nth += 6;
   }
   EXPECT_GT(failures, 10);
 }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr unsigned kMostSeconds = 60;  // a child that waits for ever is ended then
 
-int messages = 0;
+int messages_of_child = 0;
 std::string last_message;
 void take_message(int, const char* text, va_list arguments) {
-  ++messages;
+  ++messages_of_child;
   char buffer[1024];
   vsnprintf(buffer, sizeof buffer, text, arguments);
   last_message = buffer;
@@ -72,7 +72,7 @@ TEST_F(ApiFork, IsSaidOnceInTheChild) {
   const int result = in_child([&] {
     dSetMessageHandler(&take_message);
     for (int i = 0; i < 3; ++i) collider.pass(space);
-    if (messages != 1) return 1;
+    if (messages_of_child != 1) return 1;
     return last_message.find("forked") != std::string::npos ? 0 : 2;
   });
   EXPECT_EQ(result, 0);

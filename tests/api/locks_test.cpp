@@ -94,8 +94,8 @@ int merge_that_calls(dGeomID, int first, int) {
 }
 
 // A thread of the program with a space and a collider of its own.
-struct Task {
-  explicit Task(OdeWorld& world)
+struct LockedTask {
+  explicit LockedTask(OdeWorld& world)
       : space(world.space(SpaceKind::Simple)),
         pile(world, space, 6, 11),
         mesh(world.mesh(make_cube(1))) {
@@ -137,11 +137,11 @@ class ApiLocks : public ::testing::Test {
   }
 
   OdeWorld world;
-  Task first{world}, second{world};
+  LockedTask first{world}, second{world};
 };
 
 TEST_F(ApiLocks, AreNotHeldWhileAProgramsGeomClassIsAskedForABox) {
-  run_both("box functions of geom classes", [](Task& task) {
+  run_both("box functions of geom classes", [](LockedTask& task) {
     dGeomSetPosition(task.mark, 1, 0, 0);
     task.collider.pass(task.space);
   });
@@ -149,7 +149,7 @@ TEST_F(ApiLocks, AreNotHeldWhileAProgramsGeomClassIsAskedForABox) {
 
 TEST_F(ApiLocks, AreNotHeldWhileAProgramsMessageHandlerRuns) {
   dSetMessageHandler(&message_that_calls);
-  run_both("message handlers", [](Task& task) {
+  run_both("message handlers", [](LockedTask& task) {
     TestMesh broken = make_cube(1);
     broken.vertices[0] = NAN;
     OdeMesh mesh(broken);
@@ -163,10 +163,10 @@ TEST_F(ApiLocks, AreNotHeldWhileAProgramsMessageHandlerRuns) {
 }
 
 TEST_F(ApiLocks, AreNotHeldWhileAProgramsMergeCallbackRuns) {
-  for (const Task* task : {&first, &second})
+  for (const LockedTask* task : {&first, &second})
     for (const dGeomID geom : task->pile.geoms)
       dGeomTriMeshSetTriMergeCallback(geom, &merge_that_calls);
-  run_both("merge callbacks", [](Task& task) { task.collider.pass(task.space); });
+  run_both("merge callbacks", [](LockedTask& task) { task.collider.pass(task.space); });
 }
 
 // Asks for another pair, once.

@@ -16,7 +16,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   dBatchColliderParams params;
@@ -91,7 +91,7 @@ const BadParameter kBadParameters[] = {
     {"max_contacts_deformable", "Negative", [](P& p) { p.max_contacts_deformable = -1; }},
     {"max_contacts_deformable", "TooMany", [](P& p) { p.max_contacts_deformable = 65; }},
     {"open_thickness", "Negative", [](P& p) { p.open_thickness = -1; }},
-    {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNan; }},
+    {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNoNumber; }},
     {"rays", "Unknown", with("rays=fast")},
     {"edges", "Empty", with("edges=")},
     {"workload", "InCapitals", with("workload=Exact")},
@@ -164,22 +164,22 @@ TEST(ApiConfig, IsTheDefaultWhereItSaysTheDefaults) {
   std::string config;
   for (int i = 0; dBatchConfigName(i) != nullptr; ++i)
     config += std::string(dBatchConfigName(i)) + "=" + dBatchConfigDefault(i) + ",";
-  ColliderOptions said;
-  apply_config(config, said);
+  ColliderOptions written;
+  apply_config(config, written);
   const ColliderOptions untouched;
-  EXPECT_EQ(said.rays, untouched.rays);
-  EXPECT_EQ(said.edges, untouched.edges);
-  EXPECT_EQ(said.organization, untouched.organization);
-  EXPECT_EQ(said.deformable_target, untouched.deformable_target);
-  EXPECT_EQ(said.launches, untouched.launches);
-  EXPECT_EQ(said.prediction, untouched.prediction);
-  EXPECT_EQ(said.confidence, untouched.confidence);
-  EXPECT_EQ(said.misprediction, untouched.misprediction);
-  EXPECT_EQ(said.initial_capacity, untouched.initial_capacity);
-  EXPECT_EQ(said.work_group_size, untouched.work_group_size);
-  EXPECT_EQ(said.walk_limit, untouched.walk_limit);
-  EXPECT_EQ(said.displacement_limit, untouched.displacement_limit);
-  EXPECT_EQ(said.count_work, untouched.count_work);
+  EXPECT_EQ(written.rays, untouched.rays);
+  EXPECT_EQ(written.edges, untouched.edges);
+  EXPECT_EQ(written.organization, untouched.organization);
+  EXPECT_EQ(written.deformable_target, untouched.deformable_target);
+  EXPECT_EQ(written.launches, untouched.launches);
+  EXPECT_EQ(written.prediction, untouched.prediction);
+  EXPECT_EQ(written.confidence, untouched.confidence);
+  EXPECT_EQ(written.misprediction, untouched.misprediction);
+  EXPECT_EQ(written.initial_capacity, untouched.initial_capacity);
+  EXPECT_EQ(written.work_group_size, untouched.work_group_size);
+  EXPECT_EQ(written.walk_limit, untouched.walk_limit);
+  EXPECT_EQ(written.displacement_limit, untouched.displacement_limit);
+  EXPECT_EQ(written.count_work, untouched.count_work);
 }
 
 TEST(ApiConfig, SetsWhatItNames) {

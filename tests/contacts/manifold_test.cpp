@@ -52,7 +52,7 @@ struct Placed {
   }
 };
 
-std::vector<TestPose> frames(int turned = 6) {
+std::vector<TestPose> some_frames(int turned = 6) {
   Random random(81);
   std::vector<TestPose> frames{at(0, 0, 0), at(3, -4, 5)};
   for (int i = 0; i < turned; ++i) frames.push_back(random.pose(2));
@@ -80,7 +80,7 @@ TEST(Manifolds, OfCrossedRodsAreOneWhereTheirEdgesPass) {
   for (const double angle : {kRight, 1.0, 0.5}) {
     Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), on_edge(angle, 1, 0.2), on_edge(0, -1, 0.2)};
     rods.pa.position[2] -= depth;
-    for (const TestPose& frame : frames()) {
+    for (const TestPose& frame : some_frames()) {
       const auto found = rods.contacts(frame);
       ASSERT_EQ(found.size(), 1u) << angle;
       EXPECT_TRUE(has(found, {0, 0, -depth / 2}, {0, 0, 1}, depth, rods.tolerance(frame))) << angle;
@@ -92,13 +92,13 @@ TEST(Manifolds, OfCrossedRodsAreOneWhereTheirEdgesPass) {
 TEST(Manifolds, OfRodsThatAreApartAreNone) {
   Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), on_edge(1, 1, 0.2), on_edge(0, -1, 0.2)};
   rods.pa.position[2] += 1e-4;
-  for (const TestPose& frame : frames()) EXPECT_TRUE(rods.contacts(frame).empty());
+  for (const TestPose& frame : some_frames()) EXPECT_TRUE(rods.contacts(frame).empty());
 }
 
 TEST(Manifolds, OfRodsThatLieAcrossOneAnotherAreTheCornersOfTheSquare) {
   Placed rods{make_rod(2, 0.2), make_rod(2, 0.2), turned({0, 0, 1}, kRight), at(0, 0, 0)};
   rods.pa.position = {0.3, -0.2, 0.19};
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = rods.contacts(frame);
     const double depth = found.empty() ? 0 : found[0].depth;
     EXPECT_NEAR(depth, 0.01, rods.tolerance(frame));
@@ -120,7 +120,7 @@ TEST(Manifolds, OfRodsThatLieAcrossOneAnotherAreTheCornersOfTheSquare) {
 TEST(Manifolds, OfACubeOnACubeAreAllFourCorners) {
   for (const int n : {1, 3}) {
     const Placed cubes{make_cube(1, n), make_cube(1, n), at(0.3, 0.2, 0.99), at(0, 0, 0)};
-    for (const TestPose& frame : frames()) {
+    for (const TestPose& frame : some_frames()) {
       const auto found = cubes.contacts(frame);
       for (const double x : {-0.2, 0.5})
         for (const double y : {-0.3, 0.5})
@@ -141,7 +141,7 @@ TEST(Manifolds, OfACubeOnACubeAreAllFourCorners) {
 TEST(Manifolds, MoveACubeInsideACubeOutThroughItsNearestSide) {
   for (const int n : {1, 4}) {
     const Placed cubes{make_cube(0.3, n), make_cube(2), at(0.5, 0.1, -0.05), at(0, 0, 0)};
-    for (const TestPose& frame : frames()) {
+    for (const TestPose& frame : some_frames()) {
       const auto found = cubes.contacts(frame);
       ASSERT_FALSE(found.empty());
       for (const Contact& c : found) EXPECT_NEAR(c.normal.x, 1, 1e-6);
@@ -156,7 +156,7 @@ TEST(Manifolds, MoveACubeInsideACubeOutThroughItsNearestSide) {
 TEST(Manifolds, MoveATorusInItsOwnPlaceOutAlongItsAxis) {
   const TestMesh torus = make_torus(0.5, 0.2, 24, 12);
   const Placed tori{torus, torus, at(0, 0, 0), at(0, 0, 0)};
-  for (const TestPose& frame : frames(60)) {
+  for (const TestPose& frame : some_frames(60)) {
     const auto found = tori.contacts(frame);
     ASSERT_FALSE(found.empty());
     EXPECT_LT(found[0].depth, 0.4 + tori.tolerance(frame));
@@ -166,7 +166,7 @@ TEST(Manifolds, MoveATorusInItsOwnPlaceOutAlongItsAxis) {
 // Its near side, which is 0.4 m deep, would add nothing to the far one behind it.
 TEST(Manifolds, MoveABodyOutByItsDeepestSide) {
   const Placed cubes{make_cube(0.6), make_cube(2), at(0.3, 0.1, -0.05), at(0, 0, 0)};
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = cubes.contacts(frame);
     EXPECT_EQ(found.size(), 4u);
     for (const Contact& c : found) {
@@ -188,7 +188,7 @@ TEST(Manifolds, AreThereAtBothPlacesWhereABeamLies) {
   rods = merged(moved(rods, {0, 0.7, 0}), moved(rods, {0, -0.7, 0}));
   Placed beam{make_rod(3, width), rods, on_edge(kRight, 1, width), at(0, 0, 0)};
   beam.pa.position[2] = std::numbers::sqrt2 * width - depth;
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = beam.contacts(frame);
     EXPECT_EQ(found.size(), 2u);
     const double middle = width / std::numbers::sqrt2 - depth / 2;
@@ -199,7 +199,7 @@ TEST(Manifolds, AreThereAtBothPlacesWhereABeamLies) {
 
 TEST(Manifolds, MoveAPlateUprightDeepInABlockBackUp) {
   const Placed plate{make_box({1, 0.1, 1}), make_cube(2), at(0.05, 0.03, 1.2), at(0, 0, 0)};
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = plate.contacts(frame);
     ASSERT_FALSE(found.empty());
     EXPECT_NEAR(found[0].depth, 0.3, plate.tolerance(frame));
@@ -217,7 +217,7 @@ Placed plate_in_rim(const Point& middle, double angle, int cells) {
 }
 
 void expect_moved_up(const Placed& plate) {
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = plate.contacts(frame);
     ASSERT_FALSE(found.empty());
     EXPECT_NEAR(found[0].depth, 0.01, plate.tolerance(frame));
@@ -240,7 +240,7 @@ TEST(Manifolds, OfCubesThatCoincideDoNotOpposeOneAnother) {
       const Point away = slip * random.direction();
       const Placed cubes{make_cube(1, n), make_cube(1, n), at(away[0], away[1], away[2]),
                          at(0, 0, 0)};
-      for (const TestPose& frame : frames()) {
+      for (const TestPose& frame : some_frames()) {
         const auto found = cubes.contacts(frame);
         ASSERT_FALSE(found.empty()) << slip;
         for (const Contact& c : found)
@@ -269,7 +269,7 @@ TEST(Manifolds, ThatAreAsFarApartAsTheyAreDeepDoNotOpposeOneAnother) {
 // reason to hold the bricks there.
 TEST(Manifolds, OfEqualBricksInOnePlaceAreNoTouchesAtOppositeEnds) {
   const TestMesh brick = make_box({1, 0.5, 0.25});
-  expect_none_opposed({brick, brick, at(0, 0, 0), at(0, 0, 0)}, frames(60));
+  expect_none_opposed({brick, brick, at(0, 0, 0), at(0, 0, 0)}, some_frames(60));
 }
 
 // The rays from two corners of the small box leave both boxes at the edge they share. Through one
@@ -281,7 +281,7 @@ TEST(Manifolds, OfBoxesThatShareAnEdgeAreNotDeeperThanTheShorterWayThroughIt) {
   pose.position = pose.position + Point{0.5, 0, 0.5};
   const Placed boxes{make_cube(0.5), make_cube(1), pose, at(0, 0, 0)};
   const double depth = 0.5 * std::sin(kRight / 1.5);
-  for (const TestPose& frame : frames()) {
+  for (const TestPose& frame : some_frames()) {
     const auto found = boxes.contacts(frame);
     ASSERT_FALSE(found.empty());
     EXPECT_NEAR(found[0].depth, depth, boxes.tolerance(frame));

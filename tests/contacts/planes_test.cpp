@@ -17,7 +17,7 @@
 namespace ode_ext::test {
 namespace {
 
-std::vector<Contact> contacts_of(const TestScene& scene) {
+std::vector<Contact> plane_contacts_of(const TestScene& scene) {
   // One for all: building the kernels takes a second. Never destroyed: the driver may be gone.
   static Collider* const collider = new Collider({});
   return collider->collide(scene.scene, nullptr).contacts;
@@ -32,8 +32,8 @@ double deepest_along(const std::vector<Contact>& contacts, const Vec3d& directio
 }
 
 TEST(SeparatingPlanes, OfACubeOnACubeAreItsFourCorners) {
-  const auto contacts =
-      contacts_of(one_pair(make_cube(1, 1), at(0.1, 0.2, 0.99), make_cube(1, 1), at(0, 0, 0)));
+  const auto contacts = plane_contacts_of(
+      one_pair(make_cube(1, 1), at(0.1, 0.2, 0.99), make_cube(1, 1), at(0, 0, 0)));
   ASSERT_EQ(contacts.size(), 4u);
   for (const Contact& c : contacts) {
     EXPECT_NEAR(c.normal.z, 1, 1e-6);
@@ -43,7 +43,7 @@ TEST(SeparatingPlanes, OfACubeOnACubeAreItsFourCorners) {
 
 TEST(SeparatingPlanes, OfBoxesThatOnlyTouchAreOfNoDepth) {
   const auto contacts =
-      contacts_of(one_pair(make_cube(1, 1), at(0, 0, 1), make_cube(1, 1), at(0, 0, 0)));
+      plane_contacts_of(one_pair(make_cube(1, 1), at(0, 0, 1), make_cube(1, 1), at(0, 0, 0)));
   ASSERT_FALSE(contacts.empty());
   for (const Contact& c : contacts) EXPECT_NEAR(c.depth, 0, 1e-6);
 }
@@ -55,7 +55,7 @@ TEST(SeparatingPlanes, LeadEachOfTwoPlatesOutByTheRimThatItIsIn) {
     for (const double z : {0.19, -0.19})
       upright = merged(upright, moved(make_box({0.2, 0.005, 0.2}, cuts, 1, cuts), {0, 0, z}));
     const auto contacts =
-        contacts_of(one_pair(upright, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
+        plane_contacts_of(one_pair(upright, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
     EXPECT_NEAR(deepest_along(contacts, {0, 0, 1}), 0.01, 0.0005) << cuts;
     EXPECT_NEAR(deepest_along(contacts, {0, 0, -1}), 0.01, 0.0005) << cuts;
     for (const Contact& c : contacts) EXPECT_LT(c.depth, 0.0105) << cuts;
@@ -68,7 +68,7 @@ TEST(SeparatingPlanes, LeadOutWhatIsInsideAndWhatIsNot) {
     const TestMesh parts = merged(moved(make_cube(0.03, cuts), {-0.1, 0, 0.075}),
                                   moved(make_cube(0.05, cuts), {0.1, 0, 0.115}));
     const auto contacts =
-        contacts_of(one_pair(parts, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
+        plane_contacts_of(one_pair(parts, at(0, 0, 0), make_box({0.4, 0.4, 0.2}), at(0, 0, 0)));
     double inside = 0, on_top = 0;
     for (const Contact& c : contacts) {
       EXPECT_GT(c.normal.z, 0.99) << cuts;
@@ -82,8 +82,8 @@ TEST(SeparatingPlanes, LeadOutWhatIsInsideAndWhatIsNot) {
 // Its far side is inside the other, and so are all corners there: through it the other goes on.
 TEST(SeparatingPlanes, LeadBodiesOutThatReachThroughOneAnother) {
   for (const double slip : {0.0, 0.03}) {
-    const auto contacts =
-        contacts_of(one_pair(make_cube(1), at(0.1, slip, slip / 2), make_cube(1), at(0, 0, 0)));
+    const auto contacts = plane_contacts_of(
+        one_pair(make_cube(1), at(0.1, slip, slip / 2), make_cube(1), at(0, 0, 0)));
     ASSERT_FALSE(contacts.empty()) << slip;
     EXPECT_NEAR(contacts[0].depth, 0.9, 1e-4) << slip;
     EXPECT_GT(contacts[0].normal.x, 0.999) << slip;
@@ -97,8 +97,9 @@ TEST(SeparatingPlanes, LeadAPlateUpThatReachesAskewAcrossARim) {
   for (const int cells : {1, 5})
     for (const TestPose& pose : {turned({0, 0, 1}, 0.219, {0.2265, 0.08538, 0.0925}),
                                  turned({0, 0, 1}, -0.2368, {0.23309, -0.00541, 0.0925})}) {
-      const auto contacts = contacts_of(one_pair(make_box({0.3, 0.15, 0.005}, 2 * cells, cells),
-                                                 pose, make_cube(0.2, cells), at(0, 0, 0)));
+      const auto contacts =
+          plane_contacts_of(one_pair(make_box({0.3, 0.15, 0.005}, 2 * cells, cells), pose,
+                                     make_cube(0.2, cells), at(0, 0, 0)));
       ASSERT_FALSE(contacts.empty()) << cells;
       EXPECT_NEAR(contacts[0].depth, 0.01, 1e-5) << cells;
       EXPECT_NEAR(contacts[0].normal.z, 1, 1e-6) << cells;
@@ -118,7 +119,7 @@ TEST(SeparatingPlanes, DoNotTakeABodyForInsideByACornerOnTheSurface) {
                     8.9266840466617067e-06,  0.99999998681447066,     0.00016214614607344281,
                     -5.2166444420289965e-05, -0.00016214568018591488, 0.99999998549372016};
   const TestMesh cube = make_box({0.2, 0.2, 0.2});
-  const auto contacts = contacts_of(one_pair(cube, upper, cube, lower));
+  const auto contacts = plane_contacts_of(one_pair(cube, upper, cube, lower));
   ASSERT_GE(contacts.size(), 3u);
   for (const Contact& c : contacts) {
     EXPECT_GT(c.normal.z, 0.999);
@@ -136,8 +137,8 @@ TEST(SeparatingPlanes, DoNotLeadARodFromOnePartIntoAnother) {
       TestPose pose = composed(turned({0, 1, 0}, lean), turned({0, 0, 1}, roll));
       pose.position = {0.7, 0.03, 2};
       for (const bool is_first : {true, false}) {
-        const auto contacts = contacts_of(is_first ? one_pair(rod, pose, parts, at(0, 0, 0))
-                                                   : one_pair(parts, at(0, 0, 0), rod, pose));
+        const auto contacts = plane_contacts_of(is_first ? one_pair(rod, pose, parts, at(0, 0, 0))
+                                                         : one_pair(parts, at(0, 0, 0), rod, pose));
         ASSERT_FALSE(contacts.empty()) << roll << " " << lean;
         EXPECT_LT((is_first ? 1 : -1) * contacts[0].normal.x, 0.5) << roll << " " << lean;
       }
@@ -158,8 +159,9 @@ TEST(SeparatingPlanes, LeadACardThatStandsInABlockUp) {
           lowest = std::min(lowest, rotate(pose, card.vertex(i))[2]);
         pose.position = {0.01, 0.02, -0.03 - lowest};
         for (const bool is_first : {true, false}) {
-          const auto contacts = contacts_of(is_first ? one_pair(card, pose, block, at(0, 0, 0))
-                                                     : one_pair(block, at(0, 0, 0), card, pose));
+          const auto contacts =
+              plane_contacts_of(is_first ? one_pair(card, pose, block, at(0, 0, 0))
+                                         : one_pair(block, at(0, 0, 0), card, pose));
           ASSERT_FALSE(contacts.empty());
           EXPECT_NEAR(contacts[0].depth, 0.03, 1e-5);
           EXPECT_NEAR(contacts[0].normal.z, is_first ? 1 : -1, 1e-6);
@@ -173,7 +175,7 @@ TEST(SeparatingPlanes, AreThereOfBodiesInOnePlace) {
     Random random(7);
     for (int i = 0; i < 20; ++i) {
       const TestPose pose = random.pose(i % 2 == 0 ? 0.0 : 1.0);
-      EXPECT_FALSE(contacts_of(one_pair(mesh, pose, mesh, pose)).empty()) << i;
+      EXPECT_FALSE(plane_contacts_of(one_pair(mesh, pose, mesh, pose)).empty()) << i;
     }
   }
 }
@@ -188,7 +190,7 @@ TEST(SeparatingPlanes, AreAsDeepAsThoseOfTheReference) {
     const TestMesh& b = shapes[static_cast<std::size_t>(i / 5) % shapes.size()];
     const TestPose pa = random.pose(0.45), pb = random.pose(0.45);
     const ReferenceContacts expected = reference_contacts(ContactMesh(a), pa, ContactMesh(b), pb);
-    const auto contacts = contacts_of(one_pair(a, pa, b, pb));
+    const auto contacts = plane_contacts_of(one_pair(a, pa, b, pb));
     EXPECT_EQ(contacts.empty(), expected.contacts.empty()) << i;
     if (contacts.empty() || expected.contacts.empty()) continue;
     ++compared;

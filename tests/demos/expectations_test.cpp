@@ -14,7 +14,7 @@
 namespace falling_objects {
 namespace {
 
-constexpr double kHz = 50;
+constexpr double kStepsPerSecond = 50;
 constexpr double kTurn = 2 * std::numbers::pi;
 
 class Expecting : public testing::Test {
@@ -33,17 +33,17 @@ class Expecting : public testing::Test {
                        what,
                    "test.toml"),
         1, warnings_);
-    expectations_ = std::make_unique<Expectations>(*scene_, kHz);
+    expectations_ = std::make_unique<Expectations>(*scene_, kStepsPerSecond);
   }
   dBodyID body(std::size_t i) const { return scene_->objects()[i].body; }
   // Turns [turns/s] about z, and a rise [m/s] of the first, for a while [s].
   void move(double a, double b, double rise, double seconds) {
-    for (int i = 0; i < std::lround(seconds * kHz); ++i) {
+    for (int i = 0; i < std::lround(seconds * kStepsPerSecond); ++i) {
       dBodySetAngularVel(body(0), 0, 0, kTurn * a);
       dBodySetAngularVel(body(1), 0, 0, kTurn * b);
       dBodySetLinearVel(body(0), 0, 0, rise);
       const dReal* p = dBodyGetPosition(body(0));
-      dBodySetPosition(body(0), p[0], p[1], p[2] + rise / kHz);
+      dBodySetPosition(body(0), p[0], p[1], p[2] + rise / kStepsPerSecond);
       expectations_->after_step();
     }
   }
@@ -175,7 +175,7 @@ TEST_F(Expecting, BodiesOfOneNameAreMeantTogether) {
                  "[[expect]]\nkind = \"stays\"\nbody = \"cube\"\ndistance = 0.1\n",
                  "test.toml"),
       1, warnings_);
-  expectations_ = std::make_unique<Expectations>(*scene_, kHz);
+  expectations_ = std::make_unique<Expectations>(*scene_, kStepsPerSecond);
   expectations_->after_step();
   dBodySetPosition(body(12), 0, 0, 7);
   expectations_->after_step();

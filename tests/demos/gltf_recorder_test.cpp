@@ -16,7 +16,7 @@
 namespace falling_objects {
 namespace {
 
-constexpr double kFloat = 1e-6;  // poses are floats, of a few meters
+constexpr double kPoseFloat = 1e-6;  // poses are floats, of a few meters
 
 class GltfRecording : public testing::Test {
  protected:
@@ -90,9 +90,9 @@ TEST_F(GltfRecording, TurnsUpFromZToY) {
     whole = node->mTransformation * whole;
   }
   const dReal* p = dBodyGetPosition(scene_.objects()[2].body);
-  EXPECT_NEAR(whole.a4, p[0], kFloat);
-  EXPECT_NEAR(whole.b4, p[2], kFloat);
-  EXPECT_NEAR(whole.c4, -p[1], kFloat);
+  EXPECT_NEAR(whole.a4, p[0], kPoseFloat);
+  EXPECT_NEAR(whole.b4, p[2], kPoseFloat);
+  EXPECT_NEAR(whole.c4, -p[1], kPoseFloat);
 }
 
 TEST_F(GltfRecording, HasThePosesOfWhatMovedAtTheTimesTheyWereRecorded) {
@@ -118,12 +118,12 @@ TEST_F(GltfRecording, HasThePosesOfWhatMovedAtTheTimesTheyWereRecorded) {
   ASSERT_EQ(channel.mNumRotationKeys, times.size());
   for (unsigned i = 0; i < times.size(); ++i) {
     EXPECT_NEAR(channel.mPositionKeys[i].mTime, 1000 * times[i], 1e-3);  // Assimp's are in [ms]
-    EXPECT_NEAR(channel.mPositionKeys[i].mValue.x, poses[i][0], kFloat);
-    EXPECT_NEAR(channel.mPositionKeys[i].mValue.y, poses[i][1], kFloat);
-    EXPECT_NEAR(channel.mPositionKeys[i].mValue.z, poses[i][2], kFloat);
-    EXPECT_NEAR(channel.mRotationKeys[i].mValue.w, poses[i][3], kFloat);
-    EXPECT_NEAR(channel.mRotationKeys[i].mValue.x, poses[i][4], kFloat);
-    EXPECT_NEAR(channel.mRotationKeys[i].mValue.z, poses[i][6], kFloat);
+    EXPECT_NEAR(channel.mPositionKeys[i].mValue.x, poses[i][0], kPoseFloat);
+    EXPECT_NEAR(channel.mPositionKeys[i].mValue.y, poses[i][1], kPoseFloat);
+    EXPECT_NEAR(channel.mPositionKeys[i].mValue.z, poses[i][2], kPoseFloat);
+    EXPECT_NEAR(channel.mRotationKeys[i].mValue.w, poses[i][3], kPoseFloat);
+    EXPECT_NEAR(channel.mRotationKeys[i].mValue.x, poses[i][4], kPoseFloat);
+    EXPECT_NEAR(channel.mRotationKeys[i].mValue.z, poses[i][6], kPoseFloat);
   }
 }
 

@@ -14,7 +14,7 @@ namespace ode_ext::oracle {
 namespace {
 
 // Vertices are stored as float: rounding moves a coordinate below 2 by at most 2^-24 [m].
-constexpr double kFloat = 6e-8;
+constexpr double kUnitFloat = 6e-8;
 
 class Random {
  public:
@@ -156,7 +156,7 @@ TEST(MeshOracle, FindsHowDeepTwoSpheresOverlap) {
     const double diagonal =
         0.5 * std::hypot(std::numbers::pi / kRings, 2 * std::numbers::pi / kSides);
     const double off = 0.5 * diagonal;  // [m] sideways
-    EXPECT_LE(depth, 1 - apart + kFloat);
+    EXPECT_LE(depth, 1 - apart + kUnitFloat);
     EXPECT_GE(depth, 1 - apart - sag - off * off * (1 / 1.0 + 1 / apart));
   }
 }
@@ -226,7 +226,7 @@ TEST(MeshOracle, CallsAMeshWithAHoleOpen) {
 }
 
 TEST(MeshOracle, MeasuresTheThinnestPart) {
-  EXPECT_NEAR(make_box({1, 1, 0.05}).thinnest_part(), 0.1, kFloat);
+  EXPECT_NEAR(make_box({1, 1, 0.05}).thinnest_part(), 0.1, kUnitFloat);
   // Between two opposite flat sides of a tube of 12: less than its diameter by cos(15 degrees), and
   // by little more where the inner and outer halves bend.
   const double thinnest = make_torus(0.35, 0.15, 96, 12).thinnest_part();

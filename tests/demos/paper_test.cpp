@@ -202,15 +202,15 @@ TEST(PaperMachine, FindsTheDeviceOfThisMachine) {
     EXPECT_NE(machine[key], "unknown") << key;
 }
 
-struct Outcome {
+struct PaperOutcome {
   ParsedOptions parsed;
   std::string out, err;
 };
 
-Outcome parse(std::vector<const char*> arguments) {
+PaperOutcome parse_paper(std::vector<const char*> arguments) {
   arguments.insert(arguments.begin(), "somewhere/paper");
   std::ostringstream out, err;
-  Outcome outcome;
+  PaperOutcome outcome;
   outcome.parsed = parse_options(static_cast<int>(arguments.size()), arguments.data(), out, err);
   outcome.out = out.str();
   outcome.err = err.str();
@@ -218,7 +218,7 @@ Outcome parse(std::vector<const char*> arguments) {
 }
 
 TEST(PaperOptions, AreThePapersSceneByDefault) {
-  const Outcome outcome = parse({"run", "--out", "x"});
+  const PaperOutcome outcome = parse_paper({"run", "--out", "x"});
   ASSERT_FALSE(outcome.parsed.exit_code) << outcome.err;
   const Options& o = outcome.parsed.options;
   EXPECT_EQ(o.simulation.objects, 1000);
@@ -229,21 +229,22 @@ TEST(PaperOptions, AreThePapersSceneByDefault) {
 }
 
 TEST(PaperOptions, HaveThePapersSecondScene) {
-  const Options o = parse({"run", "--out", "x", "--scene", "rigid-deformable"}).parsed.options;
+  const Options o =
+      parse_paper({"run", "--out", "x", "--scene", "rigid-deformable"}).parsed.options;
   EXPECT_EQ(o.simulation.objects, 216);
   EXPECT_EQ(o.simulation.sheets, 36);
   EXPECT_EQ(o.configurations, default_configurations("rigid-deformable"));
 }
 
 TEST(PaperOptions, AddTheDriverToTheChosenConfigurations) {
-  const Options o = parse({"run", "--out", "x", "--configurations", "iterative,full-exact",
-                           "--driver", "full-monolithic"})
+  const Options o = parse_paper({"run", "--out", "x", "--configurations", "iterative,full-exact",
+                                 "--driver", "full-monolithic"})
                         .parsed.options;
   EXPECT_EQ(o.configurations, parse_all({"iterative", "full-exact", "full-monolithic"}));
 }
 
 TEST(PaperOptions, ExplainThemselvesAndSucceed) {
-  const Outcome outcome = parse({"run", "--help"});
+  const PaperOutcome outcome = parse_paper({"run", "--help"});
   EXPECT_EQ(outcome.parsed.exit_code, kExitOk);
   for (const char* text : {"--configurations", "Examples", "Exit codes", "monolithic"})
     EXPECT_THAT(outcome.out, HasSubstr(text));
@@ -262,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{"run", "--out", "x", "--driver", "iterative"}));
 
 TEST_P(WrongPaperOptions, AreRefusedWithAMessageAndCode2) {
-  const Outcome outcome = parse(GetParam());
+  const PaperOutcome outcome = parse_paper(GetParam());
   EXPECT_EQ(outcome.parsed.exit_code, kExitUsage);
   EXPECT_FALSE(outcome.err.empty());
 }

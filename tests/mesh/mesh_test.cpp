@@ -36,8 +36,8 @@ bool is_empty(const Mesh& mesh) {
 }
 
 TEST(BuildMesh, RefusesCoordinatesThatAreNotFinite) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity}) {
+  constexpr float kEndless = std::numeric_limits<float>::infinity();
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kEndless, -kEndless}) {
     for (const std::size_t at : {0u, 17u, 107u}) {
       TriangleSoup soup = shapes::cube();
       soup[at / 3][at % 3] = bad;

@@ -29,7 +29,7 @@ TriangleSoup ever_larger(int clusters) {
   return soup;
 }
 
-std::vector<TriangleSoup> soups() {
+std::vector<TriangleSoup> tree_soups() {
   return {test::soup_of(test::make_cube(1)), test::soup_of(test::make_icosphere(1, 5)),
           test::soup_of(test::make_torus(1, 0.3, 40, 20)), test::soup_of(test::make_sheet(2, 9)),
           ever_larger(60)};
@@ -76,14 +76,14 @@ void expect_below(const Mesh& mesh, std::uint32_t n, std::uint32_t first, std::u
 }
 
 TEST(MeshletTree, HoldsEachMeshletOnceInTheTightestBoxes) {
-  for (const TriangleSoup& soup : soups()) {
+  for (const TriangleSoup& soup : tree_soups()) {
     const Mesh mesh = build_mesh(soup);
     expect_below(mesh, 0, 0, static_cast<std::uint32_t>(mesh.topology->meshlets.meshlets.size()));
   }
 }
 
 TEST(MeshletTree, NeverHasMoreChildrenWaitThanAKernelHasRoomFor) {
-  for (const TriangleSoup& soup : soups()) {
+  for (const TriangleSoup& soup : tree_soups()) {
     const Mesh mesh = build_mesh(soup);
     EXPECT_LE(most_waiting(mesh.topology->meshlets.tree, 0), kTreeStack);
   }

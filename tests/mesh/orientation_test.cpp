@@ -11,7 +11,7 @@
 namespace ode_ext {
 namespace {
 
-Mesh built(const TriangleSoup& soup) { return build_mesh(soup); }
+Mesh built_mesh(const TriangleSoup& soup) { return build_mesh(soup); }
 
 TriangleSoup without_triangle(TriangleSoup soup, std::ptrdiff_t triangle) {
   soup.erase(soup.begin() + 3 * triangle, soup.begin() + 3 * triangle + 3);
@@ -34,7 +34,7 @@ TriangleSoup indexed(const std::vector<Vec3f>& places, const std::vector<Triangl
 TEST(Orientation, FindsClosedMeshesClosed) {
   for (const TriangleSoup& soup :
        {shapes::tetrahedron(), shapes::cube(), shapes::sphere(1, 10), shapes::torus(1, 0.3, 12)}) {
-    const Mesh mesh = built(soup);
+    const Mesh mesh = built_mesh(soup);
     EXPECT_TRUE(mesh.closed());
     EXPECT_FALSE(mesh.topology->inverted);
     EXPECT_FALSE(mesh.topology->reoriented);
@@ -44,13 +44,13 @@ TEST(Orientation, FindsClosedMeshesClosed) {
 
 TEST(Orientation, FindsAMeshWithAHoleOpen) {
   for (std::ptrdiff_t hole = 0; hole < 12; ++hole) {
-    EXPECT_FALSE(built(without_triangle(shapes::cube(), hole)).closed());
+    EXPECT_FALSE(built_mesh(without_triangle(shapes::cube(), hole)).closed());
   }
-  EXPECT_FALSE(built(shapes::sheet(4)).closed());
+  EXPECT_FALSE(built_mesh(shapes::sheet(4)).closed());
 }
 
 TEST(Orientation, TurnsAMeshOfNegativeVolume) {
-  const Mesh mesh = built(shapes::turned(shapes::cube()));
+  const Mesh mesh = built_mesh(shapes::turned(shapes::cube()));
   EXPECT_TRUE(mesh.closed());
   EXPECT_TRUE(mesh.topology->inverted);
   EXPECT_FALSE(mesh.topology->reoriented);
@@ -61,14 +61,14 @@ TEST(Orientation, TurnsASmallMeshFarFromTheOrigin) {
   for (const float offset : {1e6f, 1.7e6f, 3.1e6f, 7.9e6f}) {
     const TriangleSoup far =
         shapes::moved(shapes::sphere(1, 12), 4, {offset, -1.3f * offset, 0.7f * offset});
-    EXPECT_FALSE(built(far).topology->inverted);
-    EXPECT_TRUE(built(shapes::turned(far)).topology->inverted);
+    EXPECT_FALSE(built_mesh(far).topology->inverted);
+    EXPECT_TRUE(built_mesh(shapes::turned(far)).topology->inverted);
   }
 }
 
 TEST(Orientation, MakesAnInconsistentWindingConsistent) {
   for (std::size_t triangle = 0; triangle < 12; ++triangle) {
-    const Mesh mesh = built(with_turned(shapes::cube(), triangle));
+    const Mesh mesh = built_mesh(with_turned(shapes::cube(), triangle));
     EXPECT_TRUE(mesh.closed());
     EXPECT_TRUE(mesh.topology->reoriented);
     EXPECT_FALSE(mesh.topology->inverted);
@@ -78,7 +78,7 @@ TEST(Orientation, MakesAnInconsistentWindingConsistent) {
 
 TEST(Orientation, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
   const TriangleSoup other = shapes::turned(shapes::box({5, 0, 0}, {6, 2, 1}));
-  const Mesh mesh = built(shapes::joined(with_turned(shapes::cube(), 3), other));
+  const Mesh mesh = built_mesh(shapes::joined(with_turned(shapes::cube(), 3), other));
   EXPECT_TRUE(mesh.closed());
   EXPECT_TRUE(mesh.topology->reoriented);
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 3);
@@ -89,7 +89,7 @@ TEST(Orientation, LeavesACavityACavity) {
       shapes::turned(shapes::box({0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}));
   const TriangleSoup hollow = shapes::joined(shapes::cube(), cavity);
   for (const bool turned : {false, true}) {
-    const Mesh mesh = built(turned ? shapes::turned(hollow) : hollow);
+    const Mesh mesh = built_mesh(turned ? shapes::turned(hollow) : hollow);
     EXPECT_TRUE(mesh.closed());
     EXPECT_FALSE(mesh.topology->reoriented);
     EXPECT_EQ(mesh.topology->inverted, turned);
@@ -99,13 +99,13 @@ TEST(Orientation, LeavesACavityACavity) {
 
 TEST(Orientation, FindsAnEdgeOfFourTrianglesOpen) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
-  const Mesh mesh = built(two);
+  const Mesh mesh = built_mesh(two);
   EXPECT_EQ(mesh.vertices.size(), 14u);
   EXPECT_FALSE(mesh.closed());
 }
 
 TEST(Orientation, ClosesMeshesThatShareOnlyAVertex) {
-  const Mesh mesh = built(shapes::joined(shapes::cube(), shapes::box({1, 1, 1}, {2, 2, 2})));
+  const Mesh mesh = built_mesh(shapes::joined(shapes::cube(), shapes::box({1, 1, 1}, {2, 2, 2})));
   EXPECT_EQ(mesh.vertices.size(), 15u);
   EXPECT_TRUE(mesh.closed());
 }
@@ -114,22 +114,22 @@ TEST(Orientation, KeepsDuplicateTrianglesAndFindsTheMeshOpen) {
   const TriangleSoup cube = shapes::cube();
   TriangleSoup soup = cube;
   shapes::append(soup, cube[0], cube[1], cube[2]);
-  const Mesh mesh = built(soup);
+  const Mesh mesh = built_mesh(soup);
   EXPECT_EQ(mesh.topology->triangles.size(), 13u);
   EXPECT_FALSE(mesh.closed());
-  EXPECT_FALSE(built(shapes::joined(cube, cube)).closed());
+  EXPECT_FALSE(built_mesh(shapes::joined(cube, cube)).closed());
 }
 
 TEST(Orientation, FindsATriangleOfTwoSidesOpen) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-  EXPECT_FALSE(built({a, b, c, a, c, b}).closed());
+  EXPECT_FALSE(built_mesh({a, b, c, a, c, b}).closed());
 }
 
 TEST(Orientation, CountsSliversAsNeighbours) {
   // The bottom of a tetrahedron cut at a corner on its edge, the gap filled by a sliver.
   const Vec3f o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, m{0.5f, 0, 0};
   const TriangleSoup soup{o, y, m, m, y, x, o, m, x, o, x, z, o, z, y, x, y, z};
-  const Mesh mesh = built(soup);
+  const Mesh mesh = built_mesh(soup);
   EXPECT_EQ(mesh.topology->triangles.size(), 6u);
   EXPECT_TRUE(mesh.closed());
   EXPECT_EQ(std::count(mesh.face_normals.begin(), mesh.face_normals.end(), Vec3f{}), 1);
@@ -148,7 +148,7 @@ TEST(Orientation, LeavesASurfaceWithoutSidesAlone) {
                                              {1, 3, 4},
                                              {2, 4, 5},
                                              {1, 3, 5}});
-  const Mesh mesh = built(soup);
+  const Mesh mesh = built_mesh(soup);
   EXPECT_FALSE(mesh.closed());
   EXPECT_FALSE(mesh.topology->reoriented);
   for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
@@ -161,14 +161,14 @@ TEST(Orientation, LeavesASurfaceWithoutSidesAlone) {
 
 RC_GTEST_PROP(OrientationProperty, UndoesAnyTurnedTriangles, ()) {
   static const TriangleSoup torus = shapes::torus(1, 0.3, 4);
-  static const double expected = shapes::volume(built(torus));
+  static const double expected = shapes::volume(built_mesh(torus));
   TriangleSoup soup = torus;
   const auto turned =
       *rc::gen::container<std::vector<bool>>(soup.size() / 3, rc::gen::arbitrary<bool>());
   for (std::size_t i = 0; i < turned.size(); ++i) {
     if (turned[i]) soup = with_turned(std::move(soup), i);
   }
-  const Mesh mesh = built(soup);
+  const Mesh mesh = built_mesh(soup);
   RC_ASSERT(mesh.closed());
   RC_ASSERT(std::fabs(shapes::volume(mesh) - expected) < 1e-12);
   for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {

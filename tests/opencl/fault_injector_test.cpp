@@ -151,7 +151,7 @@ cl_int clReleaseEvent(cl_event event) {
 namespace ode_ext {
 namespace {
 
-constexpr const char* kSource = R"(
+constexpr const char* kTwoKernels = R"(
 __kernel void twice(__global const uint* in, __global uint* out) {
   const uint i = (uint)get_global_id(0);
   out[i] = 2u * in[i];
@@ -171,7 +171,7 @@ std::vector<std::uint32_t> scenario() {
     Device device("");
     std::vector<std::uint32_t> in(256), out(256);
     std::iota(in.begin(), in.end(), 0u);
-    Program program(device, kSource, "");
+    Program program(device, kTwoKernels, "");
     Kernel kernel(program, "twice");
     Buffer source(device), target(device);
     PinnedMemory pinned(device);
@@ -213,7 +213,7 @@ TEST(Handles, AreCountedAndAllGivenBack) {
     PinnedMemory pinned(device);
     buffer.reserve(1);
     pinned.reserve(1);
-    Program program(device, kSource, "");
+    Program program(device, kTwoKernels, "");
     Kernel kernel(program, "twice");
     kernel.launch(1, 1, buffer, buffer);
     std::vector<int> during = before;
@@ -253,7 +253,7 @@ TEST(Faults, AreToldWhicheverCallFailsAndLeakNothing) {
 
 TEST(Faults, AreThrownOnlyWhenTheDeviceNoLongerTouchesHostMemory) {
   Device device("");
-  Program program(device, kSource, "");
+  Program program(device, kTwoKernels, "");
   Kernel kernel(program, "slow");
   Buffer buffer(device);
   buffer.reserve(4);

@@ -23,7 +23,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kFaceNormal = 0x1p-19;
 constexpr double kVertexNormal = 0x1p-18;
 
-double distance(Vec3f a, Vec3f b) { return length(Vec3d(a) - Vec3d(b)); }
+double apart(Vec3f a, Vec3f b) { return length(Vec3d(a) - Vec3d(b)); }
 
 std::vector<Vec3f> normals_of(const MeshRecords& records) {
   std::vector<Vec3f> normals;
@@ -40,7 +40,7 @@ void expect_triangles(const Mesh& mesh, const MeshRecords& records) {
     EXPECT_EQ(vec(triangle.a), mesh.vertices[corners[0]]);
     EXPECT_EQ(vec(triangle.b), mesh.vertices[corners[1]]);
     EXPECT_EQ(vec(triangle.c), mesh.vertices[corners[2]]);
-    EXPECT_LT(distance(vec(triangle.normal), Vec3f(face_normal(mesh, index))), kFaceNormal);
+    EXPECT_LT(apart(vec(triangle.normal), Vec3f(face_normal(mesh, index))), kFaceNormal);
     EXPECT_EQ(triangle.id, built.source_triangle[index]);
   }
 }
@@ -49,7 +49,7 @@ void expect_vertices(const Mesh& mesh, const MeshRecords& records) {
   const Normals normals = compute_normals(mesh.vertices, mesh.topology->triangles);
   for (std::size_t v = 0; v < records.vertices.size(); ++v) {
     EXPECT_EQ(vec(records.vertices[v].position), mesh.vertices[v]);
-    EXPECT_LT(distance(-vec(records.vertices[v].direction), normals.vertices[v]), kVertexNormal);
+    EXPECT_LT(apart(-vec(records.vertices[v].direction), normals.vertices[v]), kVertexNormal);
   }
 }
 
@@ -176,7 +176,7 @@ void expect_all(const Mesh& mesh, const MeshRecords& records) {
 
 void expect_moved(const Mesh& before, const Mesh& after, const MeshRecords& records) {
   for (std::size_t v = 0; v < records.vertices.size(); ++v) {
-    const double moved = distance(before.vertices[v], after.vertices[v]);
+    const double moved = apart(before.vertices[v], after.vertices[v]);
     EXPECT_GE(static_cast<double>(records.vertices[v].moved), moved);
     EXPECT_LE(static_cast<double>(records.vertices[v].moved), moved * (1 + 0x1p-18));
   }
@@ -407,9 +407,8 @@ TEST(DeformStep, KeepsTheNormalsOfThinTriangles) {
   // One face a vertex. (The host's sums, in fixed point, tell small angles less well.)
   for (std::size_t k = 0; k < records.triangles.size(); ++k)
     for (const std::uint32_t corner : mesh->topology->triangles[mesh->topology->leaf_order[k]])
-      EXPECT_LT(
-          distance(-vec(records.vertices[corner].direction), vec(records.triangles[k].normal)),
-          0x1p-21);  // a product, a root, a division
+      EXPECT_LT(apart(-vec(records.vertices[corner].direction), vec(records.triangles[k].normal)),
+                0x1p-21);  // a product, a root, a division
 }
 
 TEST(DeformStep, TakesTheLargestFaceWhereNormalsCancel) {

@@ -55,7 +55,7 @@ Facet facet(const TestMesh& mesh, int triangle) {
   return {unit(normal), 0x1p-22 * side * (side * side / length(normal))};
 }
 
-struct Comparison {
+struct HitComparison {
   int rays = 0, hits = 0, ambiguous = 0;
 };
 
@@ -63,8 +63,8 @@ bool is_inside(HitKind kind) { return kind == HitKind::Contact || kind == HitKin
 
 // Every ray of the reference that is not ambiguous has the hit it should have; rays start some
 // epsilons before their vertices.
-Comparison compare(const TestScene& scene, const StepRecords& records) {
-  Comparison comparison;
+HitComparison compare_hits(const TestScene& scene, const StepRecords& records) {
+  HitComparison comparison;
   const auto found = found_hits(scene, records);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     if (gap_of_pair(scene, i) > 0) continue;
@@ -103,7 +103,7 @@ Comparison compare(const TestScene& scene, const StepRecords& records) {
 
 TEST(RayStep, FindsTheHitsOfTheReference) {
   const TestScene scene = random_scene(1500, 21);
-  const Comparison comparison = compare(scene, Rig::shared().run(scene.scene));
+  const HitComparison comparison = compare_hits(scene, Rig::shared().run(scene.scene));
   EXPECT_GT(comparison.hits, 5000);
   EXPECT_LT(1000 * comparison.ambiguous, comparison.rays)
       << comparison.ambiguous << " of " << comparison.rays;
@@ -114,7 +114,7 @@ TEST(RayStep, FindsTheSameHitsWhateverTheNumberOfPairs) {
     const TestScene scene = random_scene(count, 22);
     const StepRecords records = Rig::shared().run(scene.scene);
     EXPECT_EQ(records.ranges.size(), static_cast<std::size_t>(count));
-    compare(scene, records);
+    compare_hits(scene, records);
   }
 }
 
@@ -128,7 +128,7 @@ TEST(RayStep, FindsTheSameHitsWithLargerMeshes) {
     const TestPose a = random.pose(0.3);
     scene.add_pair(i % 3, a, i / 3 % 3, random.pose(0.3));
   }
-  const Comparison comparison = compare(scene, Rig::shared().run(scene.scene));
+  const HitComparison comparison = compare_hits(scene, Rig::shared().run(scene.scene));
   EXPECT_GT(comparison.hits, 2000);
   EXPECT_LT(1000 * comparison.ambiguous, comparison.rays);
 }
@@ -145,7 +145,7 @@ TEST(RayStep, FindsTheSameHitsAtEverySize) {
       scene.add_pair(model.objects[model.pairs[i][0]].mesh, a,
                      model.objects[model.pairs[i][1]].mesh, b);
     }
-    EXPECT_GT(compare(scene, Rig::shared().run(scene.scene)).hits, 200) << scale;
+    EXPECT_GT(compare_hits(scene, Rig::shared().run(scene.scene)).hits, 200) << scale;
   }
 }
 

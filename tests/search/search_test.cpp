@@ -18,16 +18,18 @@
 namespace ode_ext::test {
 namespace {
 
-Comparison compare(const TestScene& scene, const std::map<CrossingKey, FoundCrossing>& found) {
+Comparison compare_crossings(const TestScene& scene,
+                             const std::map<CrossingKey, FoundCrossing>& found) {
   const std::vector<ReferenceSurface> surfaces(scene.meshes.begin(), scene.meshes.end());
   const Comparison comparison = compare_crossings(scene, surfaces, found);
   for (const std::string& difference : comparison.differences) ADD_FAILURE() << difference;
   return comparison;
 }
 
-Comparison compare(const TestScene& scene, Organization organization, Launch launch = {8, 64}) {
-  return compare(scene, found_crossings(scene, Rig::shared().run_with_edges(scene.scene,
-                                                                            organization, launch)));
+Comparison compare_crossings(const TestScene& scene, Organization organization,
+                             Launch launch = {8, 64}) {
+  return compare_crossings(scene, found_crossings(scene, Rig::shared().run_with_edges(
+                                                             scene.scene, organization, launch)));
 }
 
 constexpr Organization kBoth[] = {Organization::kPipelined, Organization::kMonolithic};
@@ -35,7 +37,7 @@ constexpr Organization kBoth[] = {Organization::kPipelined, Organization::kMonol
 TEST(Search, FindsTheCrossingsOfTheReference) {
   const TestScene scene = random_scene(600, 71);
   for (const Organization organization : kBoth) {
-    const Comparison comparison = compare(scene, organization);
+    const Comparison comparison = compare_crossings(scene, organization);
     EXPECT_GT(comparison.certain, 5000u);
     EXPECT_LT(200 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
   }
@@ -48,7 +50,7 @@ TEST(Search, FindsTheSameWhateverTheNumberOfPairs) {
         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[0]));
     const auto monolithic =
         found_crossings(scene, Rig::shared().run_with_edges(scene.scene, kBoth[1]));
-    compare(scene, pipelined);
+    compare_crossings(scene, pipelined);
     ASSERT_EQ(pipelined.size(), monolithic.size());
     for (const auto& [key, crossing] : pipelined) {
       ASSERT_TRUE(monolithic.contains(key));
@@ -85,7 +87,7 @@ TEST(Search, FindsTheCrossingsOfLargerMeshes) {
     scene.add_pair(i % 3, a, i / 3 % 3, random.pose(0.3));
   }
   for (const Organization organization : kBoth) {
-    const Comparison comparison = compare(scene, organization);
+    const Comparison comparison = compare_crossings(scene, organization);
     EXPECT_GT(comparison.certain, 500u);
     // One edge in fifty is so flat that it may as well not be cast.
     EXPECT_LT(20 * comparison.ambiguous, comparison.certain) << comparison.ambiguous;
@@ -103,7 +105,7 @@ TEST(Search, FindsTheSameFarFromTheOrigin) {
       b.position = b.position + place;
       far.add_pair(near.objects[near.pairs[i][0]].mesh, a, near.objects[near.pairs[i][1]].mesh, b);
     }
-    EXPECT_GT(compare(far, Organization::kPipelined).certain, 500u);
+    EXPECT_GT(compare_crossings(far, Organization::kPipelined).certain, 500u);
   }
 }
 
@@ -119,7 +121,7 @@ TEST(Search, FindsTheSameAtEverySize) {
       scene.add_pair(model.objects[model.pairs[i][0]].mesh, a,
                      model.objects[model.pairs[i][1]].mesh, b);
     }
-    EXPECT_GT(compare(scene, Organization::kPipelined).certain, 500u) << scale;
+    EXPECT_GT(compare_crossings(scene, Organization::kPipelined).certain, 500u) << scale;
   }
 }
 
@@ -130,7 +132,7 @@ TEST(Search, FindsNothingFarFromWhereAlignedBoxesTouch) {
     TestScene scene;
     const std::uint32_t cube = scene.add_mesh(make_cube(1, 2));
     scene.add_pair(cube, at(offset[0], offset[1], offset[2]), cube, at(0, 0, 0));
-    for (const Organization organization : kBoth) compare(scene, organization);
+    for (const Organization organization : kBoth) compare_crossings(scene, organization);
   }
 }
 
@@ -149,7 +151,7 @@ TEST(Search, CullsNothingThatCrosses) {
     scene.add_pair(ring, pose, ring, random.pose(0.5));
   }
   for (const Organization organization : kBoth)
-    EXPECT_GT(compare(scene, organization).certain, 300u);
+    EXPECT_GT(compare_crossings(scene, organization).certain, 300u);
 }
 
 // Its box is in that of the ring, and nothing of it near the ring.

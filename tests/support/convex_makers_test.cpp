@@ -13,7 +13,7 @@
 namespace ode_ext::test {
 namespace {
 
-double volume(const TestMesh& mesh) {
+double convex_volume(const TestMesh& mesh) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
     sum += dot(mesh.corner(t, 0), cross(mesh.corner(t, 1), mesh.corner(t, 2))) / 6;
@@ -62,7 +62,7 @@ TEST(ConvexMakers, MakeClosedConvexSolidsOfTheRightVolume) {
   for (const Solid& solid : solids) {
     EXPECT_TRUE(is_a_closed_surface_like_a_ball(solid.mesh)) << solid.name;
     EXPECT_TRUE(is_convex(solid.mesh)) << solid.name;
-    EXPECT_NEAR(volume(solid.mesh), solid.volume, solid.tolerance) << solid.name;
+    EXPECT_NEAR(convex_volume(solid.mesh), solid.volume, solid.tolerance) << solid.name;
   }
 }
 
