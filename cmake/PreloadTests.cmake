@@ -58,11 +58,13 @@ set_directory_properties(PROPERTIES COMPILE_DEFINITIONS "${definitions}")
 add_executable(dart_pairs tests/preload/clients/dart_pairs.cpp)
 ode_ext_compile_options(dart_pairs)
 # DART's headers are not written for these warnings.
+target_include_directories(dart_pairs PRIVATE tests)
 target_include_directories(dart_pairs SYSTEM PRIVATE ${DART_INCLUDE_DIRS})
 target_link_libraries(dart_pairs PRIVATE CLI11::CLI11 dart-collision-ode)
 
 add_executable(boxes tests/preload/clients/boxes.cpp)
 ode_ext_compile_options(boxes)
+target_include_directories(boxes PRIVATE tests)
 target_link_libraries(boxes PRIVATE CLI11::CLI11 ODE::ODE)
 add_test(NAME preload_leaves_boxes_alone
          COMMAND ${preload_tests}/overhead.sh ${PROJECT_BINARY_DIR}/bin 1)

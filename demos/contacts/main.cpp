@@ -19,6 +19,9 @@ using nlohmann::json;
 
 constexpr int kMost = 16;
 
+// As of falling_objects.
+enum ExitCode { kExitOk = 0, kExitFailed = 1, kExitUsage = 2 };
+
 // ODE keeps pointers to the mesh: it has to live as long as this.
 class Body {
  public:
@@ -111,16 +114,20 @@ int main(int argc, char** argv) {
   app.footer(footer + "Normals point into the first mesh. The device is that of ODE_EXT_DEVICE.");
   app.add_option("pair", name, "Which pair")->check(CLI::IsMember(names))->capture_default_str();
   app.add_flag("--stock", stock, "The contacts of ODE's own collider instead");
-  CLI11_PARSE(app, argc, argv);
-  int status = 0;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kExitOk : kExitUsage;
+  }
+  ExitCode exit_code = kExitOk;
   dInitODE2(0);
   try {
     for (const Pair& pair : all_pairs())
       if (name == pair.name) std::puts(describe(pair, stock).dump().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contacts: %s\n", error.what());
-    status = 1;
+    exit_code = kExitFailed;
   }
   dCloseODE();
-  return status;
+  return exit_code;
 }

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <limits>
-#include <map>
 #include <new>
 
+#include "falling_objects/output_file.h"
 #include "scene_file/scene_file.h"
 #include "scene_file/scene_list.h"
 
@@ -94,10 +94,13 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->allow_extra_args(false)
       ->group("Scene");
 
-  const std::map<std::string, Collider> colliders{{"batch", Collider::kBatch},
-                                                  {"ode", Collider::kOde}};
-  app.add_option("--collider", o.collider, "Whose contacts drive the simulation (default: batch)")
-      ->transform(CLI::CheckedTransformer(colliders))
+  app.add_option_function<std::string>(
+         "--collider",
+         [&o](const std::string& name) {
+           o.collider = name == "ode" ? Collider::kOde : Collider::kBatch;
+         },
+         "Whose contacts drive the simulation (default: batch)")
+      ->check(CLI::IsMember({"batch", "ode"}))
       ->option_text("batch|ode")
       ->group("Collision");
   app.add_flag("--compare", o.compare,
@@ -119,18 +122,21 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.add_flag("--trust-meshes", o.trust_meshes, "Do not look for changed meshes in every pass")
       ->group("Collision");
 
-  app.add_option("--csv", o.csv, "Write a row per step to this file")->group("Output");
+  app.add_option("--csv", o.csv, "Write a row per step to this file")
+      ->check(why_not_written)
+      ->group("Output");
   app.add_flag("--check", o.check, "Exit with 1 if the simulation went wrong (see below)")
       ->group("Output");
   app.add_flag("--check-rest", o.check_rest, "Also if the objects are not at rest at the end")
       ->group("Output");
   app.add_option("--snapshot", o.snapshot, "Write all meshes at the end to this OBJ file")
+      ->check(why_not_written)
       ->group("Output");
   app.add_option("--record", o.record,
                  "Write the run to this .glb file (glTF), 30 poses a second, for Blender and other "
                  "viewers; without sheets")
-      ->check(
-          [](const std::string& path) { return path.ends_with(".glb") ? "" : "must end in .glb"; })
+      ->check(ends_in({".glb"}))
+      ->check(why_not_written)
       ->group("Output");
   app.add_flag("--quiet", o.quiet, "No progress")->group("Output");
   add_picture_options(app, o.pictures);

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <vector>
 
+#include "falling_objects/output_file.h"
+
 namespace falling_objects {
 namespace {
 
@@ -37,10 +39,14 @@ void add_picture_options(CLI::App& app, PictureOptions& o) {
                "Show the run in a window, and let it be steered (default where there is a display "
                "and no other output is asked for)")
       ->group("Pictures");
-  app.add_flag("--no-window", o.no_window, "Never")->group("Pictures");
+  app.add_flag("--no-window", o.no_window, "Never")->excludes("--window")->group("Pictures");
   add("--frames", o.frames,
-      "Write pictures to PNG files: out/%04d.png; without a number one of the end");
-  add("--video", o.video, "Make a film by ffmpeg: FILE.mp4, .webm, .webp or .gif");
+      "Write pictures to PNG files: out/%04d.png; without a number one of the end")
+      ->check(ends_in({".png"}))
+      ->check(why_not_written);
+  add("--video", o.video, "Make a film by ffmpeg: FILE.mp4, .webm, .webp or .gif")
+      ->check(ends_in({".mp4", ".webm", ".webp", ".gif"}))
+      ->check(why_not_written);
   app.add_option_function<std::string>(
          "--size",
          [&o](const std::string& text) {

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "falling_objects/output_file.h"
 #include "falling_objects/report.h"
 #include "falling_objects/snapshot.h"
 #include "falling_objects/usage_error.h"
@@ -37,6 +38,11 @@ int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
 }
 
+void close(std::ofstream& file, const std::string& path) {
+  file.close();
+  if (!file) throw std::runtime_error("writing '" + path + "' failed");
+}
+
 int print_verdict(const Options& options, const Checks& checks,
                   const std::vector<Outcome>& outcomes) {
   for (const Outcome& outcome : outcomes) {
@@ -53,11 +59,9 @@ int print_verdict(const Options& options, const Checks& checks,
 }
 
 int run_scene(const Options& options, const MakeSpectator& watch) {
-  std::ofstream csv;
-  if (!options.csv.empty()) {
-    csv.open(options.csv);
-    if (!csv) throw UsageError("cannot write '" + options.csv + "'");
-  }
+  std::ofstream csv, snapshot;
+  if (!options.csv.empty()) csv = open_output(options.csv);
+  if (!options.snapshot.empty()) snapshot = open_output(options.snapshot);
   World world(options);
   const Scene& scene = world.scene();
   for (const std::string& warning : world.warnings()) std::cerr << "warning: " << warning << '\n';
@@ -73,7 +77,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   Progress progress(options);
   std::unique_ptr<GltfRecorder> recorder;
   if (!options.record.empty()) {
-    if (!std::ofstream(options.record)) throw UsageError("cannot write '" + options.record + "'");
+    open_output(options.record);
     recorder = std::make_unique<GltfRecorder>(scene);
     recorder->record(0);
   }
@@ -120,16 +124,13 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   if (spectator) spectator->finish(std::cout);
   if (csv.is_open()) {
     write_csv(csv, records);
-    csv.close();
-    if (!csv) throw std::runtime_error("writing '" + options.csv + "' failed");
+    close(csv, options.csv);
   }
   if (recorder) recorder->write(options.record);
-  if (!options.snapshot.empty()) {
-    std::ofstream file(options.snapshot);
+  if (snapshot.is_open()) {
     const std::vector<std::unique_ptr<Sheet>> none;
-    write_snapshot(file, scene, sheets != nullptr ? sheets->all() : none);
-    file.close();
-    if (!file) throw UsageError("cannot write '" + options.snapshot + "'");
+    write_snapshot(snapshot, scene, sheets != nullptr ? sheets->all() : none);
+    close(snapshot, options.snapshot);
   }
   return print_verdict(options, checks, expectations.outcomes());
 }

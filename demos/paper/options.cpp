@@ -81,7 +81,6 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   std::vector<std::string> names;
   std::string driver = "full";
   CLI::App app(kDescription, "paper");
-  app.require_subcommand(1);
   CLI::App* run = app.add_subcommand("run", "Run a scene and write what was measured");
   app.footer("paper run --help says more.");
   run->footer(kFooter);
@@ -115,6 +114,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   run->add_flag("--list", o.list, "Print the configurations and stop");
   try {
     app.parse(argc, argv);
+    if (!run->parsed()) throw CLI::RequiredError("A subcommand");
     const bool deformable = o.scene == kDeformableScene;
     if (deformable && objects->empty()) simulation.objects = 216;
     if (deformable && sheets->empty()) simulation.sheets = 36;

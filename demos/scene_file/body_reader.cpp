@@ -191,10 +191,18 @@ void BodyReader::read_body(TomlTable& table) {
 }
 
 std::size_t BodyReader::body_named(const char* key, TomlTable& table) const {
-  const std::string name = table.text(key);
+  return body_named(key, table.text(key), table);
+}
+
+std::size_t BodyReader::body_named(const char* key, const std::string& name,
+                                   const TomlTable& table) const {
   const auto& bodies = scene_.bodies;
-  const auto found = std::find_if(bodies.begin(), bodies.end(),
-                                  [&](const BodyDescription& body) { return body.name == name; });
+  const auto is_named = [&](const BodyDescription& body) { return body.name == name; };
+  const auto found = std::find_if(bodies.begin(), bodies.end(), is_named);
+  if (const auto count = std::count_if(found, bodies.end(), is_named); count > 1) {
+    table.fail(key, std::to_string(count) + " bodies are named '" + name +
+                        "': give each [[body]] a 'name' of its own");
+  }
   if (found == bodies.end()) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < std::min<std::size_t>(bodies.size(), 20); ++i)
@@ -206,16 +214,14 @@ std::size_t BodyReader::body_named(const char* key, TomlTable& table) const {
 }
 
 std::vector<std::size_t> BodyReader::bodies_named(const char* key, TomlTable& table) const {
-  const std::string first = table.text(key) + " 1";
+  const std::string name = table.text(key);
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-    const std::string& name = scene_.bodies[i].name;
-    if (name == first ||
-        (!numbers.empty() && name == table.text(key) + ' ' + std::to_string(numbers.size() + 1))) {
-      numbers.push_back(i);
-    }
+    const std::string number = std::to_string(numbers.size() + 1);
+    if (scene_.bodies[i].name == name + ' ' + number) numbers.push_back(i);
   }
-  if (numbers.empty()) numbers.push_back(body_named(key, table));
+  if (numbers.empty()) return {body_named(key, table)};
+  body_named(key, name + " 1", table);  // fails where that is the name of several
   return numbers;
 }
 

@@ -21,11 +21,13 @@ class BodyReader {
   // The number of the mesh that the text at `key` of a table names: one that was read, or a shape
   // as it is without parameters.
   std::size_t mesh_named(const std::string& name, const char* key, const TomlTable& table);
+  // What two are named names none.
   std::size_t body_named(const char* key, TomlTable& table) const;
   // The one of this name, or all that a [[body]] of this name made.
   std::vector<std::size_t> bodies_named(const char* key, TomlTable& table) const;
 
  private:
+  std::size_t body_named(const char* key, const std::string& name, const TomlTable& table) const;
   void add_mesh(const std::string& name, TriangleMesh mesh);
 
   SceneDescription& scene_;

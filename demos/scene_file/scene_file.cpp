@@ -181,6 +181,10 @@ std::string find_scene_file(const std::string& name) {
 }
 
 SceneDescription read_scene_file(const std::string& path) {
+  if (fs::is_directory(path)) {
+    throw SceneFileError("'" + path + "' is a folder; a scene is a file that ends in " +
+                         kExtension);
+  }
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   text << file.rdbuf();

@@ -4,9 +4,9 @@
  * A batched trimesh-trimesh collider for the Open Dynamics Engine.
  *
  * All mesh pairs of a dSpaceCollide pass are gathered, collided together on an OpenCL device by
- * casting rays from the vertices of each mesh at the other (Lehericey, Gouranton, Arnaldi, "GPU
- * Ray-Traced Collision Detection: Fine Pipeline Reorganization", GRAPP 2015), and answered from the
- * near callback the program already has: its dCollide(mesh, mesh, ...) reads the batch.
+ * casting rays from the vertices of each mesh that are in the other (Lehericey, Gouranton, Arnaldi,
+ * "GPU Ray-Traced Collision Detection: Fine Pipeline Reorganization", GRAPP 2015), and answered
+ * from the near callback the program already has: its dCollide(mesh, mesh, ...) reads the batch.
  *
  *     dBatchColliderID collider = dBatchColliderCreate(NULL);       // after dInitODE2
  *     dBatchColliderSpaceCollide(collider, space, data, &near);  // was: dSpaceCollide(space, ...)
@@ -68,8 +68,8 @@ typedef struct dBatchColliderParams {
   const char *device; /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
                              Read during dBatchColliderCreate only, as is `config` */
   int max_contacts;   /**< contacts kept per pair, 1..64 (default 16) */
-  int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh; 0 (default):
-                                      all of them */
+  int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh, 1..64; 0
+                                      (default): all of them */
   dReal open_thickness;        /**< [m] how far below an open surface it is solid; 0 (default): the
                                       mean edge length of the mesh */
   int trust_meshes;            /**< nonzero: meshes change only where the program says so through
@@ -348,7 +348,7 @@ enum {
   dBatchCounterPairsStock = 62, /**< pairs answered by ODE's own collider */
   dBatchCounterMeshes = 63,     /**< meshes known now */
   /* Append buffers of the last pass, in the order of the pipeline. pair step or flood -> vertex
-     step: runs of up to 16 vertices; where rays are of all vertices (as in the paper) by the
+     step: chunks of up to 16 vertices; where rays are of all vertices (as in the paper) by the
      category of their pair, else all in the second */
   dBatchBufferChunksSmall = 1000,      /**< rigid, small displacement */
   dBatchBufferChunksHigh = 1010,       /**< rigid, high displacement; or all */

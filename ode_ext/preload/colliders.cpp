@@ -52,8 +52,11 @@ dBatchColliderID create() {
   seconds = seconds + took.count();
   if (collider == nullptr) {
     cannot_create = true;
-    log(LogLevel::kError, std::string(dBatchColliderGetLastErrorMessage()) +
-                              "; the program goes on with ODE's own collider");
+    std::string why = dBatchColliderGetLastErrorMessage();
+    while (why.ends_with('\n') || why.ends_with('.')) why.pop_back();
+    // A list of devices has a line each.
+    why += why.find('\n') == std::string::npos ? ". " : "\n";
+    log(LogLevel::kError, why + "The program goes on with ODE's own collider.");
   }
   return collider;
 }

@@ -72,6 +72,11 @@ const dxPreloadCore kCore = {&collide,      &meet,           &initialized,
 
 }  // namespace
 
+extern "C" __attribute__((visibility("default"))) const char* ode_ext_preload_config_fault(
+    const char* config) {
+  return dBatchConfigCheck(config) == 0 ? nullptr : dBatchColliderGetLastErrorMessage();
+}
+
 extern "C" __attribute__((visibility("default"))) const dxPreloadCore* ode_ext_preload_core(
     void* (*find)(const char*), const char** missing) {
   *missing = find_ode_functions(find);

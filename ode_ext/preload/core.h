@@ -29,6 +29,11 @@ typedef struct dxPreloadCore {
    Returns NULL where that ODE lacks one, and names it. */
 typedef const dxPreloadCore* dxPreloadCoreFn(void* (*find)(const char* name), const char** missing);
 dxPreloadCoreFn ode_ext_preload_core;
+
+/* Exported too, for ode_ext-run, in whose process there is no ODE: what is wrong with a
+   dBatchColliderParams.config, valid until the next call; NULL: nothing. */
+typedef const char* dxPreloadConfigFaultFn(const char* config);
+dxPreloadConfigFaultFn ode_ext_preload_config_fault;
 /* NOLINTEND(modernize-*) */
 
 #ifdef __cplusplus

@@ -21,10 +21,15 @@ static Ode* _Atomic core_ode; /* that it collides the meshes of: the first in wh
 /* Mesh geoms that may be alive: where there are not two, nothing is to be done. */
 static atomic_long mesh_geoms;
 
-static void say(const char* text, const char* more) {
+/* What is, and what the program goes on with. */
+static void say(const char* text, const char* more, const char* goes_on) {
   const char* level = getenv("ODE_EXT_LOG");
   if (level == NULL || strcmp(level, "off") != 0)
-    fprintf(stderr, "ode_ext: %s%s; the program goes on with ODE's own collider\n", text, more);
+    fprintf(stderr, "ode_ext: %s%s; %s\n", text, more, goes_on);
+}
+
+static void say_not_collided(const char* text, const char* more) {
+  say(text, more, "the program goes on with ODE's own collider");
 }
 
 /* For the library: not a function that was redirected. */
@@ -44,12 +49,14 @@ static const char* precision_of(const Ode* ode) {
 static void load_core_of(Ode* ode) {
   core_ode = ode;
   if (dlsym(RTLD_DEFAULT, "dBatchColliderCreate") != NULL) {
-    say("this program uses ode_ext by itself", "");
+    say("this program uses ode_ext by itself", "",
+        "it goes on with that, and of the options of ode_ext-run only --device, --log, --trace and "
+        "--capture count");
     return;
   }
   const char* precision = precision_of(ode);
   if (precision == NULL) {
-    say("this ODE does not tell its precision", "");
+    say_not_collided("this ODE does not tell its precision", "");
     return;
   }
   char *directory = ode_ext_own_directory(), *path = NULL;
@@ -57,12 +64,12 @@ static void load_core_of(Ode* ode) {
     path = NULL;
   void* library = path == NULL ? NULL : dlopen(path, RTLD_NOW | RTLD_LOCAL);
   if (library == NULL) {
-    say(path == NULL ? "memory is short" : dlerror(), "");
+    say_not_collided(path == NULL ? "memory is short" : dlerror(), "");
   } else {
     const char* missing = NULL;
     dxPreloadCoreFn* start = (dxPreloadCoreFn*)dlsym(library, "ode_ext_preload_core");
     core = start(&find_function, &missing);
-    if (core == NULL) say("this ODE has no ", missing);
+    if (core == NULL) say_not_collided("this ODE has no ", missing);
   }
   free(path);
   free(directory);
@@ -82,7 +89,8 @@ static const dxPreloadCore* loaded_core_of(Ode* ode) {
     pthread_mutex_unlock(&one_at_a_time);
   }
   if (ode != core_ode && core != NULL && !atomic_exchange(&is_second_said, true))
-    say("this process has another ODE, whose meshes ode_ext leaves alone: ", ode->found.path);
+    say("this process has another ODE: ", ode->found.path,
+        "its meshes go on with its own collider, and those of the first with ode_ext");
   return core_of(ode);
 }
 
@@ -227,7 +235,8 @@ __attribute__((constructor)) static void redirect_program(void) {
   void* pass = (void*)ode_of_program->dSpaceCollide;
   if (ode_of_program->dSpaceCollide2 == NULL ||
       !ode_ext_redirect(pass, (void*)&collide_redirected)) {
-    say("ODE is linked into the program itself, whose calls cannot be seen from outside", "");
+    say_not_collided(
+        "ODE is linked into the program itself, whose calls cannot be seen from outside", "");
     return;
   }
   ode_of_program->dSpaceCollide = &collide_interior;

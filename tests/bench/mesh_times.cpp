@@ -17,6 +17,7 @@
 
 #include "bench/pair_cases.h"
 #include "bench/timing.h"
+#include "support/arguments.h"
 #include "support/batch_collider.h"
 #include "support/ode_world.h"
 
@@ -141,7 +142,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   app.add_option("--csv", options.csv, "write the figures there too");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     run(options);
   } catch (const std::exception& error) {

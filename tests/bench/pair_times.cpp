@@ -19,6 +19,7 @@
 #include "bench/pair_cases.h"
 #include "bench/rivals.h"
 #include "bench/timing.h"
+#include "support/arguments.h"
 #include "support/batch_collider.h"
 #include "support/ode_world.h"
 #include "support/worst_pairs.h"
@@ -235,7 +236,7 @@ int main(int argc, char** argv) {
   app.add_option("--replay", options.replay,
                  "a capture (ODE_EXT_CAPTURE): its meshes in the poses in which they met");
   app.add_option("--csv", options.csv, "write the figures there too");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     run(options);
   } catch (const std::exception& error) {

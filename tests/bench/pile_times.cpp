@@ -24,6 +24,7 @@
 #include "meshes/shapes.h"
 #include "simulation/scene.h"
 #include "simulation/simulation.h"
+#include "support/arguments.h"
 #include "support/ode_world.h"
 
 namespace {
@@ -257,7 +258,7 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "of ground and poses")->capture_default_str();
   app.add_flag("!--no-rivals", options.rivals, "this library and ODE alone");
   app.add_option("--csv", options.csv, "write the figures there too");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     if (options.first >= options.steps) throw std::runtime_error("--first is not before --steps");
     return run(options);

@@ -5,11 +5,16 @@
 #include <gtest/gtest.h>
 #include <ode_ext/ode_ext.h>
 
+#include <filesystem>
 #include <sstream>
+
+#include "falling_objects/output_file.h"
+#include "support/temporary_folder.h"
 
 namespace falling_objects {
 namespace {
 
+using ode_ext::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -91,6 +96,10 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector{"--collider", "none"}, std::vector{"--scene", "soft"},
                     std::vector{"--config", "confidence=-1"}, std::vector{"--steps", "-1"},
                     std::vector{"--mesh"}, std::vector{"stray"}, std::vector{"--sheets", "2"},
+                    std::vector{"--window", "--no-window"}, std::vector{"--frames", "q.txt"},
+                    std::vector{"--video", "x.avi"}, std::vector{"--record", "x.obj"},
+                    std::vector{"--snapshot", "/"}, std::vector{"--csv", "/dev/null/x"},
+                    std::vector{"--video", "/dev/null/a/x.mp4"}, std::vector{"--scene", "/"},
                     std::vector{"--scene", "rigid-deformable", "--compare"},
                     std::vector{"--scene", "rigid-deformable", "--collider", "ode"}));
 
@@ -98,6 +107,22 @@ TEST_P(WrongOptions, AreRefusedWithAMessageAndCode2) {
   const Outcome outcome = parse(GetParam());
   EXPECT_EQ(outcome.parsed.exit_code, kExitUsage);
   EXPECT_FALSE(outcome.err.empty());
+}
+
+TEST(Options, FilesThatCannotBeWrittenAreNamedWithTheReason) {
+  EXPECT_THAT(parse({"--snapshot", "/"}).err, HasSubstr("cannot write '/': Is a directory"));
+  EXPECT_THAT(parse({"--csv", "/dev/null/a/b"}).err,
+              HasSubstr("cannot write '/dev/null/a/b': Not a directory"));
+  EXPECT_THAT(parse({"--video", "a.avi"}).err,
+              HasSubstr("'a.avi' must end in one of .mp4, .webm, .webp, .gif"));
+}
+
+TEST(Options, FoldersThatAreNotThereAreMade) {
+  const TemporaryFolder folder("options_test");
+  const std::string path = folder / "new/newer/end.obj";
+  EXPECT_FALSE(parse({"--snapshot", path.c_str()}).parsed.exit_code);
+  open_output(path).close();
+  EXPECT_TRUE(std::filesystem::exists(path));
 }
 
 }  // namespace

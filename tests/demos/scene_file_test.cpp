@@ -201,6 +201,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[mesh.a]\nfile = \"none.obj\"\n", "2: ", "cannot read the mesh"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[joint]]\nbody = \"cub\"\n",
               "4: ", "there is no body 'cub'; there are cube"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[body]]\nmesh = \"cube\"\n[[joint]]\nbody = \"cube\"\n",
+              "6: ", "2 bodies are named 'cube': give each [[body]] a 'name' of its own"},
+        Wrong{"[[body]]\nmesh = \"cube\"\ncount = [2, 1, 1]\n[[body]]\nmesh = \"cube\"\n"
+              "count = [2, 1, 1]\n[[expect]]\nkind = \"still\"\nbody = \"cube\"\nspeed = 1\n",
+              "9: ", "2 bodies are named 'cube 1': give each [[body]] a 'name' of its own"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"luck\"\n", "4: ",
               "'kind' is 'luck', expected one of ratio, screw, still, stays, moves, above, apart"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"stays\"\ndistance = 1\n"

@@ -39,6 +39,17 @@ expect 0 "usage: ode_ext-run" --help
 expect 0 "ode_ext 0." --version
 expect 2 "usage: ode_ext-run"
 expect 2 "unrecognized option" --nosuch true
+expect 2 "no program is named after --capture ./host" --capture ./host
+for number in 0 65 -1 abc 8x ''; do
+  expect 2 "--max-contacts '$number': expected a whole number from 1 to 64" --max-contacts "$number" true
+done
+expect 2 "--log 'loud': expected off, error, warning or info" --log loud true
+expect 2 "--config 'rays=none': dBatchConfigCheck: config: rays is 'none', expected full" \
+  --config rays=none true
+expect 2 "--capture '/missing/f': No such file or directory" --capture /missing/f true
+expect 2 "--trace '/': Is a directory" --trace / true
+expect 0 "" --max-contacts 64 --log off --config workload=exact --trace "$results/t" true
+[[ ! -e $results/t ]] || fail "--trace is written by a program without meshes"
 expect 127 "not found" nosuchprogram
 expect 127 "No such file" ./nosuchprogram
 expect 126 "not an executable file" "$(dirname "$0")"
@@ -49,7 +60,7 @@ expect 126 "linked statically" "$results/static"
 expect 3 "" sh -c 'exit 3'
 expect 0 "called no ODE" --stats true
 expect 0 "--help" echo --help
-expect 0 "uses ode_ext by itself" "$bin/idioms_by_api" in_the_callback
+expect 0 "uses ode_ext by itself; it goes on with that, and of the options" "$bin/idioms_by_api" in_the_callback
 expect 0 "" --capture "$results/capture" "$bin/idioms" in_the_callback
 [[ -s $results/capture ]] || fail "--capture writes nothing"
 expect 0 "passes" --stats sh -c "exec '$bin/idioms' in_the_callback"

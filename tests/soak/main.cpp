@@ -9,6 +9,7 @@
 
 #include "soak/memory.h"
 #include "soak/soak_thread.h"
+#include "support/arguments.h"
 
 namespace {
 
@@ -173,6 +174,6 @@ int main(int argc, char** argv) {
                  "passes 0.3 MB")
       ->capture_default_str();
   app.add_flag("--csv", options.csv, "The table as CSV, and the rest to stderr");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   return run(options);
 }

@@ -51,8 +51,10 @@ view::Camera camera_of(const Options& options, WorldView& world, float aspect) {
   if (text.empty()) return view::seeing(start, corners_of(frame.boxes), aspect);
   const auto camera = view::parse_camera(text, start);
   if (!camera) {
-    throw UsageError("--camera wants x,y,z:x,y,z or azimuth,elevation[,distance], not '" + text +
-                     "'");
+    throw UsageError(
+        "--camera wants x,y,z:x,y,z, an eye and a target elsewhere, or "
+        "azimuth,elevation[,distance], not '" +
+        text + "'");
   }
   return *camera;
 }

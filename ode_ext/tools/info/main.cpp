@@ -31,13 +31,16 @@ void list_settings() {
 }
 
 // A device may be listed and yet fail: its compiler may refuse the kernels, or its arithmetic.
-int try_to_create(const char* selection) {
+// `said` is what was printed of the devices, and is not printed again.
+int try_to_create(const char* selection, const std::string& said) {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
   params.device = selection;
   const dBatchColliderID collider = dBatchColliderCreate(&params);
   if (collider == nullptr) {
-    std::cout << "no collider: " << dBatchColliderGetLastErrorMessage() << '\n';
+    const std::string why = dBatchColliderGetLastErrorMessage();
+    const bool is_said = said.find(why.substr(why.find(' ') + 1)) != std::string::npos;
+    std::cout << "no collider: " << (is_said ? "there is no device, as said above" : why) << '\n';
     return kExitNoDevice;
   }
   std::cout << "a collider works on " << dBatchColliderGetDeviceName(collider) << '\n';
@@ -72,10 +75,11 @@ int main(int argc, char** argv) {
   }
   const char* selection = app.count("--device") > 0 ? device.c_str() : nullptr;
   dInitODE2(0);
+  const std::string devices = describe_devices(selection);
   std::cout << "ode_ext " << ODE_EXT_VERSION << '\n'
             << "ODE     " << dGetConfiguration() << '\n'
-            << describe_devices(selection);
-  const int exit_code = try_to_create(selection);
+            << devices;
+  const int exit_code = try_to_create(selection, devices);
   dCloseODE();
   return exit_code;
 }

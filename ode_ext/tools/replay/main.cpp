@@ -174,11 +174,15 @@ int main(int argc, char** argv) {
       "rays=iterative-paper, misprediction=ignore, misprediction=backtrack.\n"
       "Exit codes: 0 the same, 1 different, 2 wrong usage or no capture, 3 no device.");
   Options options;
-  app.add_option("file", options.file, "The capture")->required();
+  app.add_option("file", options.file, "The capture (required)");
   const auto* device = app.add_option("--device", options.device,
                                       "As ODE_EXT_DEVICE: platform:type:name, or an index");
-  const auto* config = app.add_option("--config", options.config,
-                                      "In place of the captured one; ode_ext-info --settings");
+  const auto* config =
+      app.add_option("--config", options.config,
+                     "In place of the captured one; ode_ext-info --settings")
+          ->check([](const std::string& text) {
+            return dBatchConfigCheck(text.c_str()) == 0 ? "" : dBatchColliderGetLastErrorMessage();
+          });
   app.add_option("--repeat", options.repeat, "Times that each pass is collided; the median counts")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -186,6 +190,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", ODE_EXT_VERSION);
   try {
     app.parse(argc, argv);
+    if (options.file.empty()) throw CLI::RequiredError("file");
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? kExitSame : kExitUsage;
   }

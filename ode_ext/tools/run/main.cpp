@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ode_ext-run: starts a program with the preload, and says why where it cannot work.
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <getopt.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +16,7 @@
 #include <iterator>
 #include <string>
 
+#include "preload/core.h"
 #include "tools/run/elf_program.h"
 
 namespace {
@@ -65,6 +68,66 @@ constexpr int kHelp = kSettingCount, kVersion = kSettingCount + 1;
   std::exit(code);
 }
 
+// Beside this program: an installed tree can be moved.
+std::string preload_library() {
+  std::error_code error;
+  const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) fail(kExitFailed, "/proc/self/exe: " + error.message());
+  const auto library =
+      (own.parent_path() / ODE_EXT_BIN_TO_PRELOAD / "libode_ext_preload.so").lexically_normal();
+  if (access(library.c_str(), R_OK) != 0)
+    fail(kExitFailed, library.string() + ": " + std::strerror(errno));
+  if (library.string().find_first_of(" :") != std::string::npos)
+    fail(kExitFailed, "LD_PRELOAD cannot hold a path with a space or a colon: " + library.string());
+  return library;
+}
+
+bool is_whole_number(const std::string& text, long least, long most) {
+  char* end = nullptr;
+  const long number = std::strtol(text.c_str(), &end, 10);
+  return std::isdigit(static_cast<unsigned char>(text[0])) != 0 && *end == '\0' &&
+         number >= least && number <= most;
+}
+
+// Why a program could not write there, or "". Makes no file: a program without meshes writes none.
+std::string why_not_written(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return std::strerror(EISDIR);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const bool is_there = access(path.c_str(), F_OK) == 0;
+  const std::string& place = is_there ? path : folder.empty() ? "." : folder;
+  if (access(place.c_str(), W_OK) != 0) return std::strerror(errno);
+  return !is_there && !std::filesystem::is_directory(place, error) ? std::strerror(ENOTDIR) : "";
+}
+
+// What the library says of a config, or ""; so too where it cannot be loaded, which the program
+// says once it wants it.
+std::string fault_of_config(const std::string& config, const std::filesystem::path& preload) {
+  const auto library = preload.parent_path() / "libode_ext_preload_double.so";
+  void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* check = loaded == nullptr ? nullptr : dlsym(loaded, "ode_ext_preload_config_fault");
+  if (check == nullptr) return "";
+  const char* fault = reinterpret_cast<dxPreloadConfigFaultFn*>(check)(config.c_str());
+  return fault == nullptr ? "" : fault;
+}
+
+// A program whose environment says what the library refuses goes on without the library; what an
+// option says is refused here, before the program starts.
+void check_option(const std::string& option, const std::string& value) {
+  std::string fault;
+  if (option == "max-contacts" && !is_whole_number(value, 1, 64)) {
+    fault = "expected a whole number from 1 to 64";
+  } else if (option == "log" && value != "off" && value != "error" && value != "warning" &&
+             value != "info") {
+    fault = "expected off, error, warning or info";
+  } else if (option == "trace" || option == "capture") {
+    fault = why_not_written(value);
+  } else if (option == "config") {
+    fault = fault_of_config(value, preload_library());
+  }
+  if (!fault.empty()) fail(kExitUsage, "--" + option + " '" + value + "': " + fault);
+}
+
 // Sets what the options say; returns the index of the program in argv.
 int read_options(int argc, char** argv) {
   option options[kSettingCount + 3] = {};
@@ -85,11 +148,14 @@ int read_options(int argc, char** argv) {
     }
     if (chosen == '?') std::exit(kExitUsage);  // getopt has said what is wrong
     const Setting& setting = kSettings[chosen];
+    if (setting.value == nullptr) check_option(setting.option, optarg);
     setenv(setting.variable, setting.value == nullptr ? optarg : setting.value, 1);
   }
   if (optind == argc) {
     std::cerr << kUsage;
-    std::exit(kExitUsage);
+    std::string after;
+    for (int i = 1; i < argc; ++i) after += std::string(" ") + argv[i];
+    fail(kExitUsage, "no program is named" + (after.empty() ? "" : " after" + after));
   }
   return optind;
 }
@@ -117,20 +183,6 @@ std::string path_of(const std::string& program) {
     begin = end + 1;
   }
   fail(kExitNotFound, program + " is not found in PATH");
-}
-
-// Beside this program: an installed tree can be moved.
-std::string preload_library() {
-  std::error_code error;
-  const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error) fail(kExitFailed, "/proc/self/exe: " + error.message());
-  const auto library =
-      (own.parent_path() / ODE_EXT_BIN_TO_PRELOAD / "libode_ext_preload.so").lexically_normal();
-  if (access(library.c_str(), R_OK) != 0)
-    fail(kExitFailed, library.string() + ": " + std::strerror(errno));
-  if (library.string().find_first_of(" :") != std::string::npos)
-    fail(kExitFailed, "LD_PRELOAD cannot hold a path with a space or a colon: " + library.string());
-  return library;
 }
 
 }  // namespace

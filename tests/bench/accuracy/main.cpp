@@ -10,6 +10,7 @@
 #include "bench/accuracy/markdown.h"
 #include "bench/accuracy/reference_contestant.h"
 #include "bench/accuracy/report.h"
+#include "support/arguments.h"
 
 namespace {
 
@@ -114,7 +115,7 @@ int main(int argc, char** argv) {
   std::vector<std::pair<const Trial*, const CLI::App*>> commands;
   for (const Trial& trial : all_trials())
     commands.emplace_back(&trial, app.add_subcommand(trial.name, trial.sentence));
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   std::vector<const Trial*> trials;
   for (const auto& [trial, command] : commands) {
     if (command->parsed() || all->parsed()) trials.push_back(trial);

@@ -17,6 +17,7 @@
 #include "bench/audit/kind_pair.h"
 #include "bench/audit/scene_audit.h"
 #include "simulation/simulation.h"
+#include "support/arguments.h"
 
 namespace {
 
@@ -155,7 +156,7 @@ int main(int argc, char** argv) {
                "pairs; not for the pile");
   app.add_option("--json", options.json, "Writes the table to this file as well");
   app.add_flag("--check", options.check, "Exit code 1 unless nothing is missed or false");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     return run(options);
   } catch (const falling_objects::NoDevice& error) {

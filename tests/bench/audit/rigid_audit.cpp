@@ -11,6 +11,7 @@
 #include "bench/audit/frames.h"
 #include "bench/audit/scene_audit.h"
 #include "simulation/simulation.h"
+#include "support/arguments.h"
 
 namespace {
 
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--device", options.device, "OpenCL device, as in ODE_EXT_DEVICE");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     return audit(options, frames);
   } catch (const falling_objects::NoDevice& error) {

@@ -22,6 +22,7 @@
 #include "search/crossing_comparison.h"
 #include "search/inside_oracle.h"
 #include "simulation/simulation.h"
+#include "support/arguments.h"
 #include "support/ode_world.h"
 #include "support/rig.h"
 
@@ -236,7 +237,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   app.add_option("--seed", seed, "Of the poses")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     print_header();
     Counts total;

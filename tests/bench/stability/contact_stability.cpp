@@ -13,6 +13,7 @@
 #include "bench/stability/bench.h"
 #include "bench/stability/trials.h"
 #include "simulation/collision.h"
+#include "support/arguments.h"
 
 namespace ode_ext::stability {
 
@@ -87,7 +88,7 @@ int main(int argc, char** argv) {
   app.add_flag("--check", check, "Exit with 1 where a target is missed");
   for (const Trial& trial : trials()) app.add_subcommand(trial.name, trial.help);
   app.add_subcommand("all", "All of them");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   try {
     if (reference) use_reference(reference_options);
     Report report(std::cout);

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "support/arguments.h"
+
 namespace {
 
 struct World {
@@ -59,7 +61,7 @@ int main(int argc, char** argv) {
   int bodies = 300, steps = 300;
   app.add_option("--bodies", bodies, "How many");
   app.add_option("--steps", steps, "Of a hundredth of a second");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
 
   dInitODE2(0);
   double milliseconds = 0;

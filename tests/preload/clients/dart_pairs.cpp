@@ -18,6 +18,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "support/arguments.h"
+
 namespace {
 
 using Frames = std::vector<std::shared_ptr<dart::dynamics::SimpleFrame>>;
@@ -172,7 +174,7 @@ int main(int argc, char** argv) {
   app.add_option("--passes", passes, "Of random poses");
   app.add_option("--bodies", bodies, "With a mesh of 144 triangles each");
   app.add_option("--extent", extent, "Edge of the cube that bodies are placed in [m]");
-  CLI11_PARSE(app, argc, argv);
+  if (const auto exit_code = parse_arguments(app, argc, argv)) return *exit_code;
   collide_cubes();
   collide_rocks(passes, bodies, extent);
   return EXIT_SUCCESS;
