@@ -36,12 +36,13 @@ std::uint32_t items_per_meshlet_pair(const ColliderOptions& options, const Devic
 
 std::string program_options(const ColliderOptions& options, const DeviceInfo& device) {
   std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
-  if (options.vector_width != 0)
-    text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
   if (!options.builtins) text += " -DOX_NO_BUILTINS";
   if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
   if (may_run_whole(options, device)) text += std::string(" ") + WholeStep::kProgramOption;
+  // Last, where Program puts that of the device: drivers keep kernels by this text.
+  if (options.vector_width != 0)
+    text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
   return text;
 }
 

@@ -108,7 +108,7 @@ void fail_while_buffers_grow(bool whole_steps, int every, int at_least) {
   EXPECT_GT(failures, at_least);
 }
 
-TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) { fail_while_buffers_grow(false, 17, 100); }
+TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) { fail_while_buffers_grow(false, 41, 40); }
 
 TEST_F(DeviceFailure, IsReportedWhileTheBufferOfContactsGrows) {
   fail_while_buffers_grow(true, 3, 30);
