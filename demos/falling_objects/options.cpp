@@ -166,6 +166,12 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
     if (steps->empty()) o.steps = scene.steps;
     if (hz->empty()) o.hz = scene.hz;
     if (max_contacts->empty()) o.max_contacts = scene.contact.per_pair;
+    if (o.pictures.window && o.wants_more_than_a_window()) {
+      throw CLI::ValidationError(
+          "--window",
+          "a window neither measures nor writes: leave out --check, --check-rest, "
+          "--compare, --csv, --snapshot, --record, --frames and --video, or --window");
+    }
     // ODE's own collider knows no open meshes with two sides.
     if (o.has_sheets() && (o.compare || o.collider == Collider::kOde)) {
       throw CLI::ValidationError("--scene", "sheets need the batch collider alone");

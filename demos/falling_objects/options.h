@@ -31,12 +31,14 @@ struct Options : SimulationSettings {
   PictureOptions pictures;
   std::string record;
 
-  // The run is to be looked at, not to be measured.
+  // What a run in a window does not do.
+  bool wants_more_than_a_window() const {
+    return check || check_rest || compare || !csv.empty() || !snapshot.empty() || !record.empty() ||
+           pictures.has_film();
+  }
   bool wants_window(bool there_is_a_display) const {
-    const bool measures =
-        check || check_rest || compare || !csv.empty() || !snapshot.empty() || !record.empty();
-    return pictures.window || (there_is_a_display && !pictures.no_window && !quiet && !measures &&
-                               !pictures.has_film());
+    return pictures.window ||
+           (there_is_a_display && !pictures.no_window && !quiet && !wants_more_than_a_window());
   }
   // The last 0.5 s, over which speeds are judged.
   std::size_t rest_steps() const {

@@ -30,7 +30,8 @@ std::string why_not_written(const std::string& path) {
   if (path.empty() || fs::is_directory(path, none)) return cannot_write(path, EISDIR);
   fs::path there = fs::exists(path, none) ? fs::path(path) : folder_of(path);
   const bool is_new = there != path;
-  while (is_new && !fs::exists(there, none)) there = folder_of(there);
+  // What cannot be looked at is its own folder in the end: "." and "/" are.
+  while (is_new && !fs::exists(there, none) && folder_of(there) != there) there = folder_of(there);
   if (is_new && !fs::is_directory(there, none)) return cannot_write(path, ENOTDIR);
   return access(there.c_str(), W_OK) == 0 ? "" : cannot_write(path, errno);
 }

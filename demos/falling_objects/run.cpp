@@ -59,9 +59,6 @@ int print_verdict(const Options& options, const Checks& checks,
 }
 
 int run_scene(const Options& options, const MakeSpectator& watch) {
-  std::ofstream csv, snapshot;
-  if (!options.csv.empty()) csv = open_output(options.csv);
-  if (!options.snapshot.empty()) snapshot = open_output(options.snapshot);
   World world(options);
   const Scene& scene = world.scene();
   for (const std::string& warning : world.warnings()) std::cerr << "warning: " << warning << '\n';
@@ -71,6 +68,9 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   const Simulation& simulation = world.simulation();
   const Collision& collision = world.collision();
   const std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
+  std::ofstream csv, snapshot;
+  if (!options.csv.empty()) csv = open_output(options.csv);
+  if (!options.snapshot.empty()) snapshot = open_output(options.snapshot);
   const PenetrationMeter meter(scene);
   Checks checks(scene, options.hz);
   Expectations expectations(scene, options.hz);
@@ -97,7 +97,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
-      expectations.after_measurement(measured.deepest);
+      if (meter.unmeasured() == 0) expectations.after_measurement(measured.deepest);
       record.deepest_penetration = measured.deepest;
     }
     if (finite && sheets != nullptr &&
@@ -132,7 +132,11 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     write_snapshot(snapshot, scene, sheets != nullptr ? sheets->all() : none);
     close(snapshot, options.snapshot);
   }
-  return print_verdict(options, checks, expectations.outcomes());
+  const int verdict = print_verdict(options, checks, expectations.outcomes());
+  if (static_cast<int>(records.size()) == options.steps) return verdict;
+  std::cerr << "stopped after step " << records.size() << " of " << options.steps
+            << ": a position or velocity is no longer finite\n";
+  return kExitCheckFailed;
 }
 
 template <class Work>

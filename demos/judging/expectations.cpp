@@ -52,7 +52,8 @@ Expectations::Expectations(const Scene& scene, double hz) : scene_(scene), hz_(h
 Expectations::Turning Expectations::turning_of(std::size_t body) const {
   Turning turning{body, {0, 0, 1}, 0, {}};
   for (const JointDescription& joint : scene_.description().joints) {
-    if (joint.body != body || joint.kind != JointDescription::Kind::kHinge) continue;
+    if ((joint.body != body && joint.other != body) || joint.kind != JointDescription::Kind::kHinge)
+      continue;
     const double length = distance(joint.axis, {0, 0, 0});
     for (std::size_t k = 0; k < 3; ++k) turning.axis[k] = joint.axis[k] / length;
   }
@@ -86,6 +87,7 @@ void Expectations::look(Watch& watch, double time) const {
   }
   watch.speeds.push_back(fastest);
   if (time < watch.what.after || time > watch.what.until) return;
+  ++watch.samples;
   const bool first = watch.start.empty();
   for (std::size_t k = 0; k < watch.bodies.size(); ++k) {
     const Point now = position_of(scene_.objects()[watch.bodies[k]]);
@@ -121,6 +123,13 @@ Outcome Expectations::judge(const Watch& watch) const {
     return {format("%s: a run of %.1f s is too short to tell, %.0f s are needed",
                    name_of(watch).c_str(), steps_ / hz_, needed),
             false};
+  }
+  // A way has a beginning and an end.
+  const bool is_way = watch.what.kind == Kind::kStays || watch.what.kind == Kind::kMoves;
+  if (watch.samples < (is_way ? 2 : 1)) {
+    return {
+        format("%s: too few steps after %.1f s to tell", name_of(watch).c_str(), watch.what.after),
+        false};
   }
   switch (watch.what.kind) {
     case Kind::kRatio:
@@ -178,11 +187,9 @@ Outcome Expectations::judge_screw(const Watch& watch) const {
 }
 
 Outcome Expectations::judge_still(const Watch& watch) const {
-  const auto last = std::min(watch.speeds.size(), static_cast<std::size_t>(hz_));
-  const double fastest =
-      last == 0 ? 0
-                : *std::max_element(watch.speeds.end() - static_cast<std::ptrdiff_t>(last),
-                                    watch.speeds.end());
+  const auto second = static_cast<std::size_t>(std::max(1L, std::lround(hz_)));
+  const auto last = static_cast<std::ptrdiff_t>(std::min(watch.speeds.size(), second));
+  const double fastest = *std::max_element(watch.speeds.end() - last, watch.speeds.end());
   return {format("%s: fastest in the last second %.4f m/s, allowed %.4f", name_of(watch).c_str(),
                  fastest, watch.what.value),
           fastest <= watch.what.value};
@@ -204,9 +211,12 @@ Outcome Expectations::judge_above(const Watch& watch) const {
 }
 
 Outcome Expectations::judge_apart(const Watch& watch) const {
+  if (watch.deepest < 0) {
+    return {"all: how deep they are in one another cannot be told of open meshes", false};
+  }
   return {format("all: at most %.4f m deep in one another after %.1f s, allowed %.4f",
                  watch.deepest, watch.what.after, watch.what.value),
-          watch.deepest >= 0 && watch.deepest <= watch.what.value};
+          watch.deepest <= watch.what.value};
 }
 
 }  // namespace falling_objects

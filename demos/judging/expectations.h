@@ -20,7 +20,8 @@ class Expectations {
   Expectations(const Scene& scene, double hz);
 
   void after_step();
-  // How deep the deepest are in one another now, as measured on the meshes [m].
+  // How deep the deepest are in one another now, as measured on the meshes [m]; not called where
+  // it cannot be.
   void after_measurement(double deepest);
   std::vector<Outcome> outcomes() const;
 
@@ -38,6 +39,7 @@ class Expectations {
     std::vector<std::size_t> bodies;  // which it is about
     std::vector<Turning> turnings;    // of them, for ratios and screws
     std::vector<Point> start;         // where they were when it began to hold [m]
+    int samples = 0;                  // looks at where they are
     double farthest = 0;              // from there, or off a screw's thread [m]
     double lowest = std::numeric_limits<double>::infinity();  // center of one [m]
     double deepest = -1;         // in one another [m]; negative: not measured yet

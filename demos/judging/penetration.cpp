@@ -30,6 +30,12 @@ PenetrationMeter::PenetrationMeter(const Scene& scene) : scene_(scene) {
   }
 }
 
+std::size_t PenetrationMeter::unmeasured() const {
+  const auto is_open = [&](const Object& object) { return !shapes_[object.shape].closed(); };
+  return static_cast<std::size_t>(
+      std::count_if(scene_.objects().begin(), scene_.objects().end(), is_open));
+}
+
 std::vector<Pose> PenetrationMeter::poses() const {
   std::vector<Pose> poses;
   for (const Object& object : scene_.objects()) poses.push_back(pose_of(object.body));

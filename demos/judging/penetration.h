@@ -28,7 +28,9 @@ class PenetrationMeter {
     double deepest = 0;                 // of all pairs [m]
     std::vector<Penetration> too_deep;  // the pairs that are deeper than allowed
   };
-  // At the current poses. Open meshes have no inside: left out.
+  // Objects of open meshes, which have no inside: measure() leaves them out.
+  std::size_t unmeasured() const;
+  // At the current poses.
   Result measure() const;
   // The depth [m] of every pair of which one has a vertex inside the other. Slower: measure() need
   // not know most of them.

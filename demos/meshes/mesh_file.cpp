@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "meshes/parts.h"
 #include "meshes/shapes.h"
 
 namespace falling_objects {
@@ -40,7 +41,7 @@ void check_has_volume(const TriangleMesh& mesh, const std::string& path) {
     const Point p = mesh.vertex(i);
     unit.add_vertex({(p[0] - low[0]) / extent, (p[1] - low[1]) / extent, (p[2] - low[2]) / extent});
   }
-  const bool is_flat = is_closed(mesh) && !(std::abs(signed_volume(unit)) >= kLeastVolume);
+  const bool is_flat = is_closed(mesh) && !(signed_volume(unit) >= kLeastVolume);
   if (!(extent >= kLeastExtent) || is_flat) {
     throw std::runtime_error("the mesh '" + path + "' is too small or too flat to have a volume");
   }
@@ -84,8 +85,8 @@ TriangleMesh read_mesh_file(const std::string& path) {
   if (mesh.triangle_count() == 0) {
     throw std::runtime_error("the mesh '" + path + "' holds no triangle");
   }
+  if (is_closed(mesh)) turn_parts_outwards(mesh);
   check_has_volume(mesh, path);
-  if (is_closed(mesh) && signed_volume(mesh) < 0) turn_inside_out(mesh);
   return mesh;
 }
 

@@ -8,8 +8,8 @@
 
 namespace falling_objects {
 
-// Reads whatever Assimp reads: all meshes of the file as one, in their places, welded, wound
-// outwards. Throws std::runtime_error with a sentence that names the file.
+// Reads whatever Assimp reads: all meshes of the file as one, in their places, welded, each
+// part wound outwards. Throws std::runtime_error with a sentence that names the file.
 TriangleMesh read_mesh_file(const std::string& path);
 
 // The same, centred and scaled like the demo's own shapes.

@@ -129,7 +129,13 @@ void BodyReader::read_mesh(const std::string& name, TomlTable& table) {
     if (maker == nullptr) {
       table.fail("shape", "'" + shape + "' is no shape; there are " + list(shape_names()));
     }
-    add_mesh(name, make_shape(*maker, table));
+    TriangleMesh mesh = make_shape(*maker, table);
+    try {
+      check_has_volume(mesh, name);
+    } catch (const std::runtime_error& e) {
+      table.fail("shape", e.what());
+    }
+    add_mesh(name, std::move(mesh));
   }
   table.finish();
 }

@@ -84,6 +84,7 @@ JointDescription read_joint(TomlTable& table, const SceneDescription& scene,
                    : JointDescription::Kind::kSlider;
   joint.body = bodies.body_named("body", table);
   if (!table.text("other", "").empty()) joint.other = bodies.body_named("other", table);
+  if (joint.other == joint.body) table.fail("other", "a body is not joined to itself");
   joint.anchor = table.point("anchor", scene.bodies[joint.body].position);
   joint.axis = table.point("axis", joint.axis);
   if (joint.axis == Point{0, 0, 0}) table.fail("axis", "'axis' must have a length");
@@ -174,14 +175,16 @@ std::string find_scene_file(const std::string& name) {
   if (name.ends_with(kExtension) || name.find('/') != std::string::npos) return name;
   for (const fs::path& folder : scene_folders()) {
     const fs::path path = folder / (name + kExtension);
-    if (fs::exists(path)) return path.string();
+    std::error_code error;  // too long a name, for one: there is no such file
+    if (fs::exists(path, error)) return path.string();
   }
   throw SceneFileError("there is no scene '" + name + "'; there are " + list(scene_names()) +
                        ", and any file that ends in " + kExtension);
 }
 
 SceneDescription read_scene_file(const std::string& path) {
-  if (fs::is_directory(path)) {
+  std::error_code error;  // reading says what is wrong
+  if (fs::is_directory(path, error)) {
     throw SceneFileError("'" + path + "' is a folder; a scene is a file that ends in " +
                          kExtension);
   }
@@ -210,6 +213,9 @@ SceneDescription read_scene(const std::string& text, const std::string& path) {
   if (auto table = file.table("contact")) read_contact(*table, scene.contact);
   if (auto table = file.table("camera")) {
     scene.camera = CameraHint{table->point("eye"), table->point("target", {})};
+    if (scene.camera->eye == scene.camera->target) {
+      table->fail("eye", "'eye' and 'target' must be two places");
+    }
     table->finish();
   }
   for (auto& [name, table] : file.named_tables("mesh")) bodies.read_mesh(name, table);

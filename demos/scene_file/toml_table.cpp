@@ -10,6 +10,9 @@
 namespace falling_objects {
 namespace {
 
+// Of places, speeds and accelerations: beyond, their squares soon are no numbers.
+constexpr double kFarthest = 1e9;
+
 std::string short_number(double value) {
   std::ostringstream text;
   text << value;
@@ -131,6 +134,11 @@ std::optional<std::vector<double>> TomlTable::optional_numbers(const char* key, 
 
 Point TomlTable::point(const char* key) {
   const std::vector<double> v = numbers(key, 3);
+  for (const double x : v) {
+    if (std::abs(x) > kFarthest) {
+      fail(key, std::string("'") + key + "' must not be beyond " + short_number(kFarthest));
+    }
+  }
   return {v[0], v[1], v[2]};
 }
 

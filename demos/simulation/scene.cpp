@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "cloth/sheet.h"
@@ -29,18 +30,23 @@ dTriMeshDataID make_data(const TriangleMesh& mesh) {
   return data;
 }
 
-// The mesh is centred on its centre of mass but for rounding; ODE insists on exactly.
-dMass mass_of(const Shape& shape) {
+dMass mass_of_ball(double radius) {
   dMass mass;
-  if (shape.closed) {
-    dGeomID geom = dCreateTriMesh(nullptr, shape.data, nullptr, nullptr, nullptr);
-    dMassSetTrimesh(&mass, kWater, geom);
-    dGeomDestroy(geom);
-    dMassTranslate(&mass, -mass.c[0], -mass.c[1], -mass.c[2]);
-  } else {
-    dMassSetSphere(&mass, kWater, shape.radius);
-  }
+  dMassSetSphere(&mass, kWater, radius);
+  return mass;
+}
+
+// The mesh is centred on its centre of mass but for rounding; ODE insists on exactly, and aborts
+// where a mass or its inertia is not positive: parts may be wound against one another.
+std::optional<dMass> mass_of(const Shape& shape) {
+  if (!shape.closed) return std::nullopt;
+  dMass mass;
+  dGeomID geom = dCreateTriMesh(nullptr, shape.data, nullptr, nullptr, nullptr);
+  dMassSetTrimesh(&mass, kWater, geom);
+  dGeomDestroy(geom);
+  dMassTranslate(&mass, -mass.c[0], -mass.c[1], -mass.c[2]);
   mass.c[0] = mass.c[1] = mass.c[2] = 0;
+  if (!(mass.mass > 0) || dMassCheck(&mass) == 0) return std::nullopt;
   return mass;
 }
 
@@ -126,7 +132,13 @@ void Scene::add_shapes(std::vector<std::string>& warnings) {
       shape.skin = inflate(shape.mesh, kSheetMargin);
       shape.skin_data = make_data(shape.skin);
     }
-    shape.mass = mass_of(shape);
+    const std::optional<dMass> mass = mass_of(shape);
+    shape.mass = mass ? *mass : mass_of_ball(shape.radius);
+    if (closed && !mass) {
+      warnings.push_back("the mesh '" + shape.name +
+                         "' has parts that are wound against one another: it gets the mass and "
+                         "inertia of a ball");
+    }
     if (!closed) {
       warnings.push_back("the mesh '" + shape.name +
                          "' is open: it gets the mass and inertia of a ball, and how deep it gets "

@@ -116,8 +116,9 @@ TEST_F(Expecting, StillLooksAtTheLastSecondOnly) {
 TEST_F(Expecting, StaysLooksAtEveryStepAfterItsTime) {
   expect("kind = \"stays\"\ndistance = 0.5\nafter = 1\n");
   move(0, 0, 3, 1);
+  move(0, 0, 0.6, 0.1);
   EXPECT_TRUE(holds()) << words();
-  move(0, 0, 0.6, 1);
+  move(0, 0, 0.6, 0.9);
   move(0, 0, -0.6, 1);  // back again
   EXPECT_FALSE(holds());
 }
@@ -186,13 +187,47 @@ TEST_F(Expecting, BodiesOfOneNameAreMeantTogether) {
   EXPECT_FALSE(holds());
 }
 
+TEST_F(Expecting, NothingHoldsOfAWayOfWhichOneEndWasSeen) {
+  expect("kind = \"stays\"\nbody = \"a\"\ndistance = 0.1\nafter = 2\n");
+  move(0, 0, 1, 2);
+  EXPECT_FALSE(holds());
+  EXPECT_THAT(words(), testing::HasSubstr("too few steps after 2.0 s"));
+  move(0, 0, 1, 0.04);
+  EXPECT_TRUE(holds()) << words();
+}
+
+TEST_F(Expecting, StillLooksAtTheLastStepWhereASecondHasNone) {
+  expect("kind = \"still\"\nspeed = 0.01\n");
+  expectations_ = std::make_unique<Expectations>(*scene_, 0.5);
+  dBodySetLinearVel(body(0), 1, 0, 0);
+  expectations_->after_step();
+  EXPECT_FALSE(holds()) << words();
+}
+
+TEST_F(Expecting, AHingeTurnsEitherOfItsBodies) {
+  scene_ = std::make_unique<Scene>(
+      read_scene("[[body]]\nname = \"frame\"\nmesh = \"cube\"\nmotion = \"fixed\"\n"
+                 "[[body]]\nname = \"nut\"\nmesh = \"cube\"\nat = [5, 0, 0]\n"
+                 "[[joint]]\nbody = \"frame\"\nother = \"nut\"\naxis = [1, 0, 0]\n"
+                 "[[expect]]\nkind = \"screw\"\nbody = \"nut\"\npitch = 1\nturns = 1\n"
+                 "within = 1e6\n",
+                 "test.toml"),
+      1, warnings_);
+  expectations_ = std::make_unique<Expectations>(*scene_, kStepsPerSecond);
+  for (int i = 0; i < 3 * kStepsPerSecond; ++i) {
+    dBodySetAngularVel(body(1), kTurn, 0, 0);
+    expectations_->after_step();
+  }
+  EXPECT_THAT(words(), testing::HasSubstr("nut turns by 3.00"));
+}
+
 TEST_F(Expecting, NothingHoldsOfARunThatIsTooShortToTell) {
   for (const char* what : {kRatio, "kind = \"stays\"\ndistance = 0.5\nafter = 2\n"}) {
     expect(what);
     move(2, 1, 0, 1.9);
     EXPECT_FALSE(holds());
     EXPECT_THAT(words(), testing::HasSubstr("a run of 1.9 s is too short to tell, 2 s"));
-    move(2, 1, 0, 0.1);
+    move(2, 1, 0, 0.12);
     EXPECT_TRUE(holds()) << words();
   }
 }

@@ -125,6 +125,39 @@ TEST_F(MeshFile, RefusesAMeshThatIsTooSmallOrTooFlatForAMass) {
   }
 }
 
+// One beside the other and inside out: each part is solid.
+TEST_F(MeshFile, TurnsEachPartOutwards) {
+  std::string text = tetrahedron(1, 0) + tetrahedron(0.9, 10);
+  text.replace(text.rfind("f 1 3 2"), std::string::npos, "f 5 6 7\nf 5 8 6\nf 5 7 8\nf 6 8 7\n");
+  const TriangleMesh mesh = read_mesh_file(write_file("two.obj", text));
+  ASSERT_TRUE(is_closed(mesh));
+  EXPECT_NEAR(signed_volume(mesh), (1 + 0.9 * 0.9 * 0.9) / 6, 1e-5);
+}
+
+// A cavity stays one, whichever way the whole is wound.
+TEST_F(MeshFile, LeavesACavityThatIsInAPart) {
+  const auto cube = [](double size, int first, bool inwards) {
+    std::ostringstream text;
+    for (int i = 0; i < 8; ++i) {
+      text << 'v';
+      for (int k = 0; k < 3; ++k) text << ' ' << (((i >> k) & 1) != 0 ? size : -size);
+      text << '\n';
+    }
+    const int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                              {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (const auto& [a, b, c] : faces) {
+      text << "f " << a + first << ' ' << (inwards ? c : b) + first << ' '
+           << (inwards ? b : c) + first << '\n';
+    }
+    return text.str();
+  };
+  for (const bool turned : {false, true}) {
+    const std::string path = write_file("hollow.obj", cube(1, 1, turned) + cube(0.5, 9, !turned));
+    const TriangleMesh mesh = read_mesh_file(path);
+    EXPECT_NEAR(signed_volume(mesh), 8 - 1, 1e-5) << turned;
+  }
+}
+
 TEST_F(MeshFile, TakesAMeshThatIsSmallOrThinOrFarAway) {
   for (const std::string& text : {tetrahedron(1e-7, 0), tetrahedron(1, 1e5), tetrahedron(1e30, 0),
                                   std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 1e-5\n"

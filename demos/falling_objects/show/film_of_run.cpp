@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <stdexcept>
 
 #include "falling_objects/measured_world.h"
@@ -28,7 +29,6 @@ class FilmOfRun : public Spectator {
         options_(world.options().pictures),
         studio_(size_of(options_)),
         view_(world, studio_.renderer()),
-        film_(options_.frames, options_.video, size_of(options_), options_.fps),
         camera_(camera_of(world.options(), view_, aspect_of(options_))) {
     if (options_.beside_ode) {
       beside_ = std::make_unique<MeasuredWorld>(options_beside(world.options()));
@@ -36,23 +36,25 @@ class FilmOfRun : public Spectator {
       beside_view_->light_from(camera_);
     }
     view_.light_from(camera_);
-    if (film_.wants_all()) film_.add(draw());
+    // Last: it replaces the film of that name, which what is refused above must leave alone.
+    film_.emplace(options_.frames, options_.video, size_of(options_), options_.fps);
+    if (film_->wants_all()) film_->add(draw());
   }
 
   void after_step(const StepRecord& record) override {
     view_.note(record);
     if (beside_) beside_view_->note(beside_->step());
-    if (!film_.wants_all()) return;
+    if (!film_->wants_all()) return;
     // As many as should be there by the end of this step.
     const double due = (record.step + 1) * options_.fps / hz_;
-    while (film_.count() <= static_cast<int>(std::floor(due + 1e-9))) film_.add(draw());
+    while (film_->count() <= static_cast<int>(std::floor(due + 1e-9))) film_->add(draw());
   }
 
   void finish(std::ostream& out) override {
-    if (film_.wants_end()) film_.add_end(draw());
-    film_.finish();
-    const int count = film_.count() + static_cast<int>(film_.wants_end());
-    out << std::setprecision(3) << "\npictures: " << film_.made() << " (" << count
+    if (film_->wants_end()) film_->add_end(draw());
+    film_->finish();
+    const int count = film_->count() + static_cast<int>(film_->wants_end());
+    out << std::setprecision(3) << "\npictures: " << film_->made() << " (" << count
         << " pictures, of " << drawing_ / count << " s of processor time each, drawn by "
         << view::renderer_name() << ")\n";
   }
@@ -72,11 +74,11 @@ class FilmOfRun : public Spectator {
   PictureOptions options_;
   view::Studio studio_;
   WorldView view_;
-  view::Film film_;
   view::Camera camera_;
   double drawing_ = 0;  // [s] of processors
   std::unique_ptr<MeasuredWorld> beside_;
   std::unique_ptr<WorldView> beside_view_;
+  std::optional<view::Film> film_;
 };
 
 }  // namespace
