@@ -12,13 +12,16 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "ode/capture_format.h"
 #include "ode/messages.h"
+#include "opencl/fork_guard.h"
 
 namespace ode_ext {
 namespace {
@@ -55,8 +58,12 @@ class CaptureFile {
     end_record(capture::kCollider);
   }
 
-  std::uint32_t pass(const void* collider, std::span<const PairMember* const> members,
-                     std::span<const std::array<std::uint32_t, 2>> pairs) {
+  // Nothing of a collider that was made before the file, and is not in it.
+  std::optional<std::uint32_t> pass(const void* collider,
+                                    std::span<const PairMember* const> members,
+                                    std::span<const std::array<std::uint32_t, 2>> pairs) {
+    const auto known = colliders_.find(collider);
+    if (known == colliders_.end()) return std::nullopt;
     std::vector<std::uint32_t> mesh_of(members.size());
     for (std::size_t i = 0; i < members.size(); ++i) mesh_of[i] = mesh(*members[i]->mesh);
 
@@ -67,7 +74,7 @@ class CaptureFile {
     for (std::size_t i = 0; i < by_handle.size(); ++i)
       place[by_handle[i]] = static_cast<std::uint32_t>(i);
 
-    const capture::Pass record{next_pass_++, colliders_.at(collider),
+    const capture::Pass record{next_pass_++, known->second,
                                static_cast<std::uint32_t>(members.size()),
                                static_cast<std::uint32_t>(pairs.size())};
     put(record);
@@ -159,7 +166,7 @@ class CaptureFile {
 };
 
 std::mutex capture_mutex;
-std::unique_ptr<CaptureFile> file;
+CaptureFile* file = nullptr;
 bool is_opened = false;  // and is not again, whatever became of it: that would erase what it has
 std::atomic<bool> capturing{false};
 
@@ -168,21 +175,34 @@ std::atomic<bool> capturing{false};
 template <class Write>
 void write_record(Write write) {
   if (!capturing.load(std::memory_order_relaxed)) return;
-  const std::lock_guard lock(capture_mutex);
-  if (file == nullptr) return;
   std::string reason;
-  try {
-    write(*file);
-    if (!file->failed()) return;
-    reason = std::strerror(errno);
-  } catch (const std::bad_alloc&) {
-    reason = "memory is short";
+  {
+    const std::lock_guard lock(capture_mutex);
+    if (file == nullptr) return;
+    try {
+      write(*file);
+      if (!file->failed()) return;
+      reason = std::strerror(errno);
+    } catch (const std::bad_alloc&) {
+      reason = "memory is short";
+    }
+    capturing = false;
+    delete std::exchange(file, nullptr);
   }
+  // Under no lock: the program's message handler may collide.
   log(LogLevel::kError, "the file that ODE_EXT_CAPTURE names cannot be written any more: " +
                             reason + "; the capture ends here");
-  capturing = false;
-  file.reset();
 }
+
+// At the end of the program, in which threads may still make passes.
+struct CloseCapture {
+  ~CloseCapture() {
+    if (is_lost_by_fork()) return;
+    const std::lock_guard lock(capture_mutex);
+    capturing = false;
+    delete std::exchange(file, nullptr);
+  }
+} close_capture;
 
 }  // namespace
 
@@ -195,7 +215,7 @@ void open_capture_of_environment() {
   if (opened == nullptr)
     throw std::runtime_error("ODE_EXT_CAPTURE names '" + std::string(path) +
                              "', which cannot be written: " + std::strerror(errno));
-  file = std::make_unique<CaptureFile>(opened);
+  file = new CaptureFile(opened);
   is_opened = capturing = true;
 }
 
@@ -204,16 +224,17 @@ void capture_collider(const void* collider, const dBatchColliderParams& params,
   write_record([&](CaptureFile& to) { to.collider(collider, params, device); });
 }
 
-std::uint32_t capture_pass(const void* collider, std::span<const PairMember* const> members,
-                           std::span<const std::array<std::uint32_t, 2>> pairs) {
-  std::uint32_t number = 0;
+std::optional<std::uint32_t> capture_pass(const void* collider,
+                                          std::span<const PairMember* const> members,
+                                          std::span<const std::array<std::uint32_t, 2>> pairs) {
+  std::optional<std::uint32_t> number;
   if (!pairs.empty())
     write_record([&](CaptureFile& to) { number = to.pass(collider, members, pairs); });
   return number;
 }
 
-void capture_contacts(std::uint32_t pass, const PairContacts& found) {
-  if (!found.ranges.empty()) write_record([&](CaptureFile& to) { to.contacts(pass, found); });
+void capture_contacts(std::optional<std::uint32_t> pass, const PairContacts& found) {
+  if (pass) write_record([&](CaptureFile& to) { to.contacts(*pass, found); });
 }
 
 }  // namespace ode_ext

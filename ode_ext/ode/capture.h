@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -22,12 +23,13 @@ void open_capture_of_environment();
 void capture_collider(const void* collider, const dBatchColliderParams& params,
                       const std::string& device);
 
-// Meshes, poses and pairs of what the device is given next. Returns the number to pass to
-// capture_contacts.
-std::uint32_t capture_pass(const void* collider, std::span<const PairMember* const> members,
-                           std::span<const std::array<std::uint32_t, 2>> pairs);
+// Meshes, poses and pairs of what the device is given next. Returns what to pass to
+// capture_contacts; nothing where nothing is captured.
+std::optional<std::uint32_t> capture_pass(const void* collider,
+                                          std::span<const PairMember* const> members,
+                                          std::span<const std::array<std::uint32_t, 2>> pairs);
 
 // What was found of that pass.
-void capture_contacts(std::uint32_t pass, const PairContacts& found);
+void capture_contacts(std::optional<std::uint32_t> pass, const PairContacts& found);
 
 }  // namespace ode_ext

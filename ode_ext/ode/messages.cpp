@@ -9,23 +9,21 @@
 #include <utility>
 #include <vector>
 
+#include "ode/thread_state.h"
+
 namespace ode_ext {
 namespace {
 
-std::string& this_threads_error() {
-  thread_local std::string message;
-  return message;
-}
+struct LastError {
+  std::string message;
+};
+std::string& this_threads_error() { return of_this_thread<LastError>().message; }
 
 struct Waiting {
   int holders = 0;
   std::vector<std::string> messages;
 };
-
-Waiting& waiting() {
-  thread_local Waiting of_this_thread;
-  return of_this_thread;
-}
+Waiting& waiting() { return of_this_thread<Waiting>(); }
 
 std::atomic<LogLevel> level_in_force{LogLevel::kWarning};
 

@@ -47,7 +47,7 @@ const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, Pa
   for (const PairMember* member : members_)
     scene_.objects.push_back({member->pose, meshes.index_of(member->mesh.get()),
                               reinterpret_cast<std::uintptr_t>(member->geom)});
-  const std::uint32_t captured = capture_pass(&collider, members_, scene_.pairs);
+  const auto captured = capture_pass(&collider, members_, scene_.pairs);
   const PairContacts& found = collider.collide(scene_, memory);
   capture_contacts(captured, found);
   return found;

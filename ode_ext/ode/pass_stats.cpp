@@ -135,7 +135,8 @@ void note_report(const BatchReport& report, PassStats& stats) {
 std::span<const TimedStage> timed_stages() { return kStages; }
 
 const std::vector<Counter>& counters() {
-  static const std::vector<Counter> all = all_counters();
+  // Never destroyed: destructors of the program's own may ask.
+  static const std::vector<Counter>& all = *new const std::vector<Counter>(all_counters());
   return all;
 }
 

@@ -1,34 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/trace.h"
 
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+
+#include "opencl/fork_guard.h"
 
 namespace ode_ext {
 namespace {
 
-struct CloseTrace {
-  void operator()(std::FILE* stream) const {
-    std::fputs("\n]\n", stream);
-    std::fclose(stream);
-  }
-};
-
 std::mutex trace_mutex;
-std::unique_ptr<std::FILE, CloseTrace> trace;
+std::FILE* trace = nullptr;
 bool is_first = true;
+
+// At the end of the program, in which threads may still make passes. A forked child leaves the
+// parent's file alone.
+struct CloseTrace {
+  ~CloseTrace() {
+    if (is_lost_by_fork()) return;
+    const std::lock_guard lock(trace_mutex);
+    if (trace == nullptr) return;
+    std::fputs("\n]\n", trace);
+    std::fclose(trace);
+    trace = nullptr;
+  }
+} close_trace;
+
+// In any locale of the program's.
+std::string with_three_decimals(double number) {
+  std::array<char, 64> text;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed, 3);
+  return end.ec == std::errc() ? std::string(text.data(), end.ptr) : "0";
+}
 
 void write_event(const char* name, int track, double start_us, double duration_us,
                  const std::string& arguments) {
-  std::fprintf(trace.get(),
-               "%s{\"name\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%d,\"ts\":%.3f,\"dur\":%.3f%s}",
-               is_first ? "" : ",\n", name, track, start_us, duration_us, arguments.c_str());
+  std::fprintf(trace,
+               "%s{\"name\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%d,\"ts\":%s,\"dur\":%s%s}",
+               is_first ? "" : ",\n", name, track, with_three_decimals(start_us).c_str(),
+               with_three_decimals(duration_us).c_str(), arguments.c_str());
   is_first = false;
 }
 
@@ -39,11 +58,11 @@ void open_trace_of_environment() {
   if (path == nullptr || *path == '\0') return;
   const std::lock_guard lock(trace_mutex);
   if (trace != nullptr) return;
-  trace.reset(std::fopen(path, "w"));
+  trace = std::fopen(path, "w");
   if (trace == nullptr)
     throw std::runtime_error("ODE_EXT_TRACE names '" + std::string(path) +
                              "', which cannot be written: " + std::strerror(errno));
-  std::fputs("[\n", trace.get());
+  std::fputs("[\n", trace);
 }
 
 void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& stats) {
@@ -70,6 +89,7 @@ void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& st
     write_event(stage.name, 2, device, 1e3 * stage.milliseconds(stats), "");
     device += 1e3 * stage.milliseconds(stats);
   }
+  std::fflush(trace);  // nothing waits in memory that a forked child would write once more
 }
 
 }  // namespace ode_ext

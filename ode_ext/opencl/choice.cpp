@@ -2,7 +2,6 @@
 #include "opencl/choice.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +15,10 @@ constexpr const char* kSyntax =
     "of "
     "a platform's or device's name";
 
+// In any locale of the program's: in a Turkish one 'I' has no dot to lose.
 std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
 }
 

@@ -30,9 +30,11 @@ bool ode_ext_redirect(void* function, void* target) {
   const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
   const uintptr_t begin = (uintptr_t)function / page * page;
   const size_t size = (uintptr_t)function + sizeof(jump) - begin;
-  if (mprotect((void*)begin, size, PROT_READ | PROT_WRITE) != 0) return false;
+  /* Executable all the time: a system may refuse to make what was written executable again. */
+  if (mprotect((void*)begin, size, PROT_READ | PROT_WRITE | PROT_EXEC) != 0) return false;
   memcpy(function, &jump, sizeof(jump));
-  return mprotect((void*)begin, size, PROT_READ | PROT_EXEC) == 0;
+  mprotect((void*)begin, size, PROT_READ | PROT_EXEC);
+  return true;
 }
 #else
 bool ode_ext_redirect(void* function, void* target) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // ODE_EXT_TRACE is read once a process and the file is closed when it ends, so each test has one.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -52,6 +54,36 @@ TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
   EXPECT_EQ(text.str().substr(0, 2), "[\n");
   EXPECT_EQ(text.str().substr(text.str().size() - 3), "\n]\n");
   EXPECT_EQ(count(text.str(), "{\"name\""), count(text.str(), ",\n") + 1);
+}
+
+// The child ends like any program, but for the driver, which may hang there.
+void fork_between_two_passes(const std::string& path) {
+  setenv("ODE_EXT_TRACE", path.c_str(), 1);
+  {
+    OdeWorld world;
+    const dSpaceID space = world.space(SpaceKind::Simple);
+    const Pile pile(world, space, 5, 1);
+    const BatchCollider collider;
+    collider.pass(space);
+    if (const pid_t child = fork(); child == 0) {
+      std::fflush(nullptr);
+      _exit(0);
+    } else {
+      waitpid(child, nullptr, 0);
+    }
+    collider.pass(space);
+  }
+  std::exit(0);
+}
+
+TEST_F(ApiTraceDeathTest, HasNothingTwiceOfAForkedChild) {
+  const std::string path = testing::TempDir() + "ode_ext_forked_trace_test.json";
+  EXPECT_EXIT(fork_between_two_passes(path), testing::ExitedWithCode(0), "");
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  EXPECT_EQ(count(text.str(), "\"name\":\"pass\""), 2);
+  EXPECT_EQ(count(text.str(), "[\n"), 1);
 }
 
 TEST_F(ApiTraceDeathTest, ThatCannotBeWrittenIsAMessageAndNoCollider) {
