@@ -94,8 +94,10 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
       fail(error);
     }
   }
-  known_.prune();
-  memories_.prune(known_.pass(), most_temporal_bytes(known_.collider().device_info()));
+  if (depth_ == 1) {  // a pass may hold one for each of its spaces
+    known_.prune();
+    memories_.prune(known_.pass(), most_temporal_bytes(known_.collider().device_info()));
+  }
   stats_.meshes = static_cast<std::int64_t>(known_.meshes().size());
   stats_.ms_pass = whole.milliseconds();
   stats_.sum_up();
@@ -133,7 +135,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   }
   stats_.pairs = static_cast<long long>(gathered);
   stats_.ms_meshes = reading.milliseconds();
-  known_.compute(&memories_.of(root, pass, familiar));
+  known_.compute(&memories_.of(root, pass, familiar, pairs));
   note_report();
   stats_.pairs_colliding = known_.colliding() + unasked_colliding;
 }

@@ -25,9 +25,25 @@ bool SpaceMemories::RootLess::operator()(const PassRoot& a, const PassRoot& b) c
   return less(a.second, b.second);
 }
 
-PassMemory& SpaceMemories::of(const PassRoot& root, std::uint64_t pass, bool familiar) {
+bool SpaceMemories::Entry::knows(std::span<const GatheredPair> pairs) const {
+  return std::ranges::any_of(pairs, [&](const GatheredPair& pair) {
+    return std::ranges::find(sample, GeomPair{pair.first.geom, pair.second.geom}) != sample.end();
+  });
+}
+
+void SpaceMemories::Entry::remember(std::span<const GatheredPair> pairs) {
+  if (pairs.empty()) return;  // nothing that was met before was forgotten
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const GatheredPair& pair = pairs[i * (pairs.size() - 1) / (sample.size() - 1)];
+    sample[i] = {pair.first.geom, pair.second.geom};
+  }
+}
+
+PassMemory& SpaceMemories::of(const PassRoot& root, std::uint64_t pass, bool familiar,
+                              std::span<const GatheredPair> pairs) {
   Entry& entry = memories_[root];
-  if (!familiar) entry.memory = {};
+  if (!familiar && !entry.knows(pairs)) entry.memory = {};
+  entry.remember(pairs);
   entry.last_pass = pass;
   return entry.memory;
 }

@@ -3,8 +3,10 @@
 // here ages, and what takes device memory ages soonest.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <span>
 
 #include "collide/pass_memory.h"
 #include "ode/pair_gather.h"
@@ -13,9 +15,11 @@ namespace ode_ext {
 
 class SpaceMemories {
  public:
-  // What the last pass of this root left. `familiar`: the pass meets a pair that was met before; if
-  // not, this is another space at an address that ODE has used again, which inherits nothing.
-  PassMemory& of(const PassRoot& root, std::uint64_t pass, bool familiar);
+  // What the last pass of this root left. If no pair of this pass is known, neither to the caller
+  // (`familiar`) nor from that pass, this is another space at an address that ODE has used again,
+  // which inherits nothing.
+  PassMemory& of(const PassRoot& root, std::uint64_t pass, bool familiar,
+                 std::span<const GatheredPair> pairs);
   // Forgets what has not been used for long, and temporal data beyond `most_bytes`, the longest
   // unused first, but never those of pass number `pass`.
   void prune(std::uint64_t pass, std::size_t most_bytes);
@@ -24,12 +28,18 @@ class SpaceMemories {
   std::size_t temporal_bytes() const;  // of device memory
 
  private:
+  using GeomPair = std::array<dGeomID, 2>;
   struct RootLess {
     bool operator()(const PassRoot& a, const PassRoot& b) const;
   };
   struct Entry {
     PassMemory memory;
     std::uint64_t last_pass = 0;
+    // Some of its pairs, by which it is known again when their answers are forgotten.
+    std::array<GeomPair, 4> sample{};
+
+    bool knows(std::span<const GatheredPair> pairs) const;
+    void remember(std::span<const GatheredPair> pairs);
   };
 
   std::map<PassRoot, Entry, RootLess> memories_;

@@ -12,7 +12,7 @@ PassRoot root(std::uintptr_t number) { return {reinterpret_cast<dGeomID>(number)
 class ApiSpaces : public ::testing::Test {
  protected:
   PassMemory& use(std::uintptr_t space, std::uint64_t pass, bool familiar = true) {
-    PassMemory& memory = memories.of(root(space), pass, familiar);
+    PassMemory& memory = memories.of(root(space), pass, familiar, {});
     if (memory.temporal == nullptr) memory.temporal = std::make_unique<TemporalCache>(device);
     memory.history.pairs = 1;
     return memory;
@@ -39,7 +39,7 @@ TEST_F(ApiSpaces, OneForEachPassKeepNoMoreThanTheLastFew) {
 TEST_F(ApiSpaces, CollidedInTurnKeepTheirs) {
   for (std::uint64_t pass = 1; pass <= 200; ++pass) {
     if (pass > 20) {
-      EXPECT_NE(memories.of(root(pass % 20), pass, true).temporal, nullptr);
+      EXPECT_NE(memories.of(root(pass % 20), pass, true, {}).temporal, nullptr);
     }
     use(pass % 20, pass);
     memories.prune(pass, kPlenty);
@@ -51,11 +51,11 @@ TEST_F(ApiSpaces, GiveUpTheLongestUnusedBeyondTheMemoryThatThereIs) {
   const std::size_t each = memories.temporal_bytes() / 10;
   memories.prune(10, 3 * each);
   EXPECT_EQ(memories.temporal_bytes(), 3 * each);
-  EXPECT_EQ(memories.of(root(7), 10, true).temporal, nullptr);
-  EXPECT_NE(memories.of(root(8), 10, true).temporal, nullptr);
+  EXPECT_EQ(memories.of(root(7), 10, true, {}).temporal, nullptr);
+  EXPECT_NE(memories.of(root(8), 10, true, {}).temporal, nullptr);
   memories.prune(11, 0);
   EXPECT_EQ(memories.temporal_bytes(), 0u);
-  EXPECT_EQ(memories.of(root(8), 11, true).history.pairs, 1u) << "which takes no device memory";
+  EXPECT_EQ(memories.of(root(8), 11, true, {}).history.pairs, 1u) << "which takes no device memory";
 }
 
 TEST_F(ApiSpaces, OfThePassThatRunsKeepTheirsWhateverItTakes) {
@@ -66,9 +66,24 @@ TEST_F(ApiSpaces, OfThePassThatRunsKeepTheirsWhateverItTakes) {
 
 TEST_F(ApiSpaces, AtAnAddressUsedAgainInheritNothing) {
   use(1, 5);
-  const PassMemory& memory = memories.of(root(1), 6, false);
+  const PassMemory& memory = memories.of(root(1), 6, false, {});
   EXPECT_EQ(memory.temporal, nullptr);
   EXPECT_EQ(memory.history.pairs, 0u);
+}
+
+// Twenty worlds of one collider: between two passes of a space all its answers are forgotten.
+TEST_F(ApiSpaces, AreKnownAgainByPairsThatTheyHadWhenAnswersAreForgotten) {
+  const auto pair = [](std::uintptr_t a, std::uintptr_t b) {
+    GatheredPair made;
+    made.first.geom = reinterpret_cast<dGeomID>(a);
+    made.second.geom = reinterpret_cast<dGeomID>(b);
+    return made;
+  };
+  const std::vector<GatheredPair> own{pair(8, 16), pair(8, 24), pair(16, 24)};
+  const std::vector<GatheredPair> others{pair(8, 32), pair(40, 16)};
+  memories.of(root(1), 5, true, own).history.pairs = 3;
+  EXPECT_EQ(memories.of(root(1), 25, false, own).history.pairs, 3u);
+  EXPECT_EQ(memories.of(root(1), 26, false, others).history.pairs, 0u);
 }
 
 }  // namespace
