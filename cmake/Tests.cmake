@@ -230,6 +230,8 @@ if(ODE_EXT_TOOLS)
   if(TARGET ode_ext_run)
     list(APPEND tools $<TARGET_FILE:ode_ext_run>)
   endif()
+  add_test(NAME what_info_says COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/info_test.sh
+                                       $<TARGET_FILE:ode_ext-info>)
   add_test(NAME manual_pages COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/man_test.sh ${tools})
 endif()
 

@@ -39,6 +39,8 @@ typedef float ox_f32;
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
 #define OX_LIST_FLOOD_WORDS 10u  // room for finding the vertices inside, handed out in stretches
+// More is not counted: a counter that ran past 2^32 would begin again.
+#define OX_MOST_COUNTED 0x80000000u
 #define OX_LIST_CONTACTS 11u
 #define OX_LIST_COUNT 12u
 #define OX_COUNTER_BOUNDED 12u   // pairs whose bounding volumes overlap

@@ -5,9 +5,6 @@
 
 #include "lib/scene.h"
 
-// More is not counted: a counter that ran past 2^32 would begin again.
-#define OX_MOST_COUNTED 0x80000000u
-
 // Where the next record of a list goes; OX_NONE: it is full, and the counter says by how much.
 static inline uint ox_append(const ox_scene* scene, uint list) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;

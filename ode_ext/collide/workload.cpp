@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "opencl/error.h"
+
 namespace ode_ext {
 namespace {
 
@@ -91,6 +93,11 @@ void Workload::reserve(const ListCounts& counts) {
 
 bool Workload::is_settled() {
   const ListCounts counts = stored();
+  if (!may_lose() && *std::max_element(counts.begin(), counts.end()) >= OX_MOST_COUNTED) {
+    // How much more there is is not known, whatever the lists have room for.
+    throw DeviceError(CL_INVALID_BUFFER_SIZE,
+                      "A list has more than 2^31 records. Make the scene smaller.");
+  }
   if (!may_lose() && lists_.overflowed(counts)) {
     // What comes after a list that overflowed has not seen everything, so its count is only a lower
     // bound and may overflow in the next attempt; each mends at least one list.

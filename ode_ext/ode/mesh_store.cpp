@@ -25,9 +25,11 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   Entry& entry = place->second;
   if (is_new) entry.order = next_order_++;
   const bool looked = entry.last_look == look;
-  entry.last_look = look;
   entry.last_pass = pass;
-  if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) return entry.mesh;
+  if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) {
+    entry.last_look = look;
+    return entry.mesh;
+  }
 
   const MeshReader reader(data);
   if (entry.mesh == nullptr || !reader.still_gives(entry.mesh->soup)) {
@@ -36,6 +38,8 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
     resident_is_stale_ = true;
   }
   entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(entry.mesh->box);
+  entry.last_look =
+      look;  // not before: where memory is short the mesh is not what it was taken for
   entry.changed = false;
   return entry.mesh;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -82,6 +83,7 @@ class Kernel {
   std::string name_;
   std::vector<EventHandle> events_;  // of launches not yet in milliseconds_, oldest first
   double milliseconds_ = 0;
+  std::exception_ptr clock_failure_;  // told by take_milliseconds
 };
 
 struct SelfTestReport {

@@ -3,11 +3,11 @@
 // opened once a process, so each test has one.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "support/batch_collider.h"
+#include "support/path_for_a_death.h"
 
 namespace ode_ext::test {
 namespace {
@@ -37,9 +37,8 @@ void capture_begun_with_the_second(const std::string& path) {
 }
 
 TEST_F(ApiCaptureDeathTest, OfALaterColliderLeavesTheEarlierOneAlone) {
-  const std::string path = testing::TempDir() + "ode_ext_capture_test";
-  EXPECT_EXIT(capture_begun_with_the_second(path), testing::ExitedWithCode(0), "");
-  std::remove(path.c_str());
+  const PathForADeath path("ode_ext_capture_test");
+  EXPECT_EXIT(capture_begun_with_the_second(path.name()), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

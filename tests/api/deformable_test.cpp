@@ -286,5 +286,18 @@ TEST_F(ApiDeformable, RigidMeshesEditedInPlaceMayLeaveTheirBoxToo) {
   EXPECT_EQ(collider.stats().status, unsigned{dBatchStatusMeshLeftBox});
 }
 
+// All of them, or as many as the program keeps.
+TEST_F(ApiDeformable, PairsKeepAsManyContactsAsTheProgramSays) {
+  const auto contacts_of = [&](int most) {
+    const BatchCollider collider(
+        [&](dBatchColliderParams& params) { params.max_contacts_deformable = most; });
+    announce(collider);
+    return answer_of(collider, g_hull, g_cloth, 1000);
+  };
+  const Contacts all = contacts_of(0), some = contacts_of(5);
+  ASSERT_GT(all.size(), 64u);
+  EXPECT_EQ(some.size(), 5u);
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -140,8 +140,7 @@ TEST_F(ApiDeviceFailure, AtAnyCallOfCreateIsAMessageAndNoCollider) {
 
 class ApiInformation : public ApiDeviceFailure {
  protected:
-  ApiInformation() { setenv("ODE_EXT_LOG", "info", 1); }
-  ~ApiInformation() override { unsetenv("ODE_EXT_LOG"); }
+  Environment log_{"ODE_EXT_LOG", "info"};
   CountMessages count_;
 };
 

@@ -99,6 +99,7 @@ TEST_F(ApiOverride, LetsTheColliderAnswerWhosePassRuns) {
   for (const auto& [pair, contacts] : of_many.contacts) most = std::max(most, contacts.size());
   EXPECT_GT(most, 1u);
   for (const Collected* collected : {&of_one, &again}) {
+    EXPECT_GT(collected->total(), 0);
     for (const auto& [pair, contacts] : collected->contacts) EXPECT_LE(contacts.size(), 1u);
   }
 }

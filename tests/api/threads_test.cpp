@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Different colliders in different threads, each with a space and geoms of its own. What ODE itself
 // shares between threads (its mesh cache) is not touched by mesh pairs that a collider answers.
+#include <atomic>
 #include <thread>
 
 #include "support/batch_collider.h"
@@ -45,14 +46,23 @@ TEST(ApiThreads, TwoCollidersInTwoThreadsGiveTheAnswersOfOne) {
 TEST(ApiThreads, CreateAndDestroyCollidersWhileAnotherWorks) {
   OdeWorld world;
   const dSpaceID space = world.space(SpaceKind::Simple);
-  const Pile pile(world, space, 8, 1);
+  Pile pile(world, space, 8, 1);
   const BatchCollider collider;
-  const Collected expected = collider.pass(space);
-  std::thread thread([] {
+  std::vector<Collected> expected;
+  for (const std::uint64_t seed : {1, 2}) {  // between which each pass has something to compute
+    pile.shake(seed);
+    expected.push_back(collider.pass(space));
+  }
+  std::atomic<bool> made = false;
+  std::thread thread([&] {
     for (int i = 0; i < 5; ++i) BatchCollider();
+    made = true;
   });
-  for (int i = 0; i < 20; ++i) {
-    EXPECT_EQ(difference_with_geoms(collider.pass(space), expected), "");
+  int passes = 0;
+  for (; passes < 20 || !made; ++passes) {
+    pile.shake(passes % 2 == 0 ? 1 : 2);
+    EXPECT_EQ(difference_with_geoms(collider.pass(space), expected[passes % 2 == 0 ? 0 : 1]), "");
+    EXPECT_GT(collider.stats().pairs_computed, 0);
   }
   thread.join();
 }

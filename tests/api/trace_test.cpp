@@ -4,13 +4,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
 
 #include "support/batch_collider.h"
+#include "support/path_for_a_death.h"
 
 namespace ode_ext::test {
 namespace {
@@ -41,11 +41,10 @@ int count(const std::string& text, const std::string& part) {
 }
 
 TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
-  const std::string path = testing::TempDir() + "ode_ext_trace_test.json";
-  EXPECT_EXIT(trace_two_passes(path), testing::ExitedWithCode(0), "");
+  const PathForADeath path("ode_ext_trace_test.json");
+  EXPECT_EXIT(trace_two_passes(path.name()), testing::ExitedWithCode(0), "");
   std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  std::remove(path.c_str());
+  text << std::ifstream(path.name()).rdbuf();
   for (const char* name :
        {"pass", "gather", "meshes", "device", "export", "pair_step", "vertex_step",
         "iterative_rays", "bvh_rays", "basic_rays", "monolithic", "cull", "match", "cross", "flood",
@@ -77,11 +76,10 @@ void fork_between_two_passes(const std::string& path) {
 }
 
 TEST_F(ApiTraceDeathTest, HasNothingTwiceOfAForkedChild) {
-  const std::string path = testing::TempDir() + "ode_ext_forked_trace_test.json";
-  EXPECT_EXIT(fork_between_two_passes(path), testing::ExitedWithCode(0), "");
+  const PathForADeath path("ode_ext_forked_trace_test.json");
+  EXPECT_EXIT(fork_between_two_passes(path.name()), testing::ExitedWithCode(0), "");
   std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  std::remove(path.c_str());
+  text << std::ifstream(path.name()).rdbuf();
   EXPECT_EQ(count(text.str(), "\"name\":\"pass\""), 2);
   EXPECT_EQ(count(text.str(), "[\n"), 1);
 }

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "opencl/error.h"
+#include "support/environment.h"
 
 namespace ode_ext {
 namespace {
@@ -117,10 +118,12 @@ TEST(Choice, SaysWhatMakesADeviceUnusable) {
 }
 
 TEST(Choice, TellsWhetherTheEnvironmentChose) {
-  ::setenv("ODE_EXT_DEVICE", "pthread", 1);
-  EXPECT_EQ(reason("pthread"), "ODE_EXT_DEVICE=\"pthread\"");
-  EXPECT_EQ(reason("0"), "the program's selection \"0\"");
-  ::unsetenv("ODE_EXT_DEVICE");
+  {
+    const test::Environment environment("ODE_EXT_DEVICE", "pthread");
+    EXPECT_EQ(reason("pthread"), "ODE_EXT_DEVICE=\"pthread\"");
+    EXPECT_EQ(reason("0"), "the program's selection \"0\"");
+  }
+  const test::Environment none("ODE_EXT_DEVICE", nullptr);
   EXPECT_EQ(reason("pthread"), "the program's selection \"pthread\"");
   EXPECT_EQ(reason(""), "the default order GPU, accelerator, CPU");
 }

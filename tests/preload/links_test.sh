@@ -29,12 +29,17 @@ for library in libode_ext_preload.so libode_ext_preload_double.so libode_ext_pre
   if grep -E '^lib(ode|ode_ext)\.so' <<< "$needed"; then
     fail "$library links ODE"
   fi
-  if nm -D --undefined-only "$library" | grep -E ' U d[A-Z]'; then
+  undefined=$(nm -D --undefined-only "$library")
+  [[ -n $undefined ]] || fail "$library takes nothing from anywhere; is this nm's output?"
+  if grep -E ' U d[A-Z]' <<< "$undefined"; then
     fail "$library takes functions of ODE from whoever has them"
   fi
 done
-if nm -D --defined-only libode_ext_preload.so | awk '{ print $3 }' |
-  grep -v -E '^d(InitODE2?|SpaceCollide2?|Collide|CreateTriMesh|Geom(Destroy|TriMeshData.*))$'; then
+exported=$(nm -D --defined-only libode_ext_preload.so | awk '{ print $3 }')
+for function in dSpaceCollide dSpaceCollide2 dCollide; do
+  grep -q -x "$function" <<< "$exported" || fail "libode_ext_preload.so does not export $function"
+done
+if grep -v -E '^d(InitODE2?|SpaceCollide2?|Collide|CreateTriMesh|Geom(Destroy|TriMeshData.*))$' <<< "$exported"; then
   fail "libode_ext_preload.so exports more than it stands in front of"
 fi
 for precision in double single; do

@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 #include <ode_ext/ode_ext.h>
 
-#include <cstdlib>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "support/environment.h"
 #include "support/ode_world.h"
 #include "support/pass_statistics.h"
 
@@ -75,22 +75,5 @@ inline Contacts fresh_answer(dGeomID o1, dGeomID o2, int limit = 64,
                              const BatchCollider::Change& change = {}) {
   return answer_of(BatchCollider(change), o1, o2, limit);
 }
-
-// Sets an environment variable for a scope.
-class Environment {
- public:
-  Environment(const char* name, const char* value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old, had_ = true;
-    setenv(name, value, 1);
-  }
-  ~Environment() { had_ ? setenv(name_, old_.c_str(), 1) : unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  const char* name_;
-  std::string old_;
-  bool had_ = false;
-};
 
 }  // namespace ode_ext::test

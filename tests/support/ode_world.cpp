@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 namespace ode_ext::test {
 
@@ -32,18 +34,42 @@ void OdeMesh::rebuild(TestMesh mesh) {
                               3 * sizeof(dTriIndex));
 }
 
+namespace {
+
+// What ODE frees is what it is given next, if that is as large: the same address for certain.
+struct Reuse {
+  static void* allocate(std::size_t size) {
+    return kept != nullptr && size == kept_size ? std::exchange(kept, nullptr) : std::malloc(size);
+  }
+  static void release(void* block, std::size_t size) {
+    std::free(kept);
+    kept = block;
+    kept_size = size;
+  }
+  Reuse() {
+    dSetAllocHandler(&allocate);
+    dSetFreeHandler(&release);
+  }
+  ~Reuse() {
+    dSetAllocHandler(nullptr);
+    dSetFreeHandler(nullptr);
+    std::free(std::exchange(kept, nullptr));
+  }
+  static inline void* kept = nullptr;
+  static inline std::size_t kept_size = 0;
+};
+
+}  // namespace
+
 bool OdeMesh::replace_at_same_address(TestMesh mesh) {
   const dTriMeshDataID address = id_;
-  dGeomTriMeshDataDestroy(id_);
-  // Usually the first is it, but in a fragmented heap other holes are filled before.
-  std::vector<dTriMeshDataID> others;
-  while ((id_ = dGeomTriMeshDataCreate()) != address && others.size() < 10000) {
-    others.push_back(id_);
+  {
+    const Reuse reuse;
+    dGeomTriMeshDataDestroy(id_);
+    id_ = dGeomTriMeshDataCreate();
   }
-  const bool same = id_ == address;
-  for (const dTriMeshDataID other : others) dGeomTriMeshDataDestroy(other);
   rebuild(std::move(mesh));
-  return same;
+  return id_ == address;
 }
 
 OdeWorld::OdeWorld() { dInitODE2(0); }

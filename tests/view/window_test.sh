@@ -102,7 +102,9 @@ xdotool mousemove 320 317 mousedown 3; sleep 0.5; xdotool key p; sleep 1
 xdotool mousemove 60 250; sleep 1
 xdotool mouseup 3
 
-xdotool key d key c   # ten more, and driven by ODE's own collider: seen at the end
+xdotool key p   # paused: what stands still now
+stand "after the throw"
+xdotool key d key c key p   # ten more, and driven by ODE's own collider: seen at the end
 change "going on"
 xdotool key Escape   # while it steps
 
