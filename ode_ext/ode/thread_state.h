@@ -2,6 +2,8 @@
 // What each thread has for itself.
 #pragma once
 
+#include <new>
+
 namespace ode_ext {
 
 // The T of this thread, made when it is asked for first. A program may ask while the thread or the
@@ -15,8 +17,9 @@ T& of_this_thread() {
     ~Owned() { is_gone = true; }
   };
   if (is_gone) {
+    alignas(T) thread_local unsigned char place[sizeof(T)];
     thread_local T* late = nullptr;
-    if (late == nullptr) late = new T{};
+    if (late == nullptr) late = new (place) T{};
     return *late;
   }
   thread_local Owned owned;
