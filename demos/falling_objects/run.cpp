@@ -97,7 +97,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     if (finite && ((step + 1) % measure_every == 0 || step + 1 == options.steps)) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
-      if (meter.unmeasured() == 0) expectations.after_measurement(measured.deepest);
+      if (meter.measures_all()) expectations.after_measurement(measured.deepest);
       record.deepest_penetration = measured.deepest;
     }
     if (finite && sheets != nullptr &&

@@ -28,12 +28,8 @@ PenetrationMeter::PenetrationMeter(const Scene& scene) : scene_(scene) {
     shapes_.push_back(oracle_mesh(shape.mesh));
     half_thinnest_.push_back(shapes_.back().thinnest_part() / 2);
   }
-}
-
-std::size_t PenetrationMeter::unmeasured() const {
-  const auto is_open = [&](const Object& object) { return !shapes_[object.shape].closed(); };
-  return static_cast<std::size_t>(
-      std::count_if(scene_.objects().begin(), scene_.objects().end(), is_open));
+  for (const Object& object : scene.objects())
+    measures_all_ = measures_all_ && shapes_[object.shape].closed();
 }
 
 std::vector<Pose> PenetrationMeter::poses() const {

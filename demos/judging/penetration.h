@@ -28,8 +28,8 @@ class PenetrationMeter {
     double deepest = 0;                 // of all pairs [m]
     std::vector<Penetration> too_deep;  // the pairs that are deeper than allowed
   };
-  // Objects of open meshes, which have no inside: measure() leaves them out.
-  std::size_t unmeasured() const;
+  // Open meshes have no inside: measure() leaves them out.
+  bool measures_all() const { return measures_all_; }
   // At the current poses.
   Result measure() const;
   // The depth [m] of every pair of which one has a vertex inside the other. Slower: measure() need
@@ -47,6 +47,7 @@ class PenetrationMeter {
   std::vector<ode_ext::oracle::Mesh> shapes_;
   std::vector<double> half_thinnest_;  // of the shapes [m]
   std::optional<ode_ext::oracle::Mesh> ground_;
+  bool measures_all_ = true;
 };
 
 }  // namespace falling_objects

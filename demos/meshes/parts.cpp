@@ -2,31 +2,34 @@
 #include "meshes/parts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
+
+#include "geometry/mesh_oracle.h"
 
 namespace falling_objects {
 namespace {
 
+using ode_ext::oracle::Vector;
+
+// Its vertices are seen from one of them: far from the origin a volume would be a difference of
+// large numbers.
 struct Part {
-  std::vector<std::size_t> triangles;
-  Point low, high;
-  double volume = 0;  // [m^3], signed
+  Point origin;
+  TriangleMesh mesh;
+  std::vector<std::size_t> triangles;  // their numbers in the whole
+  double volume = 0, radius = 0;       // [m^3], signed, and [m]
+  std::optional<ode_ext::oracle::Mesh> oracle;
+
+  bool contains(const Point& p) {
+    const Vector at{p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+    if (length(at) > radius) return false;
+    if (!oracle) oracle.emplace(mesh.vertices, mesh.indices);
+    return oracle->signed_distance(at) * volume < 0;  // inside out it has the other sign
+  }
 };
-
-double determinant(const Point& a, const Point& b, const Point& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-Corners seen_from(const Point& p, Corners corners) {
-  for (Point& corner : corners)
-    for (std::size_t k = 0; k < 3; ++k) corner[k] -= p[k];
-  return corners;
-}
 
 // The number of each vertex's part, named by one of its vertices.
 std::vector<unsigned> part_of_vertices(const TriangleMesh& mesh) {
@@ -49,58 +52,36 @@ std::vector<Part> parts_of(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const Corners corners = mesh.corners(t);
     const auto [at, is_new] = numbers.try_emplace(part_of[mesh.indices[3 * t]], parts.size());
-    if (is_new) parts.push_back({{}, corners[0], corners[0]});
+    if (is_new) parts.emplace_back().origin = corners[0];
     Part& part = parts[at->second];
-    // From a corner of its own: far from the origin it would be a difference of large numbers.
-    const Point from = mesh.vertex(mesh.indices[3 * (is_new ? t : part.triangles.front())]);
-    const auto [a, b, c] = seen_from(from, corners);
-    part.volume += determinant(a, b, c) / 6;
     part.triangles.push_back(t);
-    for (const Point& corner : corners)
-      for (std::size_t k = 0; k < 3; ++k) {
-        part.low[k] = std::min(part.low[k], corner[k]);
-        part.high[k] = std::max(part.high[k], corner[k]);
-      }
+    for (const Point& p : corners) {
+      const auto& o = part.origin;
+      part.mesh.indices.push_back(part.mesh.add_vertex({p[0] - o[0], p[1] - o[1], p[2] - o[2]}));
+    }
+  }
+  for (Part& part : parts) {
+    weld(part.mesh);
+    part.volume = signed_volume(part.mesh);
+    part.radius = bounding_radius(part.mesh);
   }
   return parts;
-}
-
-double length(const Point& a) { return std::hypot(a[0], a[1], a[2]); }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// By the solid angles of its triangles (van Oosterom and Strackee 1983): inside they make up 4 pi.
-bool is_inside(const Point& p, const Part& part, const TriangleMesh& mesh) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (p[k] < part.low[k] || p[k] > part.high[k]) return false;
-  double angle = 0;
-  for (const std::size_t t : part.triangles) {
-    const auto [a, b, c] = seen_from(p, mesh.corners(t));
-    const double x = length(a), y = length(b), z = length(c);
-    angle += 2 * std::atan2(determinant(a, b, c),
-                            x * y * z + dot(a, b) * z + dot(a, c) * y + dot(b, c) * x);
-  }
-  return std::abs(angle) > 2 * std::numbers::pi;
 }
 
 }  // namespace
 
 void turn_parts_outwards(TriangleMesh& mesh) {
-  const std::vector<Part> parts = parts_of(mesh);
+  std::vector<Part> parts = parts_of(mesh);
   const auto is_turned = [](const Part& part) { return part.volume < 0; };
   if (std::none_of(parts.begin(), parts.end(), is_turned)) return;
-  const auto contains = [&](const Part& outer, const Part& inner) {
-    const Point p = mesh.vertex(mesh.indices[3 * inner.triangles.front()]);
-    return &outer != &inner && is_inside(p, outer, mesh);
-  };
-  const auto outermost_around = [&](const Part& part) {
-    const Part* outermost = &part;
-    for (const Part& outer : parts)
-      if (contains(outer, part) && (outermost == &part || contains(outer, *outermost)))
-        outermost = &outer;
+  const auto outermost_around = [&](Part& part) {
+    Part* outermost = &part;
+    for (Part& outer : parts)
+      if (&outer != outermost && outer.contains(outermost->origin)) outermost = &outer;
     return outermost;
   };
   std::vector<const Part*> turned;
-  for (const Part& part : parts)
+  for (Part& part : parts)
     if (is_turned(*outermost_around(part))) turned.push_back(&part);
   for (const Part* part : turned)
     for (const std::size_t t : part->triangles)

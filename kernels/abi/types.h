@@ -39,8 +39,6 @@ typedef float ox_f32;
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
 #define OX_LIST_FLOOD_WORDS 10u  // room for finding the vertices inside, handed out in stretches
-// More is not counted: a counter that ran past 2^32 would begin again.
-#define OX_MOST_COUNTED 0x80000000u
 #define OX_LIST_CONTACTS 11u
 #define OX_LIST_COUNT 12u
 #define OX_COUNTER_BOUNDED 12u   // pairs whose bounding volumes overlap
@@ -55,6 +53,8 @@ typedef float ox_f32;
 #define OX_COUNTER_LEFT 21u  // pairs that the whole step left to the kernels
 #define OX_COUNTER_COUNT 22u
 #define OX_COUNTER_WORDS (OX_COUNTER_COUNT * OX_COUNTER_STRIDE)
+// More is not counted: a counter that ran past 2^32 would begin again.
+#define OX_MOST_COUNTED 0x80000000u
 
 // There are several of each: what the kernels count comes first, then what the work-items of
 // whole_step.cl have counted together, then the share of each of them. Lists too: those of the

@@ -130,9 +130,9 @@ using Probes = std::array<const Probe*, 4>;
 
 // Finds places one after the other, each in what those before it have left: a byte of an address
 // may be 1 or 0 in every probe, as its mesh is single or not.
-class Search {
+class PlaceFinder {
  public:
-  explicit Search(const Probes& probes) : probes_(probes) {}
+  explicit PlaceFinder(const Probes& probes) : probes_(probes) {}
 
   // The first place, of those on boundaries of `size`, where `has` holds in every probe.
   template <class Has>
@@ -161,14 +161,14 @@ std::optional<Layout> find_layout() {
   plain.build_after(other_single);
   other_plain.build_after(plain);
   const Probes probes = {&single, &other_single, &plain, &other_plain};
-  Search search(probes);
-  const auto vertices = search.place_of(sizeof(void*), &Probe::has_vertices);
-  const auto vertex_stride = search.place_of(sizeof(int), &Probe::has_vertex_stride);
-  const auto vertex_count = search.place_of(sizeof(int), &Probe::has_vertex_count);
-  const auto indices = search.place_of(sizeof(void*), &Probe::has_indices);
-  const auto index_stride = search.place_of(sizeof(int), &Probe::has_index_stride);
-  const auto triangle_count = search.place_of(sizeof(int), &Probe::has_triangle_count);
-  const auto is_single = search.place_of(1, &Probe::has_kind);
+  PlaceFinder finder(probes);
+  const auto vertices = finder.place_of(sizeof(void*), &Probe::has_vertices);
+  const auto vertex_stride = finder.place_of(sizeof(int), &Probe::has_vertex_stride);
+  const auto vertex_count = finder.place_of(sizeof(int), &Probe::has_vertex_count);
+  const auto indices = finder.place_of(sizeof(void*), &Probe::has_indices);
+  const auto index_stride = finder.place_of(sizeof(int), &Probe::has_index_stride);
+  const auto triangle_count = finder.place_of(sizeof(int), &Probe::has_triangle_count);
+  const auto is_single = finder.place_of(1, &Probe::has_kind);
   if (!vertices || !vertex_stride || !vertex_count || !indices || !index_stride ||
       !triangle_count || !is_single)
     return std::nullopt;

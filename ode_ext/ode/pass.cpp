@@ -36,7 +36,7 @@ struct PassesOfAThread {
     begun.pop_back();
   }
 };
-std::vector<Begun>& begun() { return of_this_thread<PassesOfAThread>().begun; }
+PassesOfAThread& passes() { return of_this_thread<PassesOfAThread>(); }
 
 std::uint64_t next_number() {
   static std::atomic<std::uint64_t> last{0};
@@ -58,14 +58,14 @@ Pass::Pass(const std::shared_ptr<BatchCollider>& collider, const PassRoot& root,
            const CallMark& mark)
     : root_(root), number_(mark.number()) {
   const std::vector<PassRoot> traversed = roots_on_this_thread();
-  begun().reserve(begun().size() + 1);
+  passes().begun.reserve(passes().begun.size() + 1);
   const bool outer_failed = collider->claim();
   // Before the batch: already gathering calls code of the program's, which may leave by longjmp.
-  begun().push_back({collider, root, outer_failed, &mark, mark.frame(), number_});
+  passes().begun.push_back({collider, root, outer_failed, &mark, mark.frame(), number_});
   try {
     backtracked_ = collider->run_batch(root, traversed);
   } catch (...) {
-    of_this_thread<PassesOfAThread>().end_last();
+    passes().end_last();
     throw;
   }
 }
@@ -73,9 +73,9 @@ Pass::Pass(const std::shared_ptr<BatchCollider>& collider, const PassRoot& root,
 // Passes within this one that were left by longjmp end with it. It may itself have been taken for
 // one that was left: a callback may switch stacks.
 Pass::~Pass() {
-  for (std::size_t i = 0; i < begun().size(); ++i) {
-    if (begun()[i].number != number_) continue;
-    while (begun().size() > i) of_this_thread<PassesOfAThread>().end_last();
+  for (std::size_t i = 0; i < passes().begun.size(); ++i) {
+    if (passes().begun[i].number != number_) continue;
+    while (passes().begun.size() > i) passes().end_last();
   }
 }
 
@@ -89,21 +89,21 @@ bool Pass::deliver(void* data, dNearCallback* callback) {
 }
 
 BatchCollider* Pass::collider_on_this_thread() {
-  return begun().empty() ? nullptr : begun().back().collider.get();
+  return passes().begun.empty() ? nullptr : passes().begun.back().collider.get();
 }
 
 std::vector<PassRoot> Pass::roots_on_this_thread() {
   std::vector<PassRoot> roots;
-  for (const Begun& pass : begun()) roots.push_back(pass.root);
+  for (const Begun& pass : passes().begun) roots.push_back(pass.root);
   return roots;
 }
 
 // Stacks grow downwards: within a pass every call stands below that of the pass.
 void Pass::end_those_left(const CallMark& mark) {
-  while (!begun().empty()) {
-    const Begun& last = begun().back();
+  while (!passes().begun.empty()) {
+    const Begun& last = passes().begun.back();
     if (std::less<>()(mark.frame(), last.frame) && last.mark->is(last.number)) return;
-    of_this_thread<PassesOfAThread>().end_last();
+    passes().end_last();
   }
 }
 

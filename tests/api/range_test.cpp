@@ -8,32 +8,13 @@
 #include <limits>
 
 #include "support/batch_collider.h"
+#include "support/messages.h"
 
 namespace ode_ext::test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// What ODE's message handler is given.
-class Messages {
- public:
-  Messages() {
-    said_.clear();
-    dSetMessageHandler([](int, const char* format, va_list arguments) {
-      char text[1024];
-      std::vsnprintf(text, sizeof text, format, arguments);
-      said_.emplace_back(text);
-    });
-  }
-  ~Messages() { dSetMessageHandler(nullptr); }
-  Messages(const Messages&) = delete;
-  Messages& operator=(const Messages&) = delete;
-  const std::vector<std::string>& said() const { return said_; }
-
- private:
-  static inline std::vector<std::string> said_;
-};
 
 // A body one vertex of which is lowest, that far below the ground's top.
 struct Sunk {

@@ -20,7 +20,8 @@ class ApiTraceDeathTest : public testing::Test {
   ApiTraceDeathTest() { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
 };
 
-void trace_two_passes(const std::string& path) {
+void trace_two_passes(
+    const std::string& path, void (*between)() = [] {}) {
   setenv("ODE_EXT_TRACE", path.c_str(), 1);
   {
     OdeWorld world;
@@ -28,6 +29,7 @@ void trace_two_passes(const std::string& path) {
     const Pile pile(world, space, 5, 1);
     const BatchCollider collider;
     collider.pass(space);
+    between();
     collider.pass(space);
   }
   std::exit(0);
@@ -56,28 +58,19 @@ TEST_F(ApiTraceDeathTest, WritesAnEventForEveryStageOfEveryPass) {
 }
 
 // The child ends like any program, but for the driver, which may hang there.
-void fork_between_two_passes(const std::string& path) {
-  setenv("ODE_EXT_TRACE", path.c_str(), 1);
-  {
-    OdeWorld world;
-    const dSpaceID space = world.space(SpaceKind::Simple);
-    const Pile pile(world, space, 5, 1);
-    const BatchCollider collider;
-    collider.pass(space);
-    if (const pid_t child = fork(); child == 0) {
-      std::fflush(nullptr);
-      _exit(0);
-    } else {
-      waitpid(child, nullptr, 0);
-    }
-    collider.pass(space);
+void fork_a_child_that_ends() {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::fflush(nullptr);
+    _exit(0);
   }
-  std::exit(0);
+  waitpid(child, nullptr, 0);
 }
 
 TEST_F(ApiTraceDeathTest, HasNothingTwiceOfAForkedChild) {
   const PathForADeath path("ode_ext_forked_trace_test.json");
-  EXPECT_EXIT(fork_between_two_passes(path.name()), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(trace_two_passes(path.name(), &fork_a_child_that_ends), testing::ExitedWithCode(0),
+              "");
   std::stringstream text;
   text << std::ifstream(path.name()).rdbuf();
   EXPECT_EQ(count(text.str(), "\"name\":\"pass\""), 2);

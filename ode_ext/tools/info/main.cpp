@@ -31,16 +31,13 @@ void list_settings() {
 }
 
 // A device may be listed and yet fail: its compiler may refuse the kernels, or its arithmetic.
-// `said` is what was printed of the devices, and is not printed again.
-int try_to_create(const char* selection, const std::string& said) {
+int try_to_create(const char* selection) {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
   params.device = selection;
   const dBatchColliderID collider = dBatchColliderCreate(&params);
   if (collider == nullptr) {
-    const std::string why = dBatchColliderGetLastErrorMessage();
-    const bool is_said = said.find(why.substr(why.find(' ') + 1)) != std::string::npos;
-    std::cout << "no collider: " << (is_said ? "there is no device, as said above" : why) << '\n';
+    std::cout << "no collider: " << dBatchColliderGetLastErrorMessage() << '\n';
     return kExitNoDevice;
   }
   std::cout << "a collider works on " << dBatchColliderGetDeviceName(collider) << '\n';
@@ -75,11 +72,12 @@ int main(int argc, char** argv) {
   }
   const char* selection = app.count("--device") > 0 ? device.c_str() : nullptr;
   dInitODE2(0);
-  const std::string devices = describe_devices(selection);
   std::cout << "ode_ext " << ODE_EXT_VERSION << '\n'
             << "ODE     " << dGetConfiguration() << '\n'
-            << devices;
-  const int exit_code = try_to_create(selection, devices);
+            << describe_devices(selection);
+  // Where none can be chosen the description has said why.
+  const int exit_code =
+      dBatchDeviceChoose(selection) < 0 ? kExitNoDevice : try_to_create(selection);
   dCloseODE();
   return exit_code;
 }
