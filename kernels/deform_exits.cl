@@ -40,7 +40,7 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
       for (; left != 0u; left &= left - 1u) {
         const uint k = ox_lowest(left);
         if (!(t_lane[k] > move->on_surface)) continue;
-        const uint triangle = meshlet->triangle_first - shape->triangle_first + first + k;
+        const uint triangle = meshlet->triangle[first + k] - shape->triangle_first;
         __global const uint* corners = topology + move->corner_first + 3u * triangle;
         if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;
         if (determinant_lane[k] < 0.0f)

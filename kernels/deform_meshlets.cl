@@ -2,26 +2,18 @@
 // Deform step, the part of meshlets: what they hold of vertices and triangles, and the boxes of the
 // tree over them. Which triangles, vertices and edges a meshlet has stays.
 //
-// in    moves, starts (deform_step.cl), vertices, triangles, edges
+// in    moves, starts (deform_step.cl), vertices, triangles
 // out   meshlets, meshlet_nodes: those of the meshes that moved, in place
 // item  1 meshlet / child of a node over meshlets (grid-stride)
 // may overflow: none
 #include "lib/moves.h"
-
-// A flat edge lies within a facet (mesh/facets.h): it crosses nothing that others do not.
-static bool ox_is_flat(__global const ox_triangle* triangles, __global const ox_edge* edge) {
-  if (edge->triangle[1] == OX_NONE) return false;
-  const float3 d = vload3(0, triangles[edge->triangle[0]].normal) -
-                   vload3(0, triangles[edge->triangle[1]].normal);
-  return ox_dot(d, d) < 1.0e-6f;  // 0.06 degrees
-}
 
 // Any normal gives a slab that holds the meshlet; the mean of its triangles' by area gives a thin
 // one.
 static void ox_measure_slab(__global const ox_triangle* triangles, __global ox_meshlet* meshlet) {
   float3 sum = (float3)(0.0f);
   for (uint k = 0u; k < meshlet->triangle_count; ++k) {
-    __global const ox_triangle* t = triangles + meshlet->triangle_first + k;
+    __global const ox_triangle* t = triangles + meshlet->triangle[k];
     const float3 a = vload3(0, t->a);
     sum += ox_plain_cross(vload3(0, t->b) - a, vload3(0, t->c) - a);
   }
@@ -41,7 +33,7 @@ static void ox_measure_slab(__global const ox_triangle* triangles, __global ox_m
 __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
                               __global const uint* all_starts, uint starts_first,
                               __global const ox_vertex* vertices,
-                              __global const ox_triangle* triangles, __global const ox_edge* edges,
+                              __global const ox_triangle* triangles,
                               __global ox_meshlet* meshlets) {
   __global const uint* starts = all_starts + starts_first;
   const uint stride = (uint)get_global_size(0);
@@ -50,7 +42,7 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
     __global ox_meshlet* meshlet = meshlets + moves[m].shape.meshlet_first + (i - starts[m]);
     meshlet->with_area = 0u;
     for (uint k = 0u; k < meshlet->triangle_count; ++k) {
-      const float3 normal = vload3(0, triangles[meshlet->triangle_first + k].normal);
+      const float3 normal = vload3(0, triangles[meshlet->triangle[k]].normal);
       if (ox_dot(normal, normal) != 0.0f) meshlet->with_area |= 1u << k;
     }
     for (uint k = 0u; k < OX_LANES; ++k) {
@@ -71,9 +63,6 @@ __kernel void deform_meshlets(__global const ox_move* moves, uint move_count,
       meshlet->hi[axis] = hi;
     }
     ox_measure_slab(triangles, meshlet);
-    meshlet->edges_apart = 0u;
-    for (uint e = 0u; e < meshlet->edge_count; ++e)
-      if (!ox_is_flat(triangles, edges + meshlet->edge[e])) meshlet->edges_apart |= 1u << e;
   }
 }
 

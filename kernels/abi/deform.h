@@ -12,9 +12,9 @@ typedef struct {
   ox_u32 vertex_first;  // index into all vertices
   ox_u32 vertex_count;
   ox_u32 position_first;  // of its new positions, in vertices
-  ox_u32 corner_first;    // into topology: 3 vertices a triangle, in the order of the leaves
+  ox_u32 corner_first;    // into topology: 3 vertices a triangle
   ox_u32 incident_first;  // into topology: vertex_count + 1 starts of runs of corners, then the
-                          // corners: triangle << 2 | corner, in the program's order
+                          // corners: triangle << 2 | corner
   ox_f32 scale;           // a power of two that takes the mesh's size to about 1 [1/m]
   ox_f32 thickness;       // exit of the vertices of a two-sided sheet [m]
   ox_f32 on_surface;      // where a ray from a vertex begins [m]

@@ -24,7 +24,7 @@ OX_STATIC_ASSERT(sizeof(ox_relative_pose) == 64, ox_relative_pose_is_64_bytes);
 
 // The temporal datum of a vertex.
 typedef struct {
-  ox_u32 triangle;  // met last, in the order of the leaves from the target's first on; or OX_NONE
+  ox_u32 triangle;  // met last, from the target's first on; or OX_NONE
   ox_f32 moved;     // [m] since it was last cast in full; kept with OX_MODE_PAPER only
 } ox_temporal;
 OX_STATIC_ASSERT(sizeof(ox_temporal) == 8, ox_temporal_is_8_bytes);

@@ -137,7 +137,7 @@ OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 // An edge; those within a facet come last. All indices count over all meshes.
 typedef struct {
   ox_u32 vertex[2];
-  ox_u32 triangle[2];  // at it, in the order of the leaves; the second is OX_NONE at a border
+  ox_u32 triangle[2];  // at it; the second is OX_NONE at a border
 } ox_edge;
 OX_STATIC_ASSERT(sizeof(ox_edge) == 16, ox_edge_is_16_bytes);
 
@@ -156,19 +156,19 @@ typedef struct {
   ox_f32 lo[3], hi[3];         // of its vertices
   ox_f32 slab_normal[3];       // unit, or 0: the mean of its triangles' by area
   ox_f32 slab_lo, slab_hi;     // [m] along it, of its vertices
-  ox_u32 triangle_first, triangle_count;
-  ox_u32 edge_count;
-  ox_u32 edges_apart;  // a bit for each edge that lies between facets in the present shape
-  ox_u32 with_area;    // a bit for each triangle that has one in the present shape
+  ox_u32 triangle_count, edge_count;
+  ox_u32 with_area;                   // a bit for each triangle that has one in the present shape
   ox_u32 ends[OX_MESHLET_EDGES / 2];  // places in `vertex`; of edge e OX_END(ends, e, 0) and 1
+  ox_u32 padding[2];
   // of those that do,
   ox_f32 normal[3][OX_LANES];  // of the vertices, unit, or 0 where none is known
   ox_u32 places[OX_LANES];     // of the corners of each triangle in `vertex`: OX_CORNER_SHIFT
   // and of edges that cross it.
   ox_u32 edge[OX_MESHLET_EDGES];
   ox_u32 vertex_index[OX_LANES];
+  ox_u32 triangle[OX_LANES];
 } ox_meshlet;
-OX_STATIC_ASSERT(sizeof(ox_meshlet) == 768, ox_meshlet_is_768_bytes);
+OX_STATIC_ASSERT(sizeof(ox_meshlet) == 832, ox_meshlet_is_832_bytes);
 // Its lanes lie on boundaries of 64 bytes, sixteen floats: `vertex` at 0, `normal` at 320.
 OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 
@@ -214,12 +214,13 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet_node) % 64 == 0, ox_meshlet_nodes_are_aligned
 #define OX_CHILD_MESHLET 1u
 #define OX_TREE_ROOT 0u  // as a child
 
-// In the order of the leaves. Triangles of no area have three equal corners here: no ray hits them.
-// A neighbour is the triangle across an edge, in the order of the leaves, counted from the mesh's
-// first triangle; OX_NONE where there is none or more than one.
+// In the order of MeshTopology::triangles, which neither the program's listing of a rigid mesh
+// decides nor the shape that a deformable one was first met in: so ties may go by it. Triangles of
+// no area have three equal corners here: no ray hits them. A neighbour is the triangle across an
+// edge, counted from the mesh's first; OX_NONE where there is none or more than one.
 typedef struct {
   ox_f32 a[3];
-  ox_u32 id;  // breaks ties of distance
+  ox_u32 padding;
   ox_f32 b[3];
   ox_u32 across_ab;
   ox_f32 c[3];
@@ -298,7 +299,7 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 typedef struct {
   ox_u32 pair_side;
   ox_u32 vertex;
-  ox_u32 triangle;  // index into all triangles, in the order of the leaves; OX_NONE: none is known
+  ox_u32 triangle;  // index into all triangles; OX_NONE: none is known
   ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
   ox_f32 depth;     // [m] to the plane of the triangle
   ox_f32 t;         // [m] along the ray

@@ -82,41 +82,38 @@ static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_ve
 // The triangle that is nearest so far; distances are squared and scaled.
 typedef struct {
   uint triangle;
-  float distance2;  // the least, which that of the triangle may be more than by the tie
-  float height2;    // to its plane
-  float tie;        // triangles whose distances differ by no more are as near
-  float near2;      // that and the tie: what is farther is not looked at
+  float first2, second2;  // the least distances of all triangles; INFINITY: of none yet
+  float tie;              // triangles whose distances differ by no more are as near
+  float near2;            // the least or the bound, and the tie: what is farther is not looked at
+  float height2;          // to the plane of the triangle
+  bool is_least_known;    // of all that are as near, the one that faces the point most is wanted
 } ox_closest;
 
-static inline void ox_set_closest(ox_closest* closest, uint triangle, float distance2,
-                                  float height2) {
-  closest->triangle = triangle;
-  closest->distance2 = distance2;
-  closest->height2 = height2;
-  const float near = sqrt(distance2) + closest->tie;
-  closest->near2 = near * near;
+static inline float ox_as_near2(float distance2, float tie) {
+  const float near = sqrt(distance2) + tie;
+  return near * near;
 }
 
-// Where the nearest point is on an edge or a vertex its triangles are as near as one another, and
-// rounding is not to say which: the one that faces the point most is taken, whose plane is farthest
-// from it.
+// It is within near2. The plane of the one that faces the point most is the farthest.
 static inline void ox_note_closest(ox_closest* closest, uint triangle, float distance2,
                                    float height2) {
-  const float far = sqrt(distance2) + closest->tie;
-  const bool is_nearer = far * far < closest->distance2;
-  const bool faces_more =
-      height2 > closest->height2 || (height2 == closest->height2 && triangle < closest->triangle);
-  if (is_nearer || (distance2 <= closest->near2 && faces_more))
-    ox_set_closest(closest, triangle, OX_LESSER(distance2, closest->distance2), height2);
+  if (closest->is_least_known) {
+    if (height2 < closest->height2 || (height2 == closest->height2 && triangle > closest->triangle))
+      return;
+    closest->triangle = triangle;
+    closest->height2 = height2;
+  } else if (distance2 < closest->first2) {
+    closest->triangle = triangle;
+    closest->second2 = closest->first2;
+    closest->first2 = distance2;
+    closest->near2 = OX_LESSER(closest->near2, ox_as_near2(distance2, closest->tie));
+  } else {
+    closest->second2 = OX_LESSER(closest->second2, distance2);
+  }
 }
 
-// Within `bound` [m]; OX_NONE: none is. `tie` [m]: by how much distances may be off.
-static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
-                                       float3 p, float bound, float tie) {
-  const float scale = ox_unit_scale(mesh);
-  ox_closest closest;
-  closest.tie = tie * scale;
-  ox_set_closest(&closest, OX_NONE, bound * scale * bound * scale, -1.0f);
+static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_mesh* mesh, float3 p,
+                                float scale, ox_closest* closest) {
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
@@ -127,7 +124,7 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2, height2;
         ox_distances2(m, &seen, block, &distance2, &height2);
-        const ox_ints is_near = distance2 <= closest.near2;
+        const ox_ints is_near = distance2 <= closest->near2;
         uint near = ox_mask_of(&is_near) & ox_lanes_with_area(m, block);
         if (near == 0u) continue;
         float distance2_of[OX_VECTOR_WIDTH], height2_of[OX_VECTOR_WIDTH];
@@ -135,8 +132,8 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
         ox_store(height2, 0, height2_of);
         for (; near != 0u; near &= near - 1u) {
           const uint lane = ox_lowest(near);
-          ox_note_closest(&closest, m->triangle_first + OX_VECTOR_WIDTH * block + lane,
-                          distance2_of[lane], height2_of[lane]);
+          ox_note_closest(closest, m->triangle[OX_VECTOR_WIDTH * block + lane], distance2_of[lane],
+                          height2_of[lane]);
         }
       }
       continue;
@@ -158,12 +155,33 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
       ox_floats distance2;
       ox_dot_lanes(&off, &off, &distance2);
       distance2 *= scale * scale;
-      const ox_ints is_near = distance2 <= closest.near2;
+      const ox_ints is_near = distance2 <= closest->near2;
       const uint near = ox_mask_of(&is_near) & ox_present_children(node, block);
       const ox_floats nearness = -distance2;
       ox_push_children(node, block, near, &nearness, &walk, &best);
     }
     ox_put_best_last(&walk, &best);
+  }
+}
+
+// Within `bound` [m]; OX_NONE: none is. `tie` [m]: by how much distances may be off. Where the
+// nearest point is on an edge or a vertex its triangles are as near as one another, and neither
+// rounding nor the order in which they are met is to say which: so the least distance is found
+// first, and where several are as near they are met once more.
+static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
+                                       float3 p, float bound, float tie) {
+  const float scale = ox_unit_scale(mesh);
+  ox_closest closest;
+  closest.triangle = OX_NONE;
+  closest.first2 = closest.second2 = INFINITY;
+  closest.tie = tie * scale;
+  closest.near2 = ox_as_near2(bound * scale * bound * scale, closest.tie);
+  closest.height2 = -1.0f;
+  closest.is_least_known = false;
+  ox_walk_near(surfaces, mesh, p, scale, &closest);
+  if (closest.second2 <= closest.near2) {
+    closest.is_least_known = true;
+    ox_walk_near(surfaces, mesh, p, scale, &closest);
   }
   return closest.triangle;
 }

@@ -158,7 +158,7 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
       if (way == OX_NO_CROSSING) continue;
       float blur;
       const float place = ox_place_of_crossing(from, to, t, k, &blur);
-      ox_add_crossing(fresh, side, source->edge[e], target->triangle_first + k, place, blur,
+      ox_add_crossing(fresh, side, source->edge[e], target->triangle[k], place, blur,
                       flags | (way == OX_CROSSING_OUT ? OX_NEW_LEAVES : 0u));
     }
   }

@@ -28,7 +28,7 @@ static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces*
     ox_store(determinant, 0, determinant_lane);
     for (; left != 0u; left &= left - 1u) {
       const uint k = ox_lowest(left);
-      ox_consider_met(query, surfaces->triangles, meshlet->triangle_first + first + k, t_lane[k],
+      ox_consider_met(query, surfaces->triangles, meshlet->triangle[first + k], t_lane[k],
                       determinant_lane[k] < 0.0f, nearest);
     }
   }

@@ -57,14 +57,12 @@ static inline bool ox_faces_more(const ox_query* query, __global const ox_triang
                                  uint a, uint b) {
   const float slope_a = fabs(ox_dot(query->direction, vload3(0, triangles[a].normal)));
   const float slope_b = fabs(ox_dot(query->direction, vload3(0, triangles[b].normal)));
-  return slope_a != slope_b ? slope_a > slope_b : triangles[a].id < triangles[b].id;
+  return slope_a != slope_b ? slope_a > slope_b : a < b;
 }
 
 // Whether triangle k, met at t, comes before what was met at nearest_t. Ties go by the index.
-static inline bool ox_is_nearer(__global const ox_triangle* triangles, uint k, float t,
-                                uint nearest, float nearest_t) {
-  if (nearest == OX_NONE || t != nearest_t) return t < nearest_t;
-  return triangles[k].id < triangles[nearest].id;
+static inline bool ox_is_nearer(uint k, float t, uint nearest, float nearest_t) {
+  return t != nearest_t ? t < nearest_t : k < nearest;
 }
 
 // Triangle k is met at t; back: the ray leaves through it.
@@ -92,11 +90,11 @@ static inline void ox_consider_met(const ox_query* query, __global const ox_tria
   } else if (t > query->t_max) {
     return;
   } else if (!back) {
-    if (ox_is_nearer(triangles, k, t, nearest->front, nearest->front_t)) {
+    if (ox_is_nearer(k, t, nearest->front, nearest->front_t)) {
       nearest->front_t = t;
       nearest->front = k;
     }
-  } else if (ox_is_nearer(triangles, k, t, nearest->back, nearest->back_t)) {
+  } else if (ox_is_nearer(k, t, nearest->back, nearest->back_t)) {
     nearest->back_t = t;
     nearest->back = k;
   }

@@ -60,9 +60,9 @@ std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::ui
     case OX_OF_EDGE:
       return to_feature(FeatureKind::kEdge, index - place.edge_first);
     case OX_OF_FACET:
-      return facet_of(built, built.leaf_order[index - place.triangle_first]);
+      return facet_of(built, index - place.triangle_first);
     default:
-      return edge_of_side(built, built.leaf_order[index / 3 - place.triangle_first], index % 3);
+      return edge_of_side(built, index / 3 - place.triangle_first, index % 3);
   }
 }
 

@@ -21,8 +21,7 @@ double known_depth(double depth, const Mesh& a, const Mesh& b) {
 // The program's index of a triangle of the device's.
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
                               std::uint32_t triangle) {
-  const MeshTopology& built = *meshes.mesh(mesh).topology;
-  return built.source_triangle[built.leaf_order[triangle - meshes.range(mesh).triangle_first]];
+  return meshes.mesh(mesh).topology->source_triangle[triangle - meshes.range(mesh).triangle_first];
 }
 
 // One that has its position and normal with it, in the frame of the second object.
@@ -52,8 +51,7 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const Mesh& target_mesh = meshes.mesh(target.mesh);
   if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
-  const std::uint32_t triangle =
-      target_mesh.topology->leaf_order[contact.triangle - meshes.range(target.mesh).triangle_first];
+  const std::uint32_t triangle = contact.triangle - meshes.range(target.mesh).triangle_first;
 
   // Out of the target is into the source; the normal is to point into the first object.
   const Vec3d outward = target.pose.rotate(face_normal(target_mesh, triangle));
@@ -92,10 +90,11 @@ bool is_deformable(const Scene& scene, const std::array<std::uint32_t, 2>& pair)
          scene.meshes[scene.objects[pair[1]].mesh]->deformable;
 }
 
+// The program's numbers of the triangles come last: the order is not to depend on its listing.
 bool comes_first(const Contact& a, const Contact& b) {
   const auto rank = [](const Contact& c) {
-    return std::tie(c.position.x, c.position.y, c.position.z, c.triangles, c.normal.x, c.normal.y,
-                    c.normal.z, c.features);
+    return std::tie(c.position.x, c.position.y, c.position.z, c.normal.x, c.normal.y, c.normal.z,
+                    c.features, c.triangles);
   };
   return a.depth != b.depth ? a.depth > b.depth : rank(a) < rank(b);
 }

@@ -8,6 +8,7 @@
 
 #include "mesh/measures.h"
 #include "mesh/orientation.h"
+#include "mesh/weld.h"
 
 namespace ode_ext {
 namespace {
@@ -46,9 +47,12 @@ std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const MeshTopology>& 
   if (!shape.finite) return std::make_shared<const Mesh>(std::move(shape));
 
   shape.vertices.resize(topology->vertex_count);
-  if (topology->reoriented || !follows(topology->corner_vertex, soup, shape.vertices))
+  if (topology->reoriented || !follows(topology->corner_vertex, soup, shape.vertices) ||
+      !are_apart(shape.vertices))
     return nullptr;
-  if (topology->closed && signed_volume(shape.vertices, topology->triangles) < 0) return nullptr;
+  // Built anew, a mesh is turned where its volume is negative.
+  const double volume = signed_volume(shape.vertices, topology->triangles);
+  if (topology->closed && (volume < 0 || (volume == 0 && topology->inverted))) return nullptr;
   shape.topology = topology;
   shape.box = box_of(shape.vertices);
   shape.radius = half_diagonal(shape.box);

@@ -27,7 +27,8 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
     Edge edge{{a.low, a.high}, {a.side / 3, paired ? half_edges[i + 1].side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
     if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
-    if (comes_before(vertices[a.high], vertices[a.low])) {
+    // Where a deformable mesh's vertices are changes.
+    if (!facets.empty() && comes_before(vertices[a.high], vertices[a.low])) {
       std::swap(edge.vertices[0], edge.vertices[1]);
       if (paired) std::swap(edge.triangles[0], edge.triangles[1]);
     }

@@ -14,6 +14,7 @@ namespace ode_ext {
 
 struct Edge {
   // By their places, however they are numbered: an inverted mesh has the edges of the upright one.
+  // Of a deformable mesh by their numbers.
   std::array<std::uint32_t, 2> vertices;
   // The first runs the edge from the first vertex on. The second is kNone where there is none.
   std::array<std::uint32_t, 2> triangles;
@@ -27,8 +28,8 @@ struct Edges {
 };
 
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
-// come by their vertices. Where more than two triangles meet, they are taken two by two: each of
-// them is at one of the edges.
+// come by their vertices, from the lower to the higher. Where more than two triangles meet, they
+// are taken two by two: each of them is at one of the edges.
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets);
 

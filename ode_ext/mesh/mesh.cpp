@@ -73,7 +73,6 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.mean_edge = mean_side(mesh.vertices, triangles);
   topology->chunks = cut_into_chunks(mesh.vertices);
   const Bvh bvh = build_bvh(mesh.vertices, triangles);
-  topology->leaf_order = bvh.order;
   topology->neighbours = neighbours(triangles.size(), half_edges);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);

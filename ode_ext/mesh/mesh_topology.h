@@ -49,11 +49,10 @@ struct MeshTopology {
   std::vector<std::uint32_t> facets;
   // As in edges.h. Indices of edges count those between facets first, then those within one.
   std::vector<Edge> edges, flat_edges;
-  Meshlets meshlets;  // of the triangles in `leaf_order`, with these edges
+  Meshlets meshlets;  // with these edges
   Rings rings;        // of these edges
 
-  std::vector<std::uint32_t> leaf_order;  // of `triangles`: as the leaves of their tree have them
-  std::vector<VertexChunk> chunks;        // of the vertices
+  std::vector<VertexChunk> chunks;  // of the vertices
 
   bool closed = false;      // every edge has exactly two triangles, of opposite direction
   bool inverted = false;    // the winding was turned: the closed mesh had a negative volume

@@ -49,6 +49,7 @@ class MeshletBuilder {
       if (fits) emit();
     }
     link();
+    result_.triangles = bvh_.order;
     result_.tree = build_meshlet_tree(top_);
     return std::move(result_);
   }

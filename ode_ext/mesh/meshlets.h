@@ -23,17 +23,17 @@ struct MeshletEdge {
   std::array<std::uint8_t, 2> ends;  // as Edge::vertices
 };
 
-// Consecutive triangles in the order of the leaves, the vertices at them, and those edges of which
-// the first triangle is one of them: so an edge is in one meshlet.
+// Triangles, the vertices at them, and those edges of which the first triangle is one of them: so
+// an edge is in one meshlet.
 struct Meshlet {
-  std::uint32_t triangle_first, triangle_count;  // in Bvh::order
+  std::uint32_t triangle_first, triangle_count;  // in Meshlets::triangles
   std::uint32_t vertex_first, vertex_count;      // in Meshlets::vertices
   std::uint32_t edge_first, edge_count;          // in Meshlets::edges
 };
 
 struct Meshlets {
   std::vector<Meshlet> meshlets;
-  std::vector<std::uint32_t> vertices;  // indices into the mesh's
+  std::vector<std::uint32_t> triangles, vertices;  // indices into the mesh's
   std::vector<MeshletEdge> edges;
   std::vector<MeshletNode> tree;
 };

@@ -106,22 +106,29 @@ WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
   return mesh;
 }
 
+bool are_apart(const std::vector<Vec3f>& vertices) {
+  Places places(vertices.size());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i)
+    if (places.index_of(vertices[i]) != i) return false;
+  return true;
+}
+
 void order_by_vertices(WeldedMesh& mesh) {
   struct Listed {
-    Triangle corners;  // in ascending order: a mesh and the same inside out are numbered alike
-    Triangle key, triangle;
+    Triangle sorted;  // first, so that a mesh and the same inside out are numbered alike
+    Triangle rotated;
     std::uint32_t source;
   };
   std::vector<Listed> listed;
   listed.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    listed.push_back({sorted(mesh.triangles[i]), rotated(mesh.triangles[i]), mesh.triangles[i],
-                      mesh.source_triangle[i]});
+    listed.push_back(
+        {sorted(mesh.triangles[i]), rotated(mesh.triangles[i]), mesh.source_triangle[i]});
   std::sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) {
-    return std::tie(a.corners, a.key, a.source) < std::tie(b.corners, b.key, b.source);
+    return std::tie(a.sorted, a.rotated, a.source) < std::tie(b.sorted, b.rotated, b.source);
   });
   for (std::size_t i = 0; i < listed.size(); ++i) {
-    mesh.triangles[i] = listed[i].triangle;
+    mesh.triangles[i] = listed[i].rotated;
     mesh.source_triangle[i] = listed[i].source;
   }
 }

@@ -28,8 +28,11 @@ enum class VertexOrder {
 // together). All corners must be finite.
 WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order = VertexOrder::kRuns);
 
-// Numbers the triangles by their vertices, so that no choice between triangles that goes by their
-// numbers depends on the order in which the program lists them.
+// Whether no two are at the same place. All must be finite, and none -0.
+bool are_apart(const std::vector<Vec3f>& vertices);
+
+// Numbers the triangles by their vertices, and begins each with its lowest, so that nothing depends
+// on the order in which the program lists triangles, or the corners of one.
 void order_by_vertices(WeldedMesh& mesh);
 
 }  // namespace ode_ext

@@ -56,7 +56,7 @@ int BatchCollider::meshlets(dTriMeshDataID data, int triangle_count, int* meshle
   const auto& all = built.meshlets.meshlets;
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::uint32_t k = 0; k < all[i].triangle_count; ++k)
-      meshlets[built.source_triangle[built.leaf_order[all[i].triangle_first + k]]] =
+      meshlets[built.source_triangle[built.meshlets.triangles[all[i].triangle_first + k]]] =
           static_cast<int>(i);
   return static_cast<int>(all.size());
 }

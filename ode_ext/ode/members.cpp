@@ -91,6 +91,9 @@ bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (position(a) != position(b)) return position(a) < position(b);
   const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
   if (poses != 0) return poses < 0;
+  const std::vector<Triangle>& triangles = a.mesh->topology->triangles;
+  const std::vector<Triangle>& others = b.mesh->topology->triangles;
+  if (triangles != others) return triangles < others;
   if (a.mesh->content_hash != b.mesh->content_hash)
     return a.mesh->content_hash < b.mesh->content_hash;
   const int soups = compare_soups(a.mesh->soup, b.mesh->soup);  // hashes can be forged

@@ -118,7 +118,7 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
   run(vertices_, work.vertices.count, starts_, work.vertices.starts_first, positions_,
       meshes.topologies(), meshes.triangles(), measures_, meshes.vertices());
   run(meshlets_, work.meshlets.count, starts_, work.meshlets.starts_first, meshes.vertices(),
-      meshes.triangles(), meshes.edges(), meshes.meshlets());
+      meshes.triangles(), meshes.meshlets());
   run(meshlet_nodes_, work.meshlet_nodes.count, starts_, work.meshlet_nodes.starts_first,
       meshes.meshlets(), meshes.meshlet_nodes());
   run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.topologies(),

@@ -75,18 +75,14 @@ static_assert(kTreeWidth == OX_LANES && kTreeStack == OX_TREE_STACK);
 static_assert(offsetof(ox_meshlet_node, lo) % 64 == 0 && offsetof(ox_meshlet_node, hi) % 64 == 0,
               "lib/lanes.h loads them whole");
 
-// `places` as places_in_leaves gives them.
-ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
-                      const std::vector<std::uint32_t>& places) {
+static_assert(kNone == OX_NONE);
+
+ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle) {
   ox_triangle record{};
-  record.id = mesh.topology->source_triangle[triangle];
-  const auto across = [&](std::size_t k) {
-    const std::uint32_t neighbour = mesh.topology->neighbours[triangle][k];
-    return neighbour == kNone ? OX_NONE : places[neighbour];
-  };
-  record.across_ab = across(0);
-  record.across_bc = across(1);
-  record.across_ca = across(2);
+  const Neighbours& across = mesh.topology->neighbours[triangle];
+  record.across_ab = across[0];
+  record.across_bc = across[1];
+  record.across_ca = across[2];
   if (mesh.deformable) return record;
   const Triangle& corners = mesh.topology->triangles[triangle];
   const bool flat = mesh.face_normals[triangle] == Vec3f{};
@@ -95,13 +91,6 @@ ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle,
   store(record.c, mesh.vertices[corners[flat ? 0 : 2]]);
   store(record.normal, mesh.face_normals[triangle]);
   return record;
-}
-
-std::vector<std::uint32_t> places_in_leaves(const MeshTopology& mesh) {
-  std::vector<std::uint32_t> places(mesh.triangles.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    places[mesh.leaf_order[i]] = static_cast<std::uint32_t>(i);
-  return places;
 }
 
 static_assert(OX_CHUNK_VERTICES == kChunkVertices);
@@ -284,25 +273,24 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
     host_vertices_.push_back(to_record(placed, i));
   for (const MeshletNode& node : built.meshlets.tree)
     host_meshlet_nodes_.push_back(to_record(node, record.extent));
-  const std::vector<std::uint32_t> places = places_in_leaves(built);
   do_both(
       worthwhile_threads(built.triangles.size(), kTrianglesAThread),
       [&] {
-        append_edges(built, first, places);
+        append_edges(built, first);
         append_rings(built.rings, first);
         append_owners(built, first.vertex_first);
       },
       [&] {
         append_meshlets(mesh, first, host_meshlets_);
-        append_triangles(mesh, places);
+        append_triangles(mesh);
       });
 }
 
-void DeviceMeshes::append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places) {
+void DeviceMeshes::append_triangles(const Mesh& mesh) {
   const std::vector<std::uint32_t>& facets = mesh.topology->facets;
-  for (const std::uint32_t triangle : mesh.topology->leaf_order) {
-    host_triangles_.push_back(to_record(mesh, triangle, places));
-    host_facets_.push_back(facets.empty() ? triangle : facets[triangle]);
+  for (std::uint32_t t = 0; t < mesh.topology->triangles.size(); ++t) {
+    host_triangles_.push_back(to_record(mesh, t));
+    host_facets_.push_back(facets.empty() ? t : facets[t]);
   }
 }
 
@@ -315,15 +303,14 @@ void DeviceMeshes::append_owners(const MeshTopology& mesh, std::uint32_t vertex_
     }
 }
 
-void DeviceMeshes::append_edges(const MeshTopology& mesh, const MeshRange& first,
-                                const std::vector<std::uint32_t>& places) {
+void DeviceMeshes::append_edges(const MeshTopology& mesh, const MeshRange& first) {
   const auto append_all = [&](const std::vector<Edge>& edges) {
     for (const Edge& edge : edges) {
       ox_edge record{};
       for (std::size_t k = 0; k < 2; ++k) {
         const std::uint32_t triangle = edge.triangles[k];
         record.vertex[k] = first.vertex_first + edge.vertices[k];
-        record.triangle[k] = triangle == kNone ? OX_NONE : first.triangle_first + places[triangle];
+        record.triangle[k] = triangle == kNone ? OX_NONE : first.triangle_first + triangle;
       }
       host_edges_.push_back(record);
     }

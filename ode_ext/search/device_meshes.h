@@ -66,11 +66,9 @@ class DeviceMeshes {
   void forget_sources();
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
-  // `places` of the triangles in the order of the leaves.
-  void append_edges(const MeshTopology& mesh, const MeshRange& first,
-                    const std::vector<std::uint32_t>& places);
+  void append_edges(const MeshTopology& mesh, const MeshRange& first);
   void append_rings(const Rings& rings, const MeshRange& first);
-  void append_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& places);
+  void append_triangles(const Mesh& mesh);
   void append_owners(const MeshTopology& mesh, std::uint32_t vertex_first);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);

@@ -19,6 +19,10 @@ std::uint32_t vertex_index(const Mesh& mesh, const Meshlet& meshlet, std::uint32
       .vertices[meshlet.vertex_first + (k < meshlet.vertex_count ? k : 0)];
 }
 
+std::uint32_t triangle_index(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
+  return mesh.topology->meshlets.triangles[meshlet.triangle_first + k];
+}
+
 // Where the corners of a triangle of a meshlet are among its vertices.
 ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
   const auto first = mesh.topology->meshlets.vertices.begin() + meshlet.vertex_first;
@@ -34,19 +38,19 @@ ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t tri
 
 void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshRange& range,
                    ox_meshlet& record) {
-  record.triangle_first = range.triangle_first + meshlet.triangle_first;
   record.triangle_count = meshlet.triangle_count;
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
     record.vertex_index[k] = range.vertex_first + vertex_index(mesh, meshlet, k);
   }
-  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k)
-    record.places[k] =
-        corner_places(mesh, meshlet, mesh.topology->leaf_order[meshlet.triangle_first + k]);
+  for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
+    const std::uint32_t triangle = triangle_index(mesh, meshlet, k);
+    record.triangle[k] = range.triangle_first + triangle;
+    record.places[k] = corner_places(mesh, meshlet, triangle);
+  }
   record.edge_count = meshlet.edge_count;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
     const MeshletEdge& edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
     record.edge[k] = range.edge_first + edge.edge;
-    if (edge.edge < mesh.topology->edges.size()) record.edges_apart |= 1u << k;
     for (std::uint32_t end = 0; end < 2; ++end)
       record.ends[k / 2] |= std::uint32_t{edge.ends[end]} << OX_END_SHIFT(k, end);
   }
@@ -58,8 +62,7 @@ Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
 
 void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
-    const std::uint32_t triangle = mesh.topology->leaf_order[meshlet.triangle_first + k];
-    if (mesh.face_normals[triangle] != Vec3f{}) record.with_area |= 1u << k;
+    if (mesh.face_normals[triangle_index(mesh, meshlet, k)] != Vec3f{}) record.with_area |= 1u << k;
   }
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
     const Vec3f vertex = vertex_of(mesh, meshlet, k);
@@ -80,8 +83,7 @@ void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) 
 void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   Vec3d sum{};
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
-    const Triangle& corners =
-        mesh.topology->triangles[mesh.topology->leaf_order[meshlet.triangle_first + k]];
+    const Triangle& corners = mesh.topology->triangles[triangle_index(mesh, meshlet, k)];
     const Vec3d a(mesh.vertices[corners[0]]);
     sum = sum + cross(Vec3d(mesh.vertices[corners[1]]) - a, Vec3d(mesh.vertices[corners[2]]) - a);
   }

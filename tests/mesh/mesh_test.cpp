@@ -29,7 +29,7 @@ void expect_whole(const Mesh& mesh) {
 bool is_empty(const Mesh& mesh) {
   return mesh.vertices.empty() && mesh.normals.empty() && mesh.exits.empty() &&
          mesh.topology->triangles.empty() && mesh.topology->source_triangle.empty() &&
-         mesh.face_normals.empty() && mesh.topology->leaf_order.empty() &&
+         mesh.face_normals.empty() && mesh.topology->meshlets.triangles.empty() &&
          mesh.topology->chunks.empty() && mesh.box.lo == Vec3f{} && mesh.box.hi == Vec3f{} &&
          mesh.radius == 0 && mesh.mean_edge == 0 && !mesh.closed() && !mesh.topology->inverted &&
          !mesh.topology->reoriented;
@@ -94,10 +94,13 @@ TEST(BuildMesh, KnowsTheProgramsNumbersOfTheTriangles) {
                                         mesh.topology->source_triangle.end());
   EXPECT_EQ(numbers.size(), mesh.topology->triangles.size());
   for (std::size_t i = 0; i < mesh.topology->triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(mesh.vertices[mesh.topology->triangles[i][k]],
-                soup[3 * mesh.topology->source_triangle[i] + k]);
-    }
+    const Triangle& corners = mesh.topology->triangles[i];
+    const auto source = soup.begin() + 3 * mesh.topology->source_triangle[i];
+    const std::size_t first =
+        static_cast<std::size_t>(std::find(source, source + 3, mesh.vertices[corners[0]]) - source);
+    ASSERT_LT(first, 3u);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(mesh.vertices[corners[k]], source[(first + k) % 3]);
   }
 }
 

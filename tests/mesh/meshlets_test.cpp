@@ -43,7 +43,8 @@ TEST(Meshlets, HoldEachTriangleOnceAndItsVertices) {
       next += meshlet.triangle_count;
       std::set<std::uint32_t> expected, held;
       for (std::uint32_t k = meshlet.triangle_first; k < next; ++k)
-        for (const std::uint32_t vertex : mesh.topology->triangles[mesh.topology->leaf_order[k]])
+        for (const std::uint32_t vertex :
+             mesh.topology->triangles[mesh.topology->meshlets.triangles[k]])
           expected.insert(vertex);
       for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k)
         EXPECT_TRUE(held.insert(mesh.topology->meshlets.vertices[meshlet.vertex_first + k]).second);

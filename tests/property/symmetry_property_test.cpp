@@ -163,11 +163,13 @@ TEST(ContactSymmetry, IsAsDeepWhenThePairIsTurnedRoundInAllButOneOfAHundred) {
   EXPECT_LE(different, colliding / 100);
 }
 
-// The triangles in another order; triangle i of the result is triangle order[i] of the mesh.
+// The triangles in another order, and each from another corner on; triangle i of the result is
+// triangle order[i] of the mesh.
 TestMesh reordered(const TestMesh& mesh, const std::vector<std::size_t>& order) {
   TestMesh result{mesh.vertices, {}};
   for (const std::size_t t : order)
-    for (std::size_t k = 0; k < 3; ++k) result.indices.push_back(mesh.indices[3 * t + k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      result.indices.push_back(mesh.indices[3 * t + (k + order[0] + t) % 3]);
   return result;
 }
 

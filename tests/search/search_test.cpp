@@ -192,7 +192,7 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
     for (ox_u32 e = 0; e < meshlet.edge_count; ++e)
       EXPECT_TRUE(of_edge.emplace(meshlet.edge[e], m).second);
     for (ox_u32 k = 0; k < meshlet.triangle_count; ++k)
-      EXPECT_TRUE(of_triangle.emplace(meshlet.triangle_first + k, m).second);
+      EXPECT_TRUE(of_triangle.emplace(meshlet.triangle[k], m).second);
   }
   EXPECT_EQ(of_edge.size(), records.edges.size());
   ASSERT_GT(records.crossings.size(), 500u);

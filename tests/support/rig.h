@@ -135,8 +135,7 @@ class Rig {
     return vertex - data_.meshes.range(mesh).vertex_first;
   }
   std::uint32_t local_triangle(std::uint32_t mesh, std::uint32_t triangle) const {
-    return data_.meshes.mesh(mesh)
-        .topology->leaf_order[triangle - data_.meshes.range(mesh).triangle_first];
+    return triangle - data_.meshes.range(mesh).triangle_first;
   }
 
  private:
