@@ -63,16 +63,6 @@ static bool ox_meets_target(const ox_scene* scene, const ox_children_there* ther
   return ox_meets_meshlets(&box, target, scene->surfaces.nodes);
 }
 
-// The box of the target in the frame of the source.
-static ox_box ox_target_box(__global const ox_pair* pair, uint side,
-                            __global const ox_mesh* target) {
-  const float3 middle = ox_transform(pair, 1u - side, vload3(0, target->box_centre));
-  const float3 size =
-      ox_rotate_extents(pair, 1u - side, vload3(0, target->box_half)) + pair->margin;
-  const ox_box box = {middle - size, middle + size};
-  return box;
-}
-
 static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
   for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count) {
     __global const ox_pair* pair = scene->pairs + p;

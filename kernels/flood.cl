@@ -10,7 +10,7 @@
 // those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
-//       vertices, edges, rings, components, facets, triangles, meshlets, meshlet_nodes
+//       vertices, edges, rings, facets, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (lib/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
@@ -34,7 +34,8 @@ typedef struct {
   __global uint* words;
   ox_flood_table table;
   bool leaks;    // the flood got round the border of an open target
-  bool asks;     // it goes on from a vertex that a ray took to be inside
+  bool told;     // a crossing tells of an end of its edge
+  bool asks;     // it goes on from vertices of which none tells
   bool refuted;  // and got to one that is outside by a crossing
   uint begin;    // the vertex from which the flood came to those that it is at
   uint crossed;  // so many of the queue are of parts that have crossings
@@ -172,13 +173,16 @@ static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
   return s->words[word + 1u] == crossing;
 }
 
+#define OX_OUTSIDE_SO_FAR 0u  // of a target of several parts: behind the wall in front of it it may
+#define OX_OUTSIDE_ASKED 1u   // be in another part, which it is asked for once
+
 // The ends outside. In front of an open target: a flood that gets there got round its border. And
 // of a mesh of several parts, of which some may have crossings and others none.
 static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint outside = OX_KEY(s->scene.edges[edge].vertex[end], OX_KEY_OUTSIDE);
     if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
-        !ox_add_key(s, outside, 0u))
+        !ox_add_key(s, outside, OX_OUTSIDE_SO_FAR))
       return false;
   }
   return true;
@@ -204,15 +208,24 @@ static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
 }
 
 static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
-  for (uint end = 0u; end < 2u; ++end)
-    if (ox_side_of_end(s, edge, end) == OX_END_INSIDE &&
-        !ox_flood_from(s, s->scene.edges[edge].vertex[end], next))
+  for (uint end = 0u; end < 2u; ++end) {
+    const uint side = ox_side_of_end(s, edge, end);
+    if (side != OX_END_UNPARTED) s->told = true;
+    if (side == OX_END_INSIDE && !ox_flood_from(s, s->scene.edges[edge].vertex[end], next))
       return false;
+  }
   return true;
 }
 
-// Whether a vertex that is not near the surface is inside, or behind an open target: then its own
-// ray meets that from behind, however far off.
+// Whether a vertex is so near the surface that rounding may say on which side.
+static bool ox_is_near_surface(const ox_flood_state* s, uint vertex) {
+  const float3 p =
+      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[vertex].position));
+  const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
+  return ox_closest_triangle(&s->scene.surfaces, s->target, p, near, 0.0f) != OX_NONE;
+}
+
+// Whether a vertex that is not near the surface is inside of a closed target.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->scene.vertices + index;
@@ -220,78 +233,77 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
   // larger by so much. Rays of vertices start as far out of their own mesh.
   const float out = OX_INFLATION * s->pair->epsilon;
-  const bool in_larger = side != 0u && !ox_is_open(s);
-  if (!in_larger) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
-  if (!ox_is_open(s))
-    return ox_keep_vertex(s->pair, side, s->scene.meshes, vertex) &&
-           (ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
-            (in_larger &&
-             ox_closest_triangle(&s->scene.surfaces, s->target, p, out, 0.0f) != OX_NONE));
-  if (!ox_casts_ray(vertex)) return false;
-  const float3 direction = vload3(0, vertex->direction);
-  ox_query query = ox_asking_query(0u, p, s->pair->epsilon);
-  query.direction = ox_rotate(s->pair, side, direction);
-  query.cast = ox_cast_from(p, query.direction);
-  uint work = 0u;
-  const ox_nearest nearest = ox_trace(false, &query, s->target, &s->scene.surfaces, OX_NONE, &work);
-  return nearest.back_t < nearest.front_t;
+  if (side == 0u) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
+  return ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
+         (side != 0u &&
+          ox_closest_triangle(&s->scene.surfaces, s->target, p, out, 0.0f) != OX_NONE);
 }
 
-// Ends outside of a target of several parts: behind the wall in front of them they may be in
-// another part. Asked once.
+// Of vertices that hang together without a crossing, so that they are all on one side, one of which
+// no crossing tells: it is asked, and floods the others if it is inside. Where it lies so near the
+// surface that rounding may have answered, they are flooded all the same, and of them the first that
+// does not tells; where all do, `is_near_inside`. False: there is no room.
+static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_inside, uint* next) {
+  if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->scene.meshes, s->scene.vertices + vertex))
+    return true;
+  const bool is_near = ox_is_near_surface(s, vertex);
+  bool is_inside = ox_is_vertex_inside(s, vertex);
+  if (!is_inside && !is_near) return true;
+  const uint queued = s->table.queued;
+  s->refuted = false;
+  if (!ox_flood_from(s, vertex, next) && !s->refuted) return false;
+  if (is_near && !s->refuted) {
+    is_inside = is_inside && is_near_inside;
+    for (uint i = queued; i < s->table.queued; ++i) {
+      const uint other = ox_queue(s->words, &s->table)[i];
+      if (ox_is_near_surface(s, other)) continue;
+      is_inside = ox_is_vertex_inside(s, other);
+      break;
+    }
+  }
+  if (s->refuted || !is_inside) s->table.queued = *next = queued;
+  return true;
+}
+
 static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint vertex = s->scene.edges[edge].vertex[end];
-    const uint outside = OX_KEY(vertex, OX_KEY_OUTSIDE);
-    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_has_key(s, outside) ||
+    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE ||
         ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
       continue;
-    if (ox_is_vertex_inside(s, vertex) ? !ox_flood_from(s, vertex, next)
-                                       : !ox_add_key(s, outside, 0u))
-      return false;
+    const uint key = OX_KEY(vertex, OX_KEY_OUTSIDE);
+    if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_OUTSIDE_SO_FAR)) return false;
+    const uint word = ox_find_key(s->words, &s->table, key);
+    if (s->words[word + 1u] == OX_OUTSIDE_ASKED) continue;
+    s->words[word + 1u] = OX_OUTSIDE_ASKED;
+    // What is all on the surface of another part is no deeper in it than rounding.
+    if (!ox_flood_if_inside(s, vertex, false, next)) return false;
   }
   return true;
 }
 
-// Whether of the vertices queued from one on, which hang together without a crossing, the one
-// farthest from that may be inside too. They are all on one side; where one lies on the surface
-// rounding may answer for it. It may for the other one too: then the first answer stands.
-static bool ox_may_be_inside(const ox_flood_state* s, uint first) {
-  __global const uint* queue = ox_queue(s->words, &s->table);
-  const float3 p = vload3(0, s->scene.vertices[queue[first]].position);
-  uint farthest = queue[first];
-  float most = 0.0f;
-  for (uint i = first; i < s->table.queued; ++i) {
-    const float3 d = vload3(0, s->scene.vertices[queue[i]].position) - p;
-    if (!(ox_dot(d, d) > most)) continue;
-    most = ox_dot(d, d);
-    farthest = queue[i];
-  }
-  if (ox_is_vertex_inside(s, farthest)) return true;
-  const float3 there =
-      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[farthest].position));
-  const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
-  return ox_closest_triangle(&s->scene.surfaces, s->target, there, near, 0.0f) != OX_NONE;
+static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
+  return ox_has_key(s, OX_KEY(first, OX_KEY_VERTEX)) || ox_flood_if_inside(s, first, true, next);
 }
 
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is
 // inside of them is so with all of its vertices. Their faces may be crossed all the same.
-static bool ox_flood_components(ox_flood_state* s, bool crossed, uint* next) {
-  if (ox_is_open(s) || (s->source->component_count == 1u && crossed)) return true;
-  for (uint i = 0u; i < s->source->component_count; ++i) {
-    const uint vertex = s->scene.components[s->source->component_first + i];
-    if (ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX))) continue;
-    if (!ox_is_vertex_inside(s, vertex)) continue;
-    const uint queued = s->table.queued;
-    s->asks = true;
-    s->refuted = false;
-    const bool done = ox_flood_from(s, vertex, next);
-    s->asks = false;
-    if (!s->refuted && !done) return false;
-    if (s->refuted || !ox_may_be_inside(s, queued))  // on the surface, and outside elsewhere
-      s->table.queued = *next = queued;
+static bool ox_flood_components(ox_flood_state* s, uint* next) {
+  if (ox_is_open(s)) return true;
+  s->asks = true;
+  if (s->source->component_count == 1u)
+    return s->told ||
+           ox_flood_component(s, s->scene.chunks[s->source->chunk_first].first, next);
+  // What is inside of the target is in its box.
+  const ox_box box = ox_target_box(s->pair, s->pair_side & 1u, s->target);
+  ox_box_walk walk = ox_begin_box_walk(s->source);
+  for (;;) {
+    const uint m = ox_next_in_box(&walk, &box, s->source, s->scene.surfaces.nodes);
+    if (m == OX_NONE) return true;
+    __global const ox_meshlet* meshlet = s->scene.surfaces.meshlets + m;
+    for (uint firsts = meshlet->firsts; firsts != 0u; firsts &= firsts - 1u)
+      if (!ox_flood_component(s, meshlet->vertex_index[ox_lowest(firsts)], next)) return false;
   }
-  return true;
 }
 
 // False: there is no room, or the flood leaks.
@@ -317,7 +329,7 @@ static bool ox_flood(ox_flood_state* s, uint head) {
   for (uint c = head; c != OX_NONE && many_parts; c = s->crossings[c].before)
     if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
   s->crossed = s->table.queued;
-  return ox_flood_components(s, count != 0u, &next);
+  return ox_flood_components(s, &next);
 }
 
 static void ox_flood_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
@@ -336,7 +348,7 @@ static void ox_flood_sides(const ox_scene* scene, __global ox_edge_crossing* cro
     state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
     state.crossings = crossings;
     state.words = words;
-    state.asks = state.refuted = false;
+    state.told = state.asks = state.refuted = false;
     state.crossed = 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);

@@ -103,7 +103,7 @@ typedef struct {
   ox_u32 triangle_first, triangle_count;
   ox_u32 meshlet_first, meshlet_count;
   ox_u32 meshlet_node_first, meshlet_node_count;
-  ox_u32 component_first, component_count;
+  ox_u32 component_count;  // parts that no edge joins
   ox_u32 flags;
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
@@ -113,7 +113,7 @@ typedef struct {
   ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 84, ox_mesh_is_84_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -159,7 +159,8 @@ typedef struct {
   ox_u32 triangle_count, edge_count;
   ox_u32 with_area;                   // a bit for each triangle that has one in the present shape
   ox_u32 ends[OX_MESHLET_EDGES / 2];  // places in `vertex`; of edge e OX_END(ends, e, 0) and 1
-  ox_u32 padding[2];
+  ox_u32 firsts;  // a bit for each vertex that is the first of a part of the mesh; here alone
+  ox_u32 padding;
   // of those that do,
   ox_f32 normal[3][OX_LANES];  // of the vertices, unit, or 0 where none is known
   ox_u32 places[OX_LANES];     // of the corners of each triangle in `vertex`: OX_CORNER_SHIFT

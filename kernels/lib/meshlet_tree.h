@@ -154,21 +154,38 @@ static inline uint ox_children_in_box(const ox_box* box, __global const ox_meshl
   return ox_mask_of(&met) & ox_present_children(node, block);
 }
 
-// Whether a box meets that of any meshlet of a mesh.
-static inline bool ox_meets_meshlets(const ox_box* box, __global const ox_mesh* mesh,
-                                     __global const ox_meshlet_node* all_nodes) {
-  ox_box_walk walk = ox_begin_box_walk(mesh);
-  while (walk.count != 0u) {
-    const uint child = walk.child[--walk.count];
-    if ((child & OX_CHILD_MESHLET) != 0u) return true;
+// The next meshlet, over all meshes, whose box meets a box; OX_NONE: there are no more.
+static inline uint ox_next_in_box(ox_box_walk* walk, const ox_box* box,
+                                  __global const ox_mesh* mesh,
+                                  __global const ox_meshlet_node* all_nodes) {
+  while (walk->count != 0u) {
+    const uint child = walk->child[--walk->count];
+    if ((child & OX_CHILD_MESHLET) != 0u) return mesh->meshlet_first + (child >> 1);
     __global const ox_meshlet_node* node = all_nodes + mesh->meshlet_node_first + (child >> 1);
     for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
       uint met = ox_children_in_box(box, node, first / OX_VECTOR_WIDTH);
       for (; met != 0u; met &= met - 1u)
-        walk.child[walk.count++] = node->child[first + ox_lowest(met)];
+        walk->child[walk->count++] = node->child[first + ox_lowest(met)];
     }
   }
-  return false;
+  return OX_NONE;
+}
+
+// Whether a box meets that of any meshlet of a mesh.
+static inline bool ox_meets_meshlets(const ox_box* box, __global const ox_mesh* mesh,
+                                     __global const ox_meshlet_node* all_nodes) {
+  ox_box_walk walk = ox_begin_box_walk(mesh);
+  return ox_next_in_box(&walk, box, mesh, all_nodes) != OX_NONE;
+}
+
+// The box of mesh 1 - `side` of a pair in the frame of mesh `side`.
+static inline ox_box ox_target_box(__global const ox_pair* pair, uint side,
+                                   __global const ox_mesh* target) {
+  const float3 middle = ox_transform(pair, 1u - side, vload3(0, target->box_centre));
+  const float3 size =
+      ox_rotate_extents(pair, 1u - side, vload3(0, target->box_half)) + pair->margin;
+  const ox_box box = {middle - size, middle + size};
+  return box;
 }
 
 // Two planes, and what lies between them.

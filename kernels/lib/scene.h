@@ -29,7 +29,6 @@ typedef struct {
   __global const ox_edge* edges;
   __global const uint* ring_starts;
   __global const ox_neighbour* rings;
-  __global const uint* components;
   __global const uint* facets;
   ox_surfaces surfaces;
 } ox_scene;
@@ -41,15 +40,15 @@ typedef struct {
       __global ox_pair *pairs, __global ox_found *found, __global const ox_mesh *meshes,        \
       __global const ox_chunk *chunks, __global const ox_vertex *vertices,                      \
       __global const ox_edge *edges, __global const uint *ring_starts,                          \
-      __global const ox_neighbour *rings, __global const uint *components,                      \
-      __global const uint *facets, __global const ox_triangle *triangles,                       \
-      __global const ox_meshlet *meshlets, __global const ox_meshlet_node *meshlet_nodes
+      __global const ox_neighbour *rings, __global const uint *facets,                          \
+      __global const ox_triangle *triangles, __global const ox_meshlet *meshlets,               \
+      __global const ox_meshlet_node *meshlet_nodes
 
 #define OX_SCENE                                                                                \
   {                                                                                             \
     counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0),   \
         counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks, vertices, \
-        edges, ring_starts, rings, components, facets, {                                        \
+        edges, ring_starts, rings, facets, {                                                    \
       triangles, meshlets, meshlet_nodes                                                        \
     }                                                                                           \
   }

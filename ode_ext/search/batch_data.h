@@ -21,8 +21,8 @@ struct BatchData {
     kernel.launch(size.groups, size.local, lists.counters(), lists.lists(), settings.modes,
                   pairs.count, pairs.pairs, pairs.found, meshes.records(), meshes.chunks(),
                   meshes.vertices(), meshes.edges(), meshes.ring_starts(), meshes.rings(),
-                  meshes.components(), meshes.facets(), meshes.triangles(), meshes.meshlets(),
-                  meshes.meshlet_nodes(), args...);
+                  meshes.facets(), meshes.triangles(), meshes.meshlets(), meshes.meshlet_nodes(),
+                  args...);
   }
 
   DeviceMeshes meshes;

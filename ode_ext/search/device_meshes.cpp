@@ -148,7 +148,6 @@ DeviceMeshes::DeviceMeshes(Program& program)
       edges_(program.device()),
       ring_starts_(program.device()),
       rings_(program.device()),
-      components_(program.device()),
       meshlets_(program.device()),
       meshlet_nodes_(program.device()),
       facets_(program.device()),
@@ -195,7 +194,6 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_edges_.clear();
   host_ring_starts_ = {0};
   host_rings_.clear();
-  host_components_.clear();
   host_meshlets_.clear();
   host_meshlet_nodes_.clear();
   host_facets_.clear();
@@ -236,7 +234,7 @@ void DeviceMeshes::forget_sources() {
     (std::decay_t<decltype(sources)>().swap(sources), ...);
   };
   free(host_chunks_, host_vertices_, host_triangles_, host_edges_, host_ring_starts_, host_rings_,
-       host_components_, host_meshlets_, host_meshlet_nodes_, host_facets_, host_topologies_);
+       host_meshlets_, host_meshlet_nodes_, host_facets_, host_topologies_);
 }
 
 void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
@@ -250,7 +248,6 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.meshlet_count = static_cast<ox_u32>(built.meshlets.meshlets.size());
   record.meshlet_node_first = static_cast<ox_u32>(host_meshlet_nodes_.size());
   record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.tree.size());
-  record.component_first = static_cast<ox_u32>(host_components_.size());
   record.component_count = static_cast<ox_u32>(built.rings.components.size());
   record.flags = (mesh.closed() ? OX_MESH_CLOSED : 0u) |
                  (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
@@ -326,8 +323,6 @@ void DeviceMeshes::append_rings(const Rings& rings, const MeshRange& first) {
   for (const RingNeighbour& neighbour : rings.neighbours)
     host_rings_.push_back(
         {first.vertex_first + neighbour.vertex, first.edge_first + neighbour.edge});
-  for (const std::uint32_t vertex : rings.components)
-    host_components_.push_back(first.vertex_first + vertex);
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
@@ -360,7 +355,6 @@ void DeviceMeshes::upload() {
   upload_all(edges_, host_edges_);
   upload_all(ring_starts_, host_ring_starts_);
   upload_all(rings_, host_rings_);
-  upload_all(components_, host_components_);
   upload_all(meshlets_, host_meshlets_);
   upload_all(meshlet_nodes_, host_meshlet_nodes_);
   upload_all(facets_, host_facets_);

@@ -45,7 +45,6 @@ class DeviceMeshes {
   // Of vertex v: rings()[ring_starts()[v]] to before ring_starts()[v + 1].
   const Buffer& ring_starts() const { return ring_starts_; }
   const Buffer& rings() const { return rings_; }
-  const Buffer& components() const { return components_; }  // a vertex of each
   const Buffer& meshlets() const { return meshlets_; }
   const Buffer& meshlet_nodes() const { return meshlet_nodes_; }
   // Of each triangle, over all triangles: the number of its facet within its mesh.
@@ -84,7 +83,6 @@ class DeviceMeshes {
   std::vector<ox_edge> host_edges_;
   std::vector<ox_u32> host_ring_starts_;  // one more than there are vertices
   std::vector<ox_neighbour> host_rings_;
-  std::vector<ox_u32> host_components_;
   std::vector<ox_meshlet> host_meshlets_;
   std::vector<ox_meshlet_node> host_meshlet_nodes_;
   std::vector<ox_u32> host_facets_;
@@ -92,8 +90,8 @@ class DeviceMeshes {
   std::map<std::uint32_t, Deformable> deformables_;  // by mesh
   std::vector<MeshMove> moves_;
   std::vector<Vec3f> positions_;  // of the moves, one mesh after the other
-  Buffer records_, chunks_, vertices_, triangles_, edges_, ring_starts_, rings_, components_,
-      meshlets_, meshlet_nodes_, facets_, topologies_;
+  Buffer records_, chunks_, vertices_, triangles_, edges_, ring_starts_, rings_, meshlets_,
+      meshlet_nodes_, facets_, topologies_;
 };
 
 }  // namespace ode_ext

@@ -99,12 +99,26 @@ void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   }
 }
 
+// Of the first meshlet that has the vertex.
+void store_firsts(const Mesh& mesh, const Meshlet& meshlet, std::vector<bool>& is_first,
+                  ox_meshlet& record) {
+  for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k) {
+    const std::uint32_t vertex = vertex_index(mesh, meshlet, k);
+    if (!is_first[vertex]) continue;
+    record.firsts |= 1u << k;
+    is_first[vertex] = false;
+  }
+}
+
 }  // namespace
 
 void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records) {
+  std::vector<bool> is_first(mesh.vertices.size());
+  for (const std::uint32_t vertex : mesh.topology->rings.components) is_first[vertex] = true;
   for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
     ox_meshlet& record = records.emplace_back();
     store_indices(mesh, meshlet, range, record);
+    store_firsts(mesh, meshlet, is_first, record);
     if (mesh.deformable) continue;
     store_places(mesh, meshlet, record);
     store_slab(mesh, meshlet, record);

@@ -184,6 +184,76 @@ TEST_F(Flood, FindsBothEndsOfWhatLiesAcrossAWallInside) {
   EXPECT_EQ(rays_, static_cast<std::uint64_t>(std::count(bounds.begin(), bounds.end(), true)));
 }
 
+// The bar of above with a ball of its own far off: what is outside by one crossing, and so far by no
+// other, is asked all the same.
+TEST_F(Flood, FindsBothEndsOfOneOfSeveralPartsThatLiesAcrossAWallInside) {
+  const TestMesh crossed = merged(make_cube(1), moved(make_cube(1), {0.5, 0.2, 0.1}));
+  const TestMesh bar =
+      merged(make_box({0.8, 0.1, 0.1}, 8, 2, 2), moved(make_icosphere(0.05, 2), {5, 0, 0}));
+  find(one_pair(crossed, at(0, 0, 0), bar, turned({0, 0, 1}, 0.1, {0.2, 0.05, 0.02})).scene);
+  EXPECT_GT(hits_, 40u);
+}
+
+TEST_F(Flood, FindsTheVerticesInsideWhereBothMeshesHaveManyParts) {
+  TestMesh boxes, balls, rods;
+  Random random(75);
+  for (int i = 0; i < 6; ++i) {
+    const Point place{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4),
+                      random.uniform(-0.4, 0.4)};
+    boxes = merged(boxes, moved(make_box({0.6, 0.4, 0.3}, 2, 2, 1), place));
+    balls = merged(balls, moved(jittered(make_icosphere(0.25, 1), 0.01, i), place));
+    rods = merged(rods, moved(make_rod(1.2, 0.06), place));
+  }
+  MovingScene moving({boxes, balls, rods}, 80, 0.02, 8);
+  for (int i = 0; i < 10; ++i, moving.advance()) find(moving.scene());
+  EXPECT_GT(hits_, 3000u);
+}
+
+// A crate in the floor, its upper corners outside, and all but on the wall.
+TEST_F(Flood, FindsNothingInsideBesideTheWallOfAnotherPart) {
+  const TestMesh room = merged(moved(make_box({100, 100, 1}), {0, 0, -0.5}),
+                               moved(make_box({1, 100, 21}), {10.5, 0, 9.5}));
+  for (const bool swaps : {false, true})
+    for (int i = 0; i < 24; ++i) {
+      const double gap = 1e-5 * std::pow(1.25, i);
+      const TestMesh crate = make_cube(1);
+      const TestPose pose = at(9.5 - gap, 0.1, 0.49);
+      find(swaps ? one_pair(crate, pose, room, TestPose{}).scene
+                 : one_pair(room, TestPose{}, crate, pose).scene);
+    }
+  EXPECT_GT(hits_, 100u);
+  EXPECT_GT(oracles_.near, 20u) << "too near the wall to tell";
+}
+
+// Each of its edges that crosses goes out of the one box where it goes into the other.
+TEST_F(Flood, FindsWhatLiesAcrossWhereTwoPartsAbut) {
+  const TestMesh stack =
+      merged(moved(make_box({2, 2, 1}), {0, 0, -0.5}), moved(make_box({1, 1, 1}), {0, 0, 0.5}));
+  for (const TestMesh& ball :
+       {make_icosphere(0.2, 2),
+        merged(make_icosphere(0.2, 2), moved(make_icosphere(0.1, 1), {0, 0, 3}))})
+    find(one_pair(stack, TestPose{}, ball, at(0.03, 0.02, 0.01)).scene);
+  EXPECT_GT(hits_, 2 * 150u);
+}
+
+// Buried with one corner just below the ground, the one that is asked first.
+TEST_F(Flood, FindsACrateWhoseFirstCornerIsJustBelowTheSurface) {
+  const TestMesh ground = moved(make_box({1000, 1000, 10}), {0, 0, -5});
+  TestMesh crate = make_cube(1);
+  const auto first = build_mesh(soup_of(crate)).vertices[0];
+  // The corner up.
+  const double tilt = std::acos(first.z / std::sqrt(0.75));
+  const TestPose up = turned({first.y, -first.x, 0}, tilt, {0, 0, 0});
+  const double height = rotate(up, {first.x, first.y, first.z})[2];
+  ASSERT_GT(height, 0.86);
+  for (int i = 0; i < 20; ++i) {
+    TestPose pose = up;
+    pose.position = {0.3, 0.2, -height - 1e-4 * std::pow(1.25, i)};
+    find(one_pair(crate, pose, ground, TestPose{}).scene);
+    EXPECT_GE(records_.hits.size(), 7u) << i;
+  }
+}
+
 // Pairs round to more where meshes lie far from their own origin, or the other is much larger.
 TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
   for (const double offset : {0.0, 1e2, 1e4}) {
