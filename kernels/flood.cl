@@ -241,8 +241,8 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
 
 // Of vertices that hang together without a crossing, so that they are all on one side, one of which
 // no crossing tells: it is asked, and floods the others if it is inside. Where it lies so near the
-// surface that rounding may have answered, they are flooded all the same, and of them the first that
-// does not tells; where all do, `is_near_inside`. False: there is no room.
+// surface that rounding may have answered, they are flooded all the same, and of them the first
+// that does not tells; where all do, `is_near_inside`. False: there is no room.
 static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_inside, uint* next) {
   if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->scene.meshes, s->scene.vertices + vertex))
     return true;
@@ -292,8 +292,7 @@ static bool ox_flood_components(ox_flood_state* s, uint* next) {
   if (ox_is_open(s)) return true;
   s->asks = true;
   if (s->source->component_count == 1u)
-    return s->told ||
-           ox_flood_component(s, s->scene.chunks[s->source->chunk_first].first, next);
+    return s->told || ox_flood_component(s, s->scene.chunks[s->source->chunk_first].first, next);
   // What is inside of the target is in its box.
   const ox_box box = ox_target_box(s->pair, s->pair_side & 1u, s->target);
   ox_box_walk walk = ox_begin_box_walk(s->source);

@@ -68,10 +68,9 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 typedef struct {
   ox_u32 key;    // facet << 1 | mesh; OX_NONE: free
   ox_u32 owner;  // region, among all, << 1 | whether the curve of the surfaces runs over the facet
-  ox_u32 triangle;  // the first of the facet
-  ox_u32 plane;     // its plane, among those of the region; OX_NONE: it is of no area
+  ox_u32 plane;  // its plane, among those of the region; OX_NONE: it is of no area
 } ox_face;
-OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
+OX_STATIC_ASSERT(sizeof(ox_face) == 12, ox_face_is_12_bytes);
 
 // The separating planes that a region may part by, in the frame of B: faces of either mesh, and
 // common normals of two edges. Each field lies for itself, so that many planes are looked at at a

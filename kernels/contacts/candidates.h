@@ -166,9 +166,7 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
     }
 }
 
-// Contacts of a unit that a plane has cleared just now; returns how many. The other end of a chord
-// is of the unit whose end it has too: where parts of a mesh overlap several chords may end there,
-// and a feature makes one candidate at most.
+// Contacts of a unit that a plane has cleared just now, of both ends of a chord; returns how many.
 static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
                                   __global const ox_feature* f) {
   uint count = 0u;
@@ -177,7 +175,6 @@ static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* c
       if (ox_is_vertex(f->flags) || f->partner == OX_NONE) break;
       __global const ox_feature* other = m->region->features + f->partner;
       if (ox_is_vertex(other->flags)) break;  // a unit of its own
-      if (m->region->features + other->partner != f) break;
       f = other;
     }
     if (ox_is_on_rim(m->region, f, &choice->plane)) continue;

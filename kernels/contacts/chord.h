@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Chords: the stretches of an edge that are inside the other mesh. Device only.
 //
-// A crossing by which the edge enters and the next by which it leaves are the two ends of one, to
-// within what rounding may have moved them; of crossings at one place the lowest triangle's.
+// A crossing by which the edge enters and that by which it leaves again are the two ends of one,
+// paired as brackets are: where parts of the other mesh overlap the outermost two bound the stretch
+// that is inside of any. What is open need not be left as often as it is entered.
 #ifndef ODE_EXT_KERNELS_CONTACTS_CHORD_H
 #define ODE_EXT_KERNELS_CONTACTS_CHORD_H
 
 #include "contacts/feature_table.h"
 
-// How an edge is walked: `sign` 1 from its first vertex on, -1 from its second.
-static inline bool ox_comes_before(__global const ox_feature* a, __global const ox_feature* b,
-                                   float sign) {
-  return a->t != b->t ? sign * a->t < sign * b->t : a->triangle < b->triangle;
+static inline bool ox_enters(__global const ox_feature* f) {
+  return (f->flags & OX_FEATURE_LEAVES) == 0u;
+}
+
+// From the first vertex of the edge on. At one place it enters before it leaves: out of one part
+// into the next it is inside all along.
+static inline bool ox_comes_before(__global const ox_feature* a, __global const ox_feature* b) {
+  if (a->t != b->t) return a->t < b->t;
+  return ox_enters(a) != ox_enters(b) ? ox_enters(a) : a->triangle < b->triangle;
 }
 
 // Two chains in order, as one.
-static inline uint ox_merge_chains(__global ox_feature* features, uint a, uint b, float sign) {
+static inline uint ox_merge_chains(__global ox_feature* features, uint a, uint b) {
   uint head = OX_NONE;
   uint last = OX_NONE;
   while (a != OX_NONE && b != OX_NONE) {
-    const bool takes_b = ox_comes_before(features + b, features + a, sign);
+    const bool takes_b = ox_comes_before(features + b, features + a);
     const uint taken = takes_b ? b : a;
     if (takes_b)
       b = features[b].next;
@@ -38,7 +44,7 @@ static inline uint ox_merge_chains(__global ox_feature* features, uint a, uint b
 }
 
 // Puts the crossings of an edge in order (merge sort, from the bottom up); returns the first.
-static inline uint ox_sort_chain(__global ox_feature* features, uint head, float sign) {
+static inline uint ox_sort_chain(__global ox_feature* features, uint head) {
   uint sorted[32];  // of 2^i each; OX_NONE: there is none
   for (uint i = 0u; i < 32u; ++i) sorted[i] = OX_NONE;
   while (head != OX_NONE) {
@@ -47,13 +53,13 @@ static inline uint ox_sort_chain(__global ox_feature* features, uint head, float
     features[chain].next = OX_NONE;
     uint i = 0u;
     for (; i < 31u && sorted[i] != OX_NONE; ++i) {
-      chain = ox_merge_chains(features, sorted[i], chain, sign);
+      chain = ox_merge_chains(features, sorted[i], chain);
       sorted[i] = OX_NONE;
     }
     sorted[i] = chain;
   }
   uint all = OX_NONE;
-  for (uint i = 0u; i < 32u; ++i) all = ox_merge_chains(features, sorted[i], all, sign);
+  for (uint i = 0u; i < 32u; ++i) all = ox_merge_chains(features, sorted[i], all);
   return all;
 }
 
@@ -67,39 +73,37 @@ static inline uint ox_find_end_inside(const ox_scene* scene, __global const ox_f
   return entry == OX_NONE ? OX_NONE : entry >> 2;
 }
 
-// Partners of those crossings of an edge by which it enters, as it is walked. Those before what
-// may be the other end of one may not be that of a later one either.
-static inline void ox_pair_crossings(const ox_scene* scene, __global ox_feature* features,
-                                     __global const uint* slots,
-                                     __global const ox_edge_crossing* crossings, uint first,
-                                     float sign) {
-  float blur = 0.0f;
-  for (uint i = first; i != OX_NONE; i = features[i].next) blur = ox_max(blur, crossings[i].blur);
-  uint from = first;
-  for (uint i = first; i != OX_NONE; i = features[i].next) {
-    __global ox_feature* f = features + i;
-    if (((f->flags & OX_FEATURE_LEAVES) == 0u) != (sign > 0.0f)) continue;
-    while (sign * features[from].t - sign * f->t < -(blur + blur)) from = features[from].next;
-    uint end = from;
-    for (; end != OX_NONE; end = features[end].next)
-      if (((features[end].flags ^ f->flags) & OX_FEATURE_LEAVES) != 0u &&
-          sign * features[end].t - sign * f->t >= -(crossings[i].blur + crossings[end].blur))
-        break;
-    f->partner = end != OX_NONE ? end : ox_find_end_inside(scene, features, slots, f);
-  }
-}
-
 // Partners of all crossings of an edge, from the head of their chain on. Returns its new head.
 static inline uint ox_find_partners(const ox_scene* scene, __global ox_feature* features,
                                     __global const uint* slots,
                                     __global const ox_edge_crossing* crossings, uint head) {
-  if (features[head].next == OX_NONE) {
-    features[head].partner = ox_find_end_inside(scene, features, slots, features + head);
-    return head;
+  head = ox_sort_chain(features, head);
+  // The last by which it entered and has not left yet; each has the one before as its partner.
+  uint open = OX_NONE;
+  for (uint i = head; i != OX_NONE; i = features[i].next) {
+    __global ox_feature* f = features + i;
+    const uint next = f->next;
+    if (ox_enters(f)) {
+      f->partner = open;
+      open = i;
+    } else if (open != OX_NONE) {
+      f->partner = open;
+      open = features[open].partner;
+      features[f->partner].partner = i;
+    } else if (next != OX_NONE && ox_enters(features + next) &&
+               features[next].t - f->t <= crossings[i].blur + crossings[next].blur) {
+      // Rounding may have changed the order of the two.
+      f->partner = next;
+      features[next].partner = i;
+      i = next;
+    } else {
+      f->partner = ox_find_end_inside(scene, features, slots, f);
+    }
   }
-  for (float sign = 1.0f; sign > -2.0f; sign -= 2.0f) {
-    head = ox_sort_chain(features, head, sign);
-    ox_pair_crossings(scene, features, slots, crossings, head, sign);
+  while (open != OX_NONE) {
+    __global ox_feature* f = features + open;
+    open = f->partner;
+    f->partner = ox_find_end_inside(scene, features, slots, f);
   }
   return head;
 }

@@ -43,6 +43,7 @@ typedef struct {
   float3 through[2];  // the normals of the faces that it goes through, turned where they are of A
   uint count;         // of those
   const ox_parting_move* before;  // the planes chosen already
+  ox_refused refused;
 } ox_seed;
 
 static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
@@ -52,6 +53,7 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
   seed.unit = unit;
   seed.side = ox_side_of(ox_flags_of(r, unit));
   seed.count = 0u;
+  seed.refused.count = 0u;
   __global const ox_feature* f = ox_feature_of(r, unit);
   for (uint end = 0u; end < 2u && !ox_is_vertex(f->flags); ++end) {
     const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
@@ -62,9 +64,9 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
   return seed;
 }
 
-// Tries a plane for a unit, of those that come after another.
 static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
-                               const ox_plane_choice* after, ox_plane_choice* best) {
+                               ox_plane_choice* best) {
+  if (ox_is_refused(&seed->refused, plane, OX_WAY_OF_UNIT)) return;
   ox_plane_choice choice;
   choice.plane = *plane;
   choice.depth = ox_unit_depth(r, seed->unit, plane);
@@ -80,9 +82,7 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
       choice.judged = detour * (ox_max(choice.depth, of_body) + tie);
       break;
     }
-  if (ox_is_better_choice(&choice, best) &&
-      (after->plane.kind == OX_PLANE_NONE || ox_is_better_choice(after, &choice)))
-    *best = choice;
+  if (ox_is_better_choice(&choice, best)) *best = choice;
 }
 
 // A bit for each plane of a block that clears a unit by a move of `limit` at most.
@@ -104,18 +104,17 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint 
   return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
 }
 
-// Of all planes of the region, and a unit's own, the best for it that comes after another. Its own
-// is tried first: what costs more need not be looked at.
-static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed,
-                                            const ox_plane_choice* after) {
+// Of all planes of the region, and a unit's own, the best for it. Its own is tried first: what
+// costs more need not be looked at.
+static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed) {
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
-  ox_try_unit(r, seed, &own, after, &best);
+  ox_try_unit(r, seed, &own, &best);
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     uint clears = ox_clearing_planes(r, block, seed->unit, best.judged);
     for (; clears != 0u; clears &= clears - 1u) {
       const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(clears));
-      ox_try_unit(r, seed, &plane, after, &best);
+      ox_try_unit(r, seed, &plane, &best);
     }
   }
   return best;
@@ -130,17 +129,16 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
 // of both bodies.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_parting_move* before) {
-  const ox_seed seed = ox_seed_of(r, unit, before);
+  ox_seed seed = ox_seed_of(r, unit, before);
   ox_plane_choice of_body = ox_no_choice();
-  ox_plane_choice choice = of_body;
-  for (uint tries = 0u; tries < OX_MOST_TRIES; ++tries) {
-    choice = ox_search_for(r, &seed, &choice);
+  while (seed.refused.count < OX_MOST_TRIES) {
+    ox_plane_choice choice = ox_search_for(r, &seed);
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
     if (!ox_unit_stays(r, &seed, &choice)) return choice;
-    ox_plane_choice repriced = choice;
+    ox_refuse(&seed.refused, &choice.plane);
     const float depth = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
-    repriced.judged = ox_detour(before, &choice.plane) * (depth + ox_edge_tie(r, &choice.plane));
-    if (ox_is_better_choice(&repriced, &of_body)) of_body = repriced;
+    choice.judged = ox_detour(before, &choice.plane) * (depth + ox_edge_tie(r, &choice.plane));
+    if (ox_is_better_choice(&choice, &of_body)) of_body = choice;
   }
   return of_body;
 }

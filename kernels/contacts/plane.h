@@ -15,6 +15,7 @@
 #define OX_PLANE_CLEARS(side) (2u >> (side))
 #define OX_PLANE_KIND 3u
 #define OX_PLANE_CROSSED 4u  // the curve in which the surfaces meet runs over the face
+#define OX_PLANE_PASSED 8u   // part of its region is on the other side of it
 
 typedef struct {
   uint kind;      // OX_PLANE_...

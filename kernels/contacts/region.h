@@ -62,6 +62,7 @@ static inline bool ox_vertex_looks_back(const ox_region_view* r, uint side, uint
 // one that crosses it, or at a vertex inside it. Then it is not only what of it is in the region
 // that has to pass the plane. (The plane of a face of A has the face's normal turned.)
 static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plane, uint side) {
+  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     const uint through =
         ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
@@ -72,7 +73,6 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
     if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
       return true;
   }
-  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
   const float3 direction = side == 0u ? plane->normal : -plane->normal;
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
@@ -83,15 +83,18 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
   return false;
 }
 
-// How deep all of mesh `side` is below a plane [m]; or something beyond `limit`.
+// Of two planes that are as deep the one that the body does not go on through is better [m].
+static inline float ox_body_tie(const ox_region_view* r) {
+  return 4.0f * r->scene->pairs[r->pair].epsilon;
+}
+
+// How deep all of mesh `side` is below a plane, and the tie [m]; or something beyond `limit`.
 static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* plane, uint side,
                                      float limit) {
   const float3 down = side == 0u ? -plane->normal : plane->normal;
   const float above = side == 0u ? plane->top : -plane->bottom;
-  // Of two that are as deep the one that it does not go on through is better. Where the walk ends
-  // early, this is more than rounding and takes the sum past the limit.
-  const float tie = 4.0f * r->scene->pairs[r->pair].epsilon;
-  return above + ox_reach_along(r->scene, r->pair, side, down, limit - above) + tie;
+  // Where the walk ends early, the tie is more than rounding and takes the sum past the limit.
+  return above + ox_reach_along(r->scene, r->pair, side, down, limit - above) + ox_body_tie(r);
 }
 
 // How far A has to go along a direction to be past all of B [m].
@@ -119,12 +122,14 @@ typedef struct {
   ox_plane plane;
   float depth;   // [m] how far to move
   float judged;  // what it is compared by
+  bool of_body;  // that is what it takes to move all of a body that goes on beyond the region
 } ox_plane_choice;
 
 static inline ox_plane_choice ox_no_choice(void) {
   ox_plane_choice choice;
   choice.plane = ox_no_plane();
   choice.depth = choice.judged = INFINITY;
+  choice.of_body = false;
   return choice;
 }
 

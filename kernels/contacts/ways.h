@@ -11,6 +11,26 @@
 // Planes that are tried where the one before does not separate, so many at most.
 #define OX_MOST_TRIES 4u
 
+// Normals of planes that do not separate: what faces their way does not either. Of a whole region
+// that is within acos 0.9 = 26 degrees. Of a unit it is only what may be of the same facet: beside
+// the thread of a bolt the face next to one that does not separate may do so.
+#define OX_WAY_OF_WHOLE 0.9f
+#define OX_WAY_OF_UNIT 0.9999985f  // 0.1 degrees
+typedef struct {
+  float3 normal[OX_MOST_TRIES];
+  uint count;
+} ox_refused;
+
+static inline void ox_refuse(ox_refused* refused, const ox_plane* plane) {
+  refused->normal[refused->count++] = plane->normal;
+}
+
+static inline bool ox_is_refused(const ox_refused* refused, const ox_plane* plane, float cosine) {
+  for (uint i = 0u; i < refused->count; ++i)
+    if (ox_dot(refused->normal[i], plane->normal) > cosine) return true;
+  return false;
+}
+
 static inline __global const ox_mesh* ox_target_of(const ox_region_view* r, uint side) {
   return r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
 }

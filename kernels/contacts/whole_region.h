@@ -4,149 +4,12 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 #define ODE_EXT_KERNELS_CONTACTS_WHOLE_REGION_H
 
-#include "contacts/ways.h"
+#include "contacts/whole_depth.h"
 
-// Of the members of a block that are points of mesh `side` how far the last and the first are along
-// a direction; infinitely far back and on where none is.
-static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint side,
-                                      float3 direction, float* least, float* most) {
-  const int others = (int)(OX_FEATURE_VERTEX | (side == 0u ? OX_FEATURE_SIDE : 0u));
-  const int mask = (int)(OX_FEATURE_VERTEX | OX_FEATURE_SIDE);
-  const ox_ints left = (int)(r->count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-  const ox_ints is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
-  ox_floats along;
-  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, direction, &along);
-  ox_floats low = left > 0 ? along : (ox_floats)(INFINITY);
-  ox_floats high = left > 0 ? along : (ox_floats)(-INFINITY);
-  low = is_other ? (ox_floats)(INFINITY) : low;
-  high = is_other ? (ox_floats)(-INFINITY) : high;
-  *least = ox_least_of(&low);
-  *most = ox_greatest_of(&high);
-}
-
-static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
-  return plane->kind == OX_PLANE_EDGES ? OX_DEPTH_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
-}
-
-// Blocks of members which were farthest for planes that face one way, those of A and of B, and so
-// may be for others that do; the last to be found replaces the first. Of a region of few blocks
-// none are kept.
-#define OX_KEPT_BLOCKS 8u
-typedef struct {
-  uint block[2][OX_KEPT_BLOCKS];
-  uint found[2];
-} ox_kept_blocks;
-
-// How far the members of a whole region reach past a plane: A down, and B up.
-typedef struct {
-  const ox_plane* plane;
-  float reach[2];
-  bool is_past;  // part of it is on the other side of the plane of a face
-} ox_extent;
-
-static inline ox_extent ox_begin_extent(const ox_plane* plane) {
-  ox_extent extent = {plane, {-plane->bottom, plane->top}, false};
-  if (plane->kind != OX_PLANE_EDGES) extent.reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
-  return extent;
-}
-
-// Returns whether a block reaches farther.
-static inline bool ox_extend(const ox_region_view* r, uint side, uint block, ox_extent* extent) {
-  const ox_plane* plane = extent->plane;
-  float least, most;
-  ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least, &most);
-  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  if (plane->kind != OX_PLANE_EDGES && least + (side == 0u ? plane->top : -plane->bottom) < past)
-    extent->is_past = true;
-  const bool is_farther = most > extent->reach[side];
-  if (is_farther) extent->reach[side] = most;
-  return is_farther;
-}
-
-// The depth so far; infinite where that and what the kind of plane adds exceed a limit.
-static inline float ox_depth_so_far(const ox_extent* extent, float tie, float limit) {
-  const float depth = extent->reach[0] + extent->reach[1];
-  return extent->is_past || depth + tie > limit ? INFINITY : depth;
-}
-
-// At least so deep is the deepest of a whole region below a plane, by the blocks that are kept.
-static inline float ox_least_depth(const ox_region_view* r, const ox_plane* plane, float limit,
-                                   const ox_kept_blocks* kept) {
-  ox_extent extent = ox_begin_extent(plane);
-  for (uint side = 0u; side < 2u; ++side) {
-    if (!ox_clears_side(plane, side)) continue;
-    const uint count = min(kept->found[side], OX_KEPT_BLOCKS);
-    for (uint i = 0u; i < count; ++i) ox_extend(r, side, kept->block[side][i], &extent);
-  }
-  return ox_depth_so_far(&extent, ox_edge_tie(r, plane), limit);
-}
-
-// How deep the deepest of a whole region is below a plane; infinite where part of it is past the
-// plane, or that and what its kind adds exceed `limit`.
-static inline float ox_whole_depth(const ox_region_view* r, const ox_plane* plane, float limit,
-                                   ox_kept_blocks* kept) {
-  const uint blocks = (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
-  const float tie = ox_edge_tie(r, plane);
-  ox_extent extent = ox_begin_extent(plane);
-  uint farthest[2] = {OX_NONE, OX_NONE};
-  float depth = -INFINITY;
-  for (uint block = 0u; block < blocks && depth != INFINITY; ++block) {
-    for (uint side = 0u; side < 2u; ++side)
-      if (ox_clears_side(plane, side) && ox_extend(r, side, block, &extent)) farthest[side] = block;
-    depth = ox_depth_so_far(&extent, tie, limit);
-  }
-  for (uint side = 0u; side < 2u && blocks > OX_KEPT_BLOCKS; ++side)
-    if (farthest[side] != OX_NONE)
-      kept->block[side][kept->found[side]++ % OX_KEPT_BLOCKS] = farthest[side];
-  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);  // nothing there is to be moved
-}
-
-// Directions are told apart by which of their coordinates are beyond a third, either way.
-#define OX_DIRECTIONS 27u
-static inline uint ox_direction_of(float3 n) {
-  const float third = 1.0f / 3.0f;
-  const uint x = n.x > third ? 2u : n.x < -third ? 0u : 1u;
-  const uint y = n.y > third ? 2u : n.y < -third ? 0u : 1u;
-  const uint z = n.z > third ? 2u : n.z < -third ? 0u : 1u;
-  return 9u * x + 3u * y + z;
-}
-
-// The search for the plane of a whole region.
-typedef struct {
-  ox_kept_blocks kept[OX_DIRECTIONS];
-  // Normals of planes that do not separate: what faces their way, within acos 0.9 = 26 degrees,
-  // does not either.
-  float3 refused[OX_MOST_TRIES];
-  uint refused_count;
-} ox_search;
-
-static inline bool ox_is_refused(const ox_search* search, const ox_plane* plane) {
-  for (uint i = 0u; i < search->refused_count; ++i)
-    if (ox_dot(search->refused[i], plane->normal) > 0.9f) return true;
-  return false;
-}
-
-// Tries a plane for a whole region.
-static inline void ox_try_whole(const ox_region_view* r, const ox_plane* plane, ox_search* search,
-                                ox_plane_choice* best) {
-  if (plane->kind == OX_PLANE_NONE || ox_is_refused(search, plane)) return;
-  ox_kept_blocks* kept = search->kept + ox_direction_of(plane->normal);
-  if (ox_least_depth(r, plane, best->judged, kept) == INFINITY) return;
-  const float tie = ox_edge_tie(r, plane);
-  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
-  if (beyond + tie > best->judged) return;
-  ox_plane_choice choice;
-  choice.plane = *plane;
-  choice.depth = ox_whole_depth(r, plane, best->judged, kept);
-  if (choice.depth == INFINITY) return;
-  choice.judged = ox_max(choice.depth, beyond) + tie;
-  // A pair of edges holds where it is; its contact says how far all of the body has to go.
-  if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond);
-  if (ox_is_better_choice(&choice, best)) *best = choice;
-}
-
-// Directions that cost so much more than the best are not looked around.
-#define OX_WORTH 4.0f
+// Directions that cost so much more than the best are not looked around. At 4 every figure of the
+// table of docs/contacts.md is the same, and convex bodies deep in one another take twice as long;
+// at 1 the least is missed now and then.
+#define OX_WORTH 2.0f
 
 // Edges of one mesh, so many at most.
 #define OX_MOST_EDGES 64u
@@ -253,7 +116,8 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
 }
 
 // From a plane to the best of those next to it on the map of directions (Gauss): the edges of its
-// face, or its own, with the edges at what is farthest past it. False: none is better.
+// face, or its own, with the edges at what is farthest past it, and the faces at those edges.
+// False: none is better.
 static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_plane_choice* best) {
   const ox_plane from = best->plane;
   for (uint side = 0u; side < 2u; ++side) {
@@ -265,24 +129,22 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
     else
       ox_add_rim(r, 1u - side, from.id[0], &own);
     ox_add_farthest(r, side, from.normal, &past);
-    for (uint i = 0u; i < own.count; ++i)
+    for (uint i = 0u; i < own.count; ++i) {
       for (uint k = 0u; k < past.count; ++k) {
         const ox_plane plane =
             side == 0u ? ox_plane_of_edges(r->scene, r->pair, past.code[k], own.code[i])
                        : ox_plane_of_edges(r->scene, r->pair, own.code[i], past.code[k]);
         ox_try_whole(r, &plane, search, best);
       }
-  }
-  if (from.kind == OX_PLANE_EDGES)
-    for (uint side = 0u; side < 2u; ++side) {
-      if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, side)) continue;
-      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, side, from.id[side]);
+      if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side)) continue;
+      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.code[i]);
       for (uint k = 0u; k < 2u; ++k) {
         if (ridge.face[k] == OX_NONE) continue;
-        const ox_plane plane = ox_plane_of_face(r->scene, r->pair, side, ridge.face[k]);
+        const ox_plane plane = ox_plane_of_face(r->scene, r->pair, 1u - side, ridge.face[k]);
         ox_try_whole(r, &plane, search, best);
       }
     }
+  }
   return best->plane.kind != from.kind || best->plane.id[0] != from.id[0] ||
          best->plane.id[1] != from.id[1];
 }
@@ -294,7 +156,8 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) best[i] = ox_no_choice();
   for (uint i = 0u; i < r->plane_count; ++i) {
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal));
+    if (ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal)))
+      ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] |= OX_PLANE_PASSED;
   }
   ox_plane_choice least = ox_no_choice();
   for (uint i = 0u; i < OX_DIRECTIONS; ++i)
@@ -330,7 +193,7 @@ static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 n
 // nearest to vertices inside and to the middles of chords are tried too.
 static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
                                   ox_plane_choice* best) {
-  if (!(best->judged > best->depth + ox_edge_tie(r, &best->plane))) return;
+  if (!best->of_body) return;
   const float bound = best->judged;  // the same for all, in whatever order they come
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
@@ -354,19 +217,60 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
   return false;
 }
 
+// [m] how far, at most, a region may lie past a face of a mesh that is convex in it. Triangles
+// are of one facet that are turned by as much against each other (mesh/facets.h), and one stands
+// for all.
+#define OX_FACET_ANGLE 0.00175f  // 0.1 degrees
+static inline float ox_flat_of(const ox_region_view* r) {
+  float3 lo = (float3)(INFINITY);
+  float3 hi = (float3)(-INFINITY);
+  for (uint k = 0u; k < r->count; ++k) {
+    const float3 p = ox_position_of(r, k);
+    lo = (float3)(ox_min(lo.x, p.x), ox_min(lo.y, p.y), ox_min(lo.z, p.z));
+    hi = (float3)(ox_max(hi.x, p.x), ox_max(hi.y, p.y), ox_max(hi.z, p.z));
+  }
+  const float3 size = hi - lo;
+  return OX_CLEARANCE * r->scene->pairs[r->pair].epsilon +
+         OX_FACET_ANGLE * sqrt(ox_dot(size, size));
+}
+
+// Whether a face that part of a region is past costs no more than the least plane that is found:
+// then the surfaces are not convex there, whether or not an edge says so. Parts of a mesh may meet
+// where they have no edge in common, and in a trough of many strips no edge shows.
+static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
+                                 const ox_plane_choice* least) {
+  const float flat = ox_flat_of(r);
+  const ox_limits limits = {INFINITY, least->judged};
+  for (uint i = 0u; i < r->plane_count; ++i) {
+    if ((ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] & OX_PLANE_PASSED) == 0u) continue;
+    const ox_plane plane = ox_load_plane(&r->planes, i);
+    if (ox_is_refused(&search->refused, &plane, OX_WAY_OF_WHOLE)) continue;
+    ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
+    ox_extent extent = ox_begin_extent(&plane);
+    if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
+        ox_whole_depth(r, &limits, kept, &extent) != INFINITY && extent.past > flat &&
+        ox_depth_beyond(r, &plane, least->judged) <= least->judged)
+      return true;
+  }
+  return false;
+}
+
 // The least plane. Where one does not separate the bodies, the way along its normal is past all of
-// both.
+// both. OX_PLANE_NONE: there is none, or a valley.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
   ox_plane_choice of_body = ox_no_choice();
-  for (search.refused_count = 0u; search.refused_count < OX_MOST_TRIES; ++search.refused_count) {
+  search.refused.count = 0u;
+  while (search.refused.count < OX_MOST_TRIES) {
     ox_plane_choice best = ox_search_whole(r, &search);
+    if ((r->flags & OX_REGION_CROSSED) != 0u && ox_has_valley(r, &search, &best))
+      return ox_no_choice();
     ox_try_nearest(r, &search, &best);
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;
-    search.refused[search.refused_count] = best.plane.normal;
+    ox_refuse(&search.refused, &best.plane);
     best.judged = ox_max(best.judged, ox_depth_of_both(r, best.plane.normal));
     if (ox_is_better_choice(&best, &of_body)) of_body = best;
   }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "contacts/contact.h"
 #include "search/device_meshes.h"
@@ -23,6 +24,10 @@ constexpr std::uint32_t to_feature(FeatureKind kind, std::uint64_t number) {
 
 // Of what the device says (OX_OF) of mesh `mesh`. An edge within a facet is the facet.
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word);
+
+// The triangles of a mesh at a vertex or an edge that a contact is of, the program's indices,
+// ascending; of a facet none. Looks at every triangle of the mesh.
+std::vector<std::uint32_t> triangles_at(const MeshTopology& built, std::uint32_t feature);
 
 // Two contacts of a pair may be of the same two features: an edge crosses a facet that is not quite
 // flat more than once, two edges come near one another in two regions. The second gets numbers

@@ -12,9 +12,9 @@
 namespace ode_ext {
 namespace {
 
-// An edge of less than this makes no contact (edges.h). What a ridge of that angle can hide: it
-// rises less than a quarter of the triangles' width times the angle, 1/2300 of the width, above the
-// plane through the far corners.
+// An edge of less than this makes no contact (edges.h). What such edges can hide: a crown of facets
+// rises less than a quarter of its width times the angle, 1/2300 of the width, above the plane
+// through its border.
 constexpr double kFlat = 0.1 * 3.14159265358979 / 180;
 
 // By place, so that the numbering of the triangles does not matter.
@@ -56,11 +56,9 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
                                   const std::vector<Neighbours>& neighbours) {
   std::vector<std::uint32_t> facet(triangles.size(), kNone);
   std::vector<std::uint32_t> open;
-  std::uint32_t count = 0;
   for (const Seed& seed : seeds(vertices, triangles)) {
     if (facet[seed.triangle] != kNone) continue;
-    const std::uint32_t number = count++;
-    facet[seed.triangle] = number;
+    facet[seed.triangle] = seed.triangle;
     const Vec3f normal = face_normals[seed.triangle];
     if (normal == Vec3f{}) continue;
     open.assign(1, seed.triangle);
@@ -70,7 +68,7 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
       for (const std::uint32_t next : neighbours[triangle]) {
         if (next == kNone || facet[next] != kNone || face_normals[next] == Vec3f{}) continue;
         if (!(length(Vec3d(face_normals[next]) - Vec3d(normal)) < kFlat)) continue;
-        facet[next] = number;
+        facet[next] = seed.triangle;
         open.push_back(next);
       }
     }

@@ -44,8 +44,8 @@ struct MeshTopology {
   std::vector<std::uint32_t> corner_vertex;
   // The triangles across each triangle's edges.
   std::vector<Neighbours> neighbours;
-  // For each triangle the number of its facet (facets.h); empty for a deformable mesh, whose
-  // triangles are facets each.
+  // For each triangle its facet, by the largest of its triangles (facets.h); empty for a deformable
+  // mesh, whose triangles are facets each.
   std::vector<std::uint32_t> facets;
   // As in edges.h. Indices of edges count those between facets first, then those within one.
   std::vector<Edge> edges, flat_edges;

@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "ode/contact_triangles.h"
+#include "contacts/contact_features.h"
 #include "ode/messages.h"
 
 namespace ode_ext {
@@ -27,7 +27,8 @@ int guarded(const char* name, int otherwise, Call call) {
   return otherwise;
 }
 
-// What the callbacks of one geom make of the triangles that a contact stands for.
+// What the callbacks of one geom make of the triangles that a contact stands for: all at a vertex,
+// those at an edge, the one in a facet.
 class Judge {
  public:
   Judge(dGeomID geom, dGeomID other, bool triangle_callbacks)
@@ -41,7 +42,9 @@ class Judge {
              std::uint32_t& triangle) const {
     triangle = contact.triangles[side];
     if (accept_ == nullptr && merge_ == nullptr) return true;
-    std::vector<std::uint32_t> triangles = triangles_of(answer, contact, side);
+    std::vector<std::uint32_t> triangles =
+        triangles_at(*answer.members[side].mesh->topology, contact.features[side]);
+    if (triangles.empty()) triangles = {triangle};
     if (accept_ != nullptr)
       std::erase_if(triangles, [&](std::uint32_t t) { return !accepts(static_cast<int>(t)); });
     if (triangles.empty()) return false;

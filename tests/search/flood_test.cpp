@@ -184,8 +184,8 @@ TEST_F(Flood, FindsBothEndsOfWhatLiesAcrossAWallInside) {
   EXPECT_EQ(rays_, static_cast<std::uint64_t>(std::count(bounds.begin(), bounds.end(), true)));
 }
 
-// The bar of above with a ball of its own far off: what is outside by one crossing, and so far by no
-// other, is asked all the same.
+// The bar of above with a ball of its own far off: what is outside by one crossing, and so far by
+// no other, is asked all the same.
 TEST_F(Flood, FindsBothEndsOfOneOfSeveralPartsThatLiesAcrossAWallInside) {
   const TestMesh crossed = merged(make_cube(1), moved(make_cube(1), {0.5, 0.2, 0.1}));
   const TestMesh bar =

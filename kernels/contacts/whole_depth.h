@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a plane costs a region as a whole, and whether part of the region is past it. Device only.
+#ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
+#define ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
+
+#include "contacts/ways.h"
+
+// Of the members of a block that are points of mesh `side` how far the last and the first are along
+// a direction; infinitely far back and on where none is.
+static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint side,
+                                      float3 direction, float* least, float* most) {
+  const int others = (int)(OX_FEATURE_VERTEX | (side == 0u ? OX_FEATURE_SIDE : 0u));
+  const int mask = (int)(OX_FEATURE_VERTEX | OX_FEATURE_SIDE);
+  const ox_ints left = (int)(r->count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
+  const ox_ints is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
+  ox_floats along;
+  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, direction, &along);
+  ox_floats low = left > 0 ? along : (ox_floats)(INFINITY);
+  ox_floats high = left > 0 ? along : (ox_floats)(-INFINITY);
+  low = is_other ? (ox_floats)(INFINITY) : low;
+  high = is_other ? (ox_floats)(-INFINITY) : high;
+  *least = ox_least_of(&low);
+  *most = ox_greatest_of(&high);
+}
+
+static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
+  return plane->kind == OX_PLANE_EDGES ? OX_DEPTH_TIE * r->scene->pairs[r->pair].epsilon : 0.0f;
+}
+
+// Blocks of members which were farthest for planes that face one way, those of A and of B, and so
+// may be for others that do; the last to be found replaces the first. Of a region of few blocks
+// none are kept.
+#define OX_KEPT_BLOCKS 8u
+typedef struct {
+  uint block[2][OX_KEPT_BLOCKS];
+  uint found[2];
+} ox_kept_blocks;
+
+// How far the members of a whole region reach past a plane: A down, and B up.
+typedef struct {
+  const ox_plane* plane;
+  float reach[2];
+  float past;  // [m] how far part of it is on the other side of the plane of a face
+} ox_extent;
+
+static inline ox_extent ox_begin_extent(const ox_plane* plane) {
+  ox_extent extent = {plane, {-plane->bottom, plane->top}, 0.0f};
+  if (plane->kind != OX_PLANE_EDGES) extent.reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
+  return extent;
+}
+
+// Returns whether a block reaches farther.
+static inline bool ox_extend(const ox_region_view* r, uint side, uint block, ox_extent* extent) {
+  const ox_plane* plane = extent->plane;
+  float least, most;
+  ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least, &most);
+  if (plane->kind != OX_PLANE_EDGES)
+    extent->past = ox_max(extent->past, (side == 0u ? -plane->top : plane->bottom) - least);
+  const bool is_farther = most > extent->reach[side];
+  if (is_farther) extent->reach[side] = most;
+  return is_farther;
+}
+
+// Limits up to which a plane is looked at: how far the region may be past it, and what it may cost.
+typedef struct {
+  float past, cost;  // [m]
+} ox_limits;
+
+// The depth so far; infinite where part of the region is past the plane, or that and what the kind
+// of plane adds exceed the limit.
+static inline float ox_depth_so_far(const ox_extent* extent, float tie, const ox_limits* limits) {
+  const float depth = extent->reach[0] + extent->reach[1];
+  return extent->past > limits->past || depth + tie > limits->cost ? INFINITY : depth;
+}
+
+// At least so deep is the deepest of a whole region below a plane, by the blocks that are kept.
+static inline float ox_least_depth(const ox_region_view* r, const ox_limits* limits,
+                                   const ox_kept_blocks* kept, ox_extent* extent) {
+  for (uint side = 0u; side < 2u; ++side) {
+    if (!ox_clears_side(extent->plane, side)) continue;
+    const uint count = min(kept->found[side], OX_KEPT_BLOCKS);
+    for (uint i = 0u; i < count; ++i) ox_extend(r, side, kept->block[side][i], extent);
+  }
+  return ox_depth_so_far(extent, ox_edge_tie(r, extent->plane), limits);
+}
+
+// How deep the deepest of a whole region is below a plane; infinite beyond the limits.
+static inline float ox_whole_depth(const ox_region_view* r, const ox_limits* limits,
+                                   ox_kept_blocks* kept, ox_extent* extent) {
+  const uint blocks = (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  const float tie = ox_edge_tie(r, extent->plane);
+  uint farthest[2] = {OX_NONE, OX_NONE};
+  float depth = -INFINITY;
+  for (uint block = 0u; block < blocks && depth != INFINITY; ++block) {
+    for (uint side = 0u; side < 2u; ++side)
+      if (ox_clears_side(extent->plane, side) && ox_extend(r, side, block, extent))
+        farthest[side] = block;
+    depth = ox_depth_so_far(extent, tie, limits);
+  }
+  for (uint side = 0u; side < 2u && blocks > OX_KEPT_BLOCKS; ++side)
+    if (farthest[side] != OX_NONE)
+      kept->block[side][kept->found[side]++ % OX_KEPT_BLOCKS] = farthest[side];
+  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);  // nothing there is to be moved
+}
+
+// Directions are told apart by which of their coordinates are beyond a third, either way.
+#define OX_DIRECTIONS 27u
+static inline uint ox_direction_of(float3 n) {
+  const float third = 1.0f / 3.0f;
+  const uint x = n.x > third ? 2u : n.x < -third ? 0u : 1u;
+  const uint y = n.y > third ? 2u : n.y < -third ? 0u : 1u;
+  const uint z = n.z > third ? 2u : n.z < -third ? 0u : 1u;
+  return 9u * x + 3u * y + z;
+}
+
+// The search for the plane of a whole region.
+typedef struct {
+  ox_kept_blocks kept[OX_DIRECTIONS];
+  ox_refused refused;
+} ox_search;
+
+// Tries a plane for a whole region; returns whether part of the region is past it, so that it is
+// not taken.
+static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, ox_search* search,
+                                ox_plane_choice* best) {
+  if (plane->kind == OX_PLANE_NONE || ox_is_refused(&search->refused, plane, OX_WAY_OF_WHOLE))
+    return false;
+  ox_kept_blocks* kept = search->kept + ox_direction_of(plane->normal);
+  const ox_limits limits = {OX_CLEARANCE * r->scene->pairs[r->pair].epsilon, best->judged};
+  ox_extent extent = ox_begin_extent(plane);
+  if (ox_least_depth(r, &limits, kept, &extent) == INFINITY) return extent.past > limits.past;
+  const float tie = ox_edge_tie(r, plane);
+  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
+  if (beyond + tie > best->judged) return false;
+  ox_plane_choice choice;
+  choice.plane = *plane;
+  choice.depth = ox_whole_depth(r, &limits, kept, &extent);
+  if (choice.depth == INFINITY) return extent.past > limits.past;
+  choice.judged = ox_max(choice.depth, beyond) + tie;
+  choice.of_body = beyond > choice.depth;
+  // A pair of edges holds where it is; its contact says how far all of the body has to go.
+  if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond - ox_body_tie(r));
+  if (ox_is_better_choice(&choice, best)) *best = choice;
+  return false;
+}
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts where a mesh is not convex, and no edge of it says so.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "contacts/placed.h"
+
+namespace ode_ext::test {
+namespace {
+
+// A floor and a wall, of which no edge says that they are not convex: behind it z < 0 and x > 0.
+TestMesh two_boxes(double below) {
+  return merged(moved(make_box({2 + below, 4, 1}), {below / 2 - 1, 0, -0.5}),
+                moved(make_box({1, 4, 3}), {0.5, 0, 0.5}));
+}
+
+TestMesh faces_that_meet(bool fills) {
+  TestMesh mesh{{-2, -2, 0, 0, -2, 0, 0, 2, 0, -2, 2, 0, 0, 0.3f, 0, 0, -2, 2, 0, 0.3f, 2, 0, 2, 2},
+                {0, 1, 2, 0, 2, 3, 1, 5, 6, 1, 6, 4, 4, 6, 7, 4, 7, 2}};
+  if (fills) mesh.indices.insert(mesh.indices.end(), {1, 4, 2});
+  return mesh;
+}
+
+TEST(Concave, ContactsOfABoxInACornerArePushedOutOfTheFloorAndTheWall) {
+  const TestMesh corners[] = {two_boxes(0.5), two_boxes(0), faces_that_meet(false),
+                              faces_that_meet(true)};
+  const double deep = 0.01, far = 0.015;
+  for (const int cuts : {1, 6})
+    for (std::size_t i = 0; i < std::size(corners); ++i) {
+      SCOPED_TRACE(i);
+      const Placed placed{make_cube(0.3, cuts), corners[i], at(far - 0.15, 0.1, 0.15 - deep),
+                          TestPose{}};
+      for (const TestPose& frame : some_frames()) {
+        int up = 0, aside = 0;
+        for (const Contact& c : placed.contacts(frame)) {
+          const bool is_up = c.normal.z > 0.999, is_aside = c.normal.x < -0.999;
+          EXPECT_TRUE(is_up || is_aside)
+              << c.normal.x << " " << c.normal.y << " " << c.normal.z << " " << c.depth;
+          EXPECT_LE(c.depth, (is_up ? deep : far) * 1.01);
+          up += is_up && c.depth > 0.99 * deep;
+          aside += is_aside && c.depth > 0.99 * far;
+        }
+        EXPECT_GE(up, 2);
+        EXPECT_GE(aside, 2);
+      }
+    }
+}
+
+// Its lower edges go through both blocks, which overlap: they are inside from the one end to the
+// other, and a chord from the second wall to the third would hold it up in the middle alone.
+TEST(Concave, ContactsOfARodAcrossTwoPartsThatOverlapHoldBothOfItsEnds) {
+  const TestMesh blocks = merged(moved(make_box({0.3, 1, 0.5}), {0.15, 0, -0.25}),
+                                 moved(make_box({0.7, 1, 0.4}), {0.55, 0, -0.2}));
+  const double deep = 0.01;
+  const Placed placed{make_rod(1.2, 0.1), blocks, at(0.45, 0.02, 0.05 - deep), TestPose{}};
+  for (const TestPose& frame : some_frames()) {
+    int first = 0, last = 0;
+    for (const Contact& c : placed.contacts(frame)) {
+      EXPECT_GT(c.normal.z, 0.999);
+      EXPECT_LE(c.depth, 1.01 * deep);
+      first += c.depth > 0.99 * deep && c.position.x < 0.01;
+      last += c.depth > 0.99 * deep && c.position.x > 0.89;
+    }
+    EXPECT_GE(first, 1);
+    EXPECT_GE(last, 1);
+  }
+}
+
+// So finely cut that no edge of it rises over the plane of another face by what is known.
+TEST(Concave, ContactsOfABallInAFineTroughAreNoDeeperThanItIs) {
+  for (const int strips : {500, 1500}) {
+    TestMesh trough;
+    for (int i = 0; i <= strips; ++i) {
+      const double angle = std::numbers::pi * (i / static_cast<double>(strips) - 1);
+      for (const double y : {-0.5, 0.5})
+        for (const double v : {std::cos(angle), y, std::sin(angle)})
+          trough.vertices.push_back(static_cast<float>(v));
+    }
+    for (unsigned i = 0; i < static_cast<unsigned>(strips); ++i)
+      trough.indices.insert(trough.indices.end(),
+                            {2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3});
+    const double deep = 0.001;
+    const Placed placed{make_icosphere(0.9, 4), trough, at(0, 0.01, -0.1 - deep), TestPose{}};
+    const std::vector<Contact> found = placed.contacts(at(0, 0, 0));
+    EXPECT_FALSE(found.empty());
+    for (const Contact& c : found) {
+      EXPECT_LT(c.depth, 1.05 * deep) << strips;
+      EXPECT_GT(c.normal.z, 0.9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
