@@ -30,25 +30,6 @@ std::uint32_t edge_of_side(const MeshTopology& built, std::uint32_t triangle, st
   return facet_of(built, triangle);
 }
 
-// How many numbers there are of a kind, at most.
-std::uint64_t count_of(const MeshTopology& built, std::uint32_t feature) {
-  switch (static_cast<FeatureKind>(feature >> kFeatureShift)) {
-    case FeatureKind::kVertex:
-      return built.vertex_count;
-    case FeatureKind::kEdge:
-      return built.edges.size();
-    default:
-      return built.triangles.size();
-  }
-}
-
-std::uint32_t number_of(std::uint32_t feature) { return feature & ((1u << kFeatureShift) - 1); }
-
-std::uint32_t repeated(const MeshTopology& built, std::uint32_t feature, std::uint64_t times) {
-  return to_feature(static_cast<FeatureKind>(feature >> kFeatureShift),
-                    number_of(feature) + times * count_of(built, feature));
-}
-
 }  // namespace
 
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word) {
@@ -65,25 +46,6 @@ std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::ui
     default:
       return edge_of_side(built, index / 3 - place.triangle_first, index % 3);
   }
-}
-
-std::vector<std::uint32_t> triangles_at(const MeshTopology& built, std::uint32_t feature) {
-  const auto kind = static_cast<FeatureKind>(feature >> kFeatureShift);
-  if (kind != FeatureKind::kVertex && kind != FeatureKind::kEdge) return {};
-  // Of one that repeats, as number_repeats gives it.
-  const auto number = static_cast<std::uint32_t>(number_of(feature) % count_of(built, feature));
-  std::array<std::uint32_t, 2> corners{number, number};
-  if (kind == FeatureKind::kEdge) corners = built.edges[number].vertices;
-  std::vector<std::uint32_t> triangles;
-  for (std::size_t t = 0; t < built.triangles.size(); ++t) {
-    const Triangle& triangle = built.triangles[t];
-    const auto has = [&](std::uint32_t corner) {
-      return std::find(triangle.begin(), triangle.end(), corner) != triangle.end();
-    };
-    if (has(corners[0]) && has(corners[1])) triangles.push_back(built.source_triangle[t]);
-  }
-  std::sort(triangles.begin(), triangles.end());
-  return triangles;
 }
 
 void number_repeats(std::span<Contact> contacts, const Mesh& a, const Mesh& b) {

@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "contacts/contact_features.h"
+#include "contacts/feature_number.h"
 #include "ode/messages.h"
 
 namespace ode_ext {
