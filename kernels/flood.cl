@@ -2,7 +2,7 @@
 // Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an
 // edge tells on which side of the surface that end is, and both ends of an edge without crossings
 // are on one side. So from the former ends that are inside, over the latter edges, all vertices
-// inside are reached; of a part of the mesh without crossings one ray tells where all of it is. An
+// inside are reached; of a part of the mesh without crossings one of its vertices is asked. An
 // open target has no inside, but its faces have a space behind them. A part without crossings is
 // not there, and where the flood gets round the border, to an end in front, all vertices are
 // looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
@@ -188,16 +188,20 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   return true;
 }
 
-// On over edges that do not cross.
-static bool ox_flood_on(ox_flood_state* s, uint* next) {
-  for (; *next < s->table.queued; ++*next) {
-    const uint vertex = ox_queue(s->words, &s->table)[*next];
-    for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
-      const ox_neighbour neighbour = s->scene.rings[i];
-      if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
-      if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
-    }
+// On from the next vertex of the queue over edges that do not cross.
+static bool ox_flood_next(ox_flood_state* s, uint* next) {
+  const uint vertex = ox_queue(s->words, &s->table)[(*next)++];
+  for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
+    const ox_neighbour neighbour = s->scene.rings[i];
+    if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
+    if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
   }
+  return true;
+}
+
+static bool ox_flood_on(ox_flood_state* s, uint* next) {
+  while (*next < s->table.queued)
+    if (!ox_flood_next(s, next)) return false;
   return true;
 }
 
@@ -241,26 +245,27 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
 
 // Of vertices that hang together without a crossing, so that they are all on one side, one of which
 // no crossing tells: it is asked, and floods the others if it is inside. Where it lies so near the
-// surface that rounding may have answered, they are flooded all the same, and of them the first
-// that does not tells; where all do, `is_near_inside`. False: there is no room.
+// surface that rounding may have answered, the flood goes on to the first that does not, which
+// tells; where all do, `is_near_inside`. False: there is no room.
 static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_inside, uint* next) {
   if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->scene.meshes, s->scene.vertices + vertex))
     return true;
-  const bool is_near = ox_is_near_surface(s, vertex);
-  bool is_inside = ox_is_vertex_inside(s, vertex);
-  if (!is_inside && !is_near) return true;
+  bool is_near = ox_is_near_surface(s, vertex);
+  bool is_inside = ox_is_vertex_inside(s, vertex) && (!is_near || is_near_inside);
+  if (!is_near && !is_inside) return true;
   const uint queued = s->table.queued;
   s->refuted = false;
-  if (!ox_flood_from(s, vertex, next) && !s->refuted) return false;
-  if (is_near && !s->refuted) {
-    is_inside = is_inside && is_near_inside;
-    for (uint i = queued; i < s->table.queued; ++i) {
-      const uint other = ox_queue(s->words, &s->table)[i];
-      if (ox_is_near_surface(s, other)) continue;
-      is_inside = ox_is_vertex_inside(s, other);
-      break;
-    }
+  s->begin = vertex;
+  bool done = ox_flood_vertex(s, vertex);
+  for (uint asked = queued + 1u; done && is_near; ++asked) {
+    while (done && asked == s->table.queued && *next < asked) done = ox_flood_next(s, next);
+    if (!done || asked == s->table.queued) break;
+    const uint other = ox_queue(s->words, &s->table)[asked];
+    is_near = ox_is_near_surface(s, other);
+    if (!is_near) is_inside = ox_is_vertex_inside(s, other);
   }
+  if (done && is_inside) done = ox_flood_on(s, next);
+  if (!done && !s->refuted) return false;
   if (s->refuted || !is_inside) s->table.queued = *next = queued;
   return true;
 }

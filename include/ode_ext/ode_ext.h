@@ -19,10 +19,11 @@
  * spreads best. CONTACTS_UNIMPORTANT (stop as soon as there are enough, for ODE's own collider)
  * changes nothing: the contacts are there when dCollide asks, and the same are returned.
  *
- * A contact at a vertex stands for all triangles that meet there, one at an edge for those at the
- * edge; `side1` / `side2` name one of them. A program that has set a dTriTriMergeCallback of a geom
- * is asked for an index instead, when dCollide is answered, in the calling thread: the triangles
- * in ascending order, merge(geom, first, second), then merge(geom, that answer, third) and so on.
+ * A contact of a vertex stands for all triangles that meet there, one of an edge for those at the
+ * edge, one of a facet for one triangle; `side1` / `side2` name one of them. A program that has
+ * set a dTriTriMergeCallback of a geom is asked for an index instead, when dCollide is answered, in
+ * the calling thread: the triangles in ascending order, merge(geom, first, second), then
+ * merge(geom, that answer, third) and so on.
  * The last answer, whatever it is, becomes the side. ODE's own collider calls it alike, for
  * contacts at one place; where there is no callback it gives -1, this library a triangle.
  * What a callback throws is caught: it becomes the last error and the callback counts as not made.
@@ -171,8 +172,8 @@ enum {
  * one where an edge crosses a facet of the edge and the facet, one between two edges of both edges.
  * While the same features touch it has the same id, wherever the geoms go; no two contacts of a
  * pair have one id. Numbers are given within each mesh when the collider first meets it, and stay
- * until the mesh changes (a deformable mesh: until its triangles do). They depend on that mesh
- * alone: not on other meshes, on threads, or on the process.
+ * until the mesh changes (a deformable mesh: until its triangles do, or vertices of it meet or
+ * part). They depend on that mesh alone: not on other meshes, on threads, or on the process.
  */
 typedef struct dBatchContactId {
   unsigned feature1; /**< of the mesh of g1: exchanged arguments exchange the two */

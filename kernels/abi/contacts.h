@@ -68,9 +68,10 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 typedef struct {
   ox_u32 key;    // facet << 1 | mesh; OX_NONE: free
   ox_u32 owner;  // region, among all, << 1 | whether the curve of the surfaces runs over the facet
-  ox_u32 plane;  // its plane, among those of the region; OX_NONE: it is of no area
+  ox_u32 triangle;  // the first of those of the facet that are at features of the region
+  ox_u32 plane;     // its plane, among those of the region; OX_NONE: it is of no area
 } ox_face;
-OX_STATIC_ASSERT(sizeof(ox_face) == 12, ox_face_is_12_bytes);
+OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 
 // The separating planes that a region may part by, in the frame of B: faces of either mesh, and
 // common normals of two edges. Each field lies for itself, so that many planes are looked at at a
@@ -78,7 +79,7 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 12, ox_face_is_12_bytes);
 #define OX_PLANE_NORMAL 0u  // three: unit, the way A is moved
 #define OX_PLANE_TOP 3u     // [m] along it, to where what of A is below has to rise
 #define OX_PLANE_BOTTOM 4u  // to where what of B is above has to sink; of a face the same
-#define OX_PLANE_FLAGS 5u   // OX_PLANE_..., a kind, with OX_PLANE_CROSSED
+#define OX_PLANE_FLAGS 5u   // OX_PLANE_..., a kind, with OX_PLANE_CROSSED, OX_PLANE_PASSED
 #define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and B (ox_ridge)
 #define OX_PLANE_WORDS 8u
 

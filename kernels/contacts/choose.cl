@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Choose: by which planes does each region of overlap part, and where are its contacts?
 //
-// A region is whole where neither mesh has a valley in it, or where it is all of a part that is
-// inside: then it parts by the least plane that clears all of it. Elsewhere its units, vertices
-// and chords, are cleared one by one, the deepest first, and each plane clears what it can.
+// A region is whole where neither mesh has a valley in it, told by an edge or by a face that part
+// of the region is past, or where it is all of a part that is inside: then it parts by the least
+// plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
+// the deepest first, and each plane clears what it can.
 //
 // in    regions, members, planes, features
 // out   candidates for contacts of each pair, and their number
+//       planes: which of them part of the region is past
 // item  1 region (of a queue)
 // may overflow: none; a feature makes one candidate at most
 #include "contacts/candidates.h"
@@ -60,7 +62,7 @@ static void ox_choose_sheet(ox_manifold* m) {
     __global const ox_feature* f = ox_feature_of(r, k);
     if (f->triangle == OX_NONE) continue;
     const uint side = ox_side_of(f->flags);
-    ox_plane_choice choice;
+    ox_plane_choice choice = ox_no_choice();
     choice.plane = ox_plane_of_face(r->scene, r->pair, 1u - side, f->triangle);
     if (choice.plane.kind == OX_PLANE_NONE) continue;
     if (ox_is_vertex(f->flags)) {

@@ -73,6 +73,17 @@ static inline uint ox_find_end_inside(const ox_scene* scene, __global const ox_f
   return entry == OX_NONE ? OX_NONE : entry >> 2;
 }
 
+// The first crossing after one by which an edge leaves by which it enters, if rounding may have
+// changed their order: it enters first then, and what lies side by side is one.
+static inline uint ox_find_entry(__global const ox_feature* features,
+                                 __global const ox_edge_crossing* crossings, uint leave) {
+  for (uint n = features[leave].next; n != OX_NONE; n = features[n].next) {
+    if (features[n].t - features[leave].t > crossings[leave].blur + crossings[n].blur) break;
+    if (ox_enters(features + n) && features[n].partner == OX_NONE) return n;
+  }
+  return OX_NONE;
+}
+
 // Partners of all crossings of an edge, from the head of their chain on. Returns its new head.
 static inline uint ox_find_partners(const ox_scene* scene, __global ox_feature* features,
                                     __global const uint* slots,
@@ -82,23 +93,20 @@ static inline uint ox_find_partners(const ox_scene* scene, __global ox_feature* 
   uint open = OX_NONE;
   for (uint i = head; i != OX_NONE; i = features[i].next) {
     __global ox_feature* f = features + i;
-    const uint next = f->next;
+    if (f->partner != OX_NONE) continue;  // of a leave before it
     if (ox_enters(f)) {
       f->partner = open;
       open = i;
-    } else if (open != OX_NONE) {
-      f->partner = open;
-      open = features[open].partner;
-      features[f->partner].partner = i;
-    } else if (next != OX_NONE && ox_enters(features + next) &&
-               features[next].t - f->t <= crossings[i].blur + crossings[next].blur) {
-      // Rounding may have changed the order of the two.
-      f->partner = next;
-      features[next].partner = i;
-      i = next;
-    } else {
-      f->partner = ox_find_end_inside(scene, features, slots, f);
+      continue;
     }
+    const uint entry = ox_find_entry(features, crossings, i);
+    f->partner = entry != OX_NONE ? entry : open;
+    if (f->partner == OX_NONE) {
+      f->partner = ox_find_end_inside(scene, features, slots, f);
+      continue;
+    }
+    if (entry == OX_NONE) open = features[open].partner;
+    features[f->partner].partner = i;
   }
   while (open != OX_NONE) {
     __global ox_feature* f = features + open;

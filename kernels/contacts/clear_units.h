@@ -67,7 +67,7 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
 static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
                                ox_plane_choice* best) {
   if (ox_is_refused(&seed->refused, plane, OX_WAY_OF_UNIT)) return;
-  ox_plane_choice choice;
+  ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
   choice.depth = ox_unit_depth(r, seed->unit, plane);
   if (choice.depth == INFINITY) return;
@@ -146,7 +146,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
 // Takes a plane for a unit if a move goes so far along it, and it is the least so far.
 static inline void ox_try_clearing(const ox_region_view* r, uint k, const ox_plane* plane,
                                    float along, ox_plane_choice* by) {
-  ox_plane_choice choice;
+  ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
   choice.depth = choice.judged = ox_unit_depth(r, k, plane);
   if (choice.depth <= along && ox_is_better_choice(&choice, by)) *by = choice;

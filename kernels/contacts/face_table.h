@@ -7,12 +7,12 @@
 #include "contacts/feature.h"
 
 static inline ox_face ox_no_face(void) {
-  const ox_face face = {OX_NONE, 0u, OX_NONE};
+  const ox_face face = {OX_NONE, 0u, OX_NONE, OX_NONE};
   return face;
 }
 
-// Puts the facet of a triangle in, unless it is there, and says where it is among those of the
-// region.
+// Puts a face in, unless its facet is there, and says where it is among those of the region. Of a
+// facet the first triangle is kept.
 static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* region, uint owner,
                                uint side, uint triangle, __global volatile ox_face* faces) {
   const uint key = scene->facets[triangle] << 1 | side;
@@ -24,6 +24,7 @@ static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* 
     uint there = face->key;
     if (there == OX_NONE) there = atomic_cmpxchg(&face->key, OX_NONE, key);
     if (there != OX_NONE && there != key) continue;
+    if (face->triangle > triangle) atomic_min(&face->triangle, triangle);
     if ((face->owner & owner) != owner) atomic_or(&face->owner, owner);
     return place;
   }

@@ -350,10 +350,7 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
     __global ox_region* region = regions + (face->owner >> 1);
     const uint side = face->key & 1u;
     if (!ox_parts_by_faces_of(scene, region->pair, region->flags, side)) continue;
-    // A facet has the number of its largest triangle, whose normal is the truest.
-    const uint mesh = scene->pairs[region->pair].mesh[side];
-    const ox_plane plane = ox_plane_of_face(scene, region->pair, side,
-                                            scene->meshes[mesh].triangle_first + (face->key >> 1));
+    const ox_plane plane = ox_plane_of_face(scene, region->pair, side, face->triangle);
     face->plane =
         ox_add_plane(region, planes, &plane, (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }

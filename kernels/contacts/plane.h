@@ -38,9 +38,13 @@ static inline float3 ox_corner(__global const ox_triangle* t, uint k) {
   return vload3(0, k == 0u ? t->a : k == 1u ? t->b : t->c);
 }
 
+// The plane at a triangle. Its normal is that of the largest triangle of the facet, the truest; its
+// height is the triangle's own: a facet may be much larger than the region, and not quite flat.
 static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint side,
                                         uint triangle) {
-  const float3 normal = ox_normal_of(scene, pair, side, triangle);
+  const uint mesh = scene->pairs[pair].mesh[side];
+  const float3 normal =
+      ox_normal_of(scene, pair, side, scene->meshes[mesh].triangle_first + scene->facets[triangle]);
   ox_plane plane;
   plane.kind = side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B;
   plane.id[0] = triangle;

@@ -25,7 +25,7 @@ static inline float ox_unit_depth(const ox_region_view* r, uint k, const ox_plan
 static inline void ox_propose_for(const ox_region_view* r, uint k, uint index,
                                   ox_plane_choice* best) {
   if (index == OX_NONE) return;
-  ox_plane_choice choice;
+  ox_plane_choice choice = ox_no_choice();
   choice.plane = ox_load_plane(&r->planes, index);
   choice.depth = choice.judged = ox_unit_depth(r, k, &choice.plane);
   if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
@@ -60,10 +60,10 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
   if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
-  ox_plane_choice own;
+  ox_plane_choice own = ox_no_choice();
   own.plane = ox_own_plane(r, k);
   own.depth = own.judged = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
-  ox_plane_choice nearest;
+  ox_plane_choice nearest = ox_no_choice();
   nearest.plane = ox_nearest_face(r, side, ox_middle_of(r, k), own.depth);
   nearest.depth = nearest.judged = ox_unit_depth(r, k, &nearest.plane);
   if (nearest.depth == INFINITY || !ox_is_better_choice(&nearest, &own)) return;

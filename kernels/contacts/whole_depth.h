@@ -132,7 +132,7 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   const float tie = ox_edge_tie(r, plane);
   const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
   if (beyond + tie > best->judged) return false;
-  ox_plane_choice choice;
+  ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
   choice.depth = ox_whole_depth(r, &limits, kept, &extent);
   if (choice.depth == INFINITY) return extent.past > limits.past;

@@ -139,7 +139,10 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
       if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side)) continue;
       const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.code[i]);
       for (uint k = 0u; k < 2u; ++k) {
-        if (ridge.face[k] == OX_NONE) continue;
+        if (ridge.face[k] == OX_NONE ||
+            (from.kind != OX_PLANE_EDGES &&
+             r->scene->facets[ridge.face[k]] == r->scene->facets[from.id[0]]))
+          continue;
         const ox_plane plane = ox_plane_of_face(r->scene, r->pair, 1u - side, ridge.face[k]);
         ox_try_whole(r, &plane, search, best);
       }
@@ -217,11 +220,8 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
   return false;
 }
 
-// [m] how far, at most, a region may lie past a face of a mesh that is convex in it. Triangles
-// are of one facet that are turned by as much against each other (mesh/facets.h), and one stands
-// for all.
-#define OX_FACET_ANGLE 0.00175f  // 0.1 degrees
-static inline float ox_flat_of(const ox_region_view* r) {
+// The diagonal of the box of the members [m].
+static inline float ox_size_of(const ox_region_view* r) {
   float3 lo = (float3)(INFINITY);
   float3 hi = (float3)(-INFINITY);
   for (uint k = 0u; k < r->count; ++k) {
@@ -230,8 +230,25 @@ static inline float ox_flat_of(const ox_region_view* r) {
     hi = (float3)(ox_max(hi.x, p.x), ox_max(hi.y, p.y), ox_max(hi.z, p.z));
   }
   const float3 size = hi - lo;
-  return OX_CLEARANCE * r->scene->pairs[r->pair].epsilon +
-         OX_FACET_ANGLE * sqrt(ox_dot(size, size));
+  return sqrt(ox_dot(size, size));
+}
+
+// Triangles are of one facet that are turned by as much against each other (mesh/facets.h), and one
+// stands for all.
+#define OX_FACET_ANGLE 0.00175f  // 0.1 degrees
+
+// [m] how far a region of this size may lie past the plane of a face of a mesh that is convex in
+// it: what a plane clears may be above it, a facet is not quite flat, and rounding turns a sliver.
+static inline float ox_flat_of(const ox_region_view* r, const ox_plane* plane, float size) {
+  __global const ox_triangle* t = r->scene->surfaces.triangles + plane->id[0];
+  const float3 ab = ox_corner(t, 1u) - ox_corner(t, 0u);
+  const float3 ac = ox_corner(t, 2u) - ox_corner(t, 0u);
+  const float3 bc = ac - ab;
+  const float3 normal = ox_plain_cross(ab, ac);
+  const float length2 = ox_max(ox_dot(ab, ab), ox_max(ox_dot(ac, ac), ox_dot(bc, bc)));
+  const float height = sqrt(ox_dot(normal, normal) / length2);
+  const float epsilon = r->scene->pairs[r->pair].epsilon;
+  return OX_CLEARANCE * epsilon + size * (OX_FACET_ANGLE + epsilon / height);
 }
 
 // Whether a face that part of a region is past costs no more than the least plane that is found:
@@ -239,16 +256,17 @@ static inline float ox_flat_of(const ox_region_view* r) {
 // where they have no edge in common, and in a trough of many strips no edge shows.
 static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
                                  const ox_plane_choice* least) {
-  const float flat = ox_flat_of(r);
+  float size = -1.0f;
   const ox_limits limits = {INFINITY, least->judged};
   for (uint i = 0u; i < r->plane_count; ++i) {
     if ((ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] & OX_PLANE_PASSED) == 0u) continue;
+    if (size < 0.0f) size = ox_size_of(r);
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    if (ox_is_refused(&search->refused, &plane, OX_WAY_OF_WHOLE)) continue;
     ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
     ox_extent extent = ox_begin_extent(&plane);
     if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
-        ox_whole_depth(r, &limits, kept, &extent) != INFINITY && extent.past > flat &&
+        ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
+        extent.past > ox_flat_of(r, &plane, size) &&
         ox_depth_beyond(r, &plane, least->judged) <= least->judged)
       return true;
   }
@@ -264,9 +282,10 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   search.refused.count = 0u;
   while (search.refused.count < OX_MOST_TRIES) {
     ox_plane_choice best = ox_search_whole(r, &search);
-    if ((r->flags & OX_REGION_CROSSED) != 0u && ox_has_valley(r, &search, &best))
-      return ox_no_choice();
     ox_try_nearest(r, &search, &best);
+    if (search.refused.count == 0u && (r->flags & OX_REGION_CROSSED) != 0u &&
+        ox_has_valley(r, &search, &best))
+      return ox_no_choice();
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;

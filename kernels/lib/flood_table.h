@@ -10,8 +10,8 @@
 
 // What a key is of: the index of a vertex or an edge. They are below 2^30: as many edges are those
 // of 700 million triangles, and their meshlets one buffer of 45 GiB.
-#define OX_KEY_VERTEX 1u   // has its ray
-#define OX_KEY_OUTSIDE 2u  // a vertex that needs none
+#define OX_KEY_VERTEX 1u   // looked at; it gets its ray where it is still queued in the end
+#define OX_KEY_OUTSIDE 2u  // outside by its nearest crossing; value: OX_OUTSIDE_... (flood.cl)
 #define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
 #define OX_KEY(index, kind) ((index) << 2 | (kind))
 

@@ -2,6 +2,7 @@
 // Contacts where a mesh is not convex, and no edge of it says so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -67,6 +68,27 @@ TEST(Concave, ContactsOfARodAcrossTwoPartsThatOverlapHoldBothOfItsEnds) {
     EXPECT_GE(first, 1);
     EXPECT_GE(last, 1);
   }
+}
+
+// All of it is one facet, whose largest triangle may be far away and a little steep.
+TEST(Concave, ContactsOnAWideFloorThatIsNotQuiteFlatAreAsDeepAsItIsThere) {
+  TestMesh floor = make_sheet(60, 60);
+  Random random(9);
+  for (std::size_t i = 2; i < floor.vertices.size(); i += 3)
+    floor.vertices[i] = static_cast<float>(random.uniform(-4e-4, 4e-4));
+  for (const double x : {-29.2, -11.3, 0.4, 17.6, 28.9})
+    for (const double y : {-28.7, 3.1, 29.1}) {
+      const Placed placed{make_cube(0.5), floor, at(x, y, 0.25 - 0.005), TestPose{}};
+      const std::vector<Contact> found = placed.contacts(at(0, 0, 0));
+      EXPECT_GE(found.size(), 3u) << x << " " << y;
+      for (const Contact& c : found) {
+        EXPECT_GT(c.normal.z, 0.999);
+        EXPECT_LT(c.depth, 0.0065) << x << " " << y;
+      }
+      EXPECT_TRUE(
+          std::any_of(found.begin(), found.end(), [](const Contact& c) { return c.depth > 0.004; }))
+          << x << " " << y;
+    }
 }
 
 // So finely cut that no edge of it rises over the plane of another face by what is known.

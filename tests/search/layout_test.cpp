@@ -193,6 +193,7 @@ const std::vector<Member> kMembers = {
     SIZE_OF(ox_face),
     OFFSET_OF(ox_face, key),
     OFFSET_OF(ox_face, owner),
+    OFFSET_OF(ox_face, triangle),
     OFFSET_OF(ox_face, plane),
     SIZE_OF(ox_contact),
     OFFSET_OF(ox_contact, side_kind),
