@@ -282,10 +282,11 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   search.refused.count = 0u;
   while (search.refused.count < OX_MOST_TRIES) {
     ox_plane_choice best = ox_search_whole(r, &search);
-    ox_try_nearest(r, &search, &best);
+    // Before the nearest faces, which take a walk for each member.
     if (search.refused.count == 0u && (r->flags & OX_REGION_CROSSED) != 0u &&
         ox_has_valley(r, &search, &best))
       return ox_no_choice();
+    ox_try_nearest(r, &search, &best);
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;
