@@ -7,7 +7,7 @@
 #include <span>
 
 #include "contacts/contact.h"
-#include "contacts/feature_number.h"
+#include "mesh/feature_number.h"
 #include "search/device_meshes.h"
 
 namespace ode_ext {

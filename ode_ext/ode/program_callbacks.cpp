@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "contacts/feature_number.h"
+#include "mesh/feature_number.h"
 #include "ode/messages.h"
 
 namespace ode_ext {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "collide/collider.h"
+#include "contacts/placed.h"
 #include "reference/reference_contacts.h"
 #include "search/crossing_comparison.h"
 #include "support/convex_makers.h"
@@ -251,21 +252,6 @@ TEST(Assembly, OfConvexBodiesIsAsDeepAsTheLeastMoveThatPartsThem) {
   EXPECT_GE(parted, 0.95 * colliding);
 }
 
-// Contacts of a pair in a frame of its own, told in that frame.
-std::vector<Contact> contacts_in(const TestPose& frame, const TestMesh& a, const TestPose& pa,
-                                 const TestMesh& b) {
-  static Collider* const collider = new Collider({});  // never destroyed, as Rig::shared()
-  const TestScene scene = one_pair(a, composed(frame, pa), b, frame);
-  std::vector<Contact> found = collider->collide(scene.scene, nullptr).contacts;
-  for (Contact& c : found) {
-    const Point p = to_local(frame, point_of(c.position));
-    const Point n = rotate_back(frame, point_of(c.normal));
-    c.position = {p[0], p[1], p[2]};
-    c.normal = {n[0], n[1], n[2]};
-  }
-  return found;
-}
-
 std::vector<TestPose> frames() { return {TestPose{}, turned({3, 1, 2}, 1.1, {0.5, 0.1, 0.2})}; }
 
 // The deepest on either side of x = 0.
@@ -284,7 +270,7 @@ TEST(Assembly, MovesTwoPlatesOfOneMeshOutOfOppositeRimsByTenMillimetres) {
       const TestMesh plate = make_box({0.1, 0.15, 0.005}, 2 * cells, cells, 1);
       const double z = 0.1 - 0.01 + 0.0025;
       const TestMesh both = merged(moved(plate, {0.12, 0.01, z}), moved(plate, {-0.12, 0, z}));
-      const auto found = contacts_in(frame, both, {}, make_cube(0.2, cells));
+      const auto found = Placed{both, make_cube(0.2, cells), {}, {}}.contacts(frame);
       for (const double depth : deepest_by_side(found))
         EXPECT_NEAR(depth, 0.01, 0.0005) << cells << " cells";
       for (const Contact& c : found) EXPECT_NEAR(c.normal.z, 1, 1e-4) << cells << " cells";
@@ -297,7 +283,7 @@ TEST(Assembly, MovesAContainedPartAndAShallowOneOutByWhatEachIsDeep) {
       const TestMesh small = make_cube(0.02, cells);
       const TestMesh both = merged(moved(small, {-0.05, 0, 0.1 - 0.0403 + 0.01}),
                                    moved(small, {0.05, 0.01, 0.1 - 0.01 + 0.01}));
-      const auto found = contacts_in(frame, both, {}, make_cube(0.2, cells));
+      const auto found = Placed{both, make_cube(0.2, cells), {}, {}}.contacts(frame);
       const auto [contained, shallow] = deepest_by_side(found);
       EXPECT_NEAR(contained, 0.0403, 1e-5) << cells << " cells";
       EXPECT_NEAR(shallow, 0.01, 1e-5) << cells << " cells";
@@ -357,7 +343,8 @@ TEST(Assembly, OfACombOnASlabIsOfOneRegionATooth) {
 TEST(Assembly, OfACombAstrideAWallDoesNotOpposeItself) {
   const TestMesh comb = make_comb(4, 0.2, 0.4, 0.3), wall = make_box({3, 0.1, 1});
   for (const TestPose& frame : frames()) {
-    const auto found = contacts_in(frame, comb, turned({1, 0, 0}, 0.01, {0, 0.02, 0.55}), wall);
+    const auto found =
+        Placed{comb, wall, turned({1, 0, 0}, 0.01, {0, 0.02, 0.55}), {}}.contacts(frame);
     ASSERT_FALSE(found.empty());
     for (const Contact& c : found)
       for (const Contact& d : found) EXPECT_GT(dot(c.normal, d.normal), -0.5);

@@ -23,6 +23,18 @@ inline TriangleSoup joined(TriangleSoup a, const TriangleSoup& b) {
   return a;
 }
 
+// Whether a triangle has the corners of one of a soup in their order, from whichever of them on.
+inline bool is_triangle_of(const TriangleSoup& soup, std::size_t number, const Mesh& mesh,
+                           const Triangle& triangle) {
+  for (std::size_t first = 0; first < 3; ++first) {
+    bool is = true;
+    for (std::size_t k = 0; k < 3; ++k)
+      is = is && mesh.vertices[triangle[k]] == soup[3 * number + (first + k) % 3];
+    if (is) return true;
+  }
+  return false;
+}
+
 inline TriangleSoup tetrahedron() {
   const Vec3f o{0, 0, 0}, x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   return {o, y, x, o, x, z, o, z, y, x, y, z};

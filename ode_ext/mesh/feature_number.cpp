@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contacts/feature_number.h"
+#include "mesh/feature_number.h"
 
 #include <algorithm>
 #include <array>

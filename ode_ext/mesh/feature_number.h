@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a contact is of in a mesh: a vertex, an edge or a facet, by a number that depends on that
-// mesh alone.
+// The features of a mesh, its vertices, edges and facets, by numbers that depend on it alone.
 #pragma once
 
 #include <cstdint>
