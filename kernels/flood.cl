@@ -129,6 +129,8 @@ static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
   const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
   if (s->words[word] == 0u) return OX_END_UNPARTED;
   const uint all = s->words[word + 1u];
+  if (s->crossings[all].of_edge == OX_NONE)  // as mostly
+    return (s->crossings[all].leaves != 0u) == (end == 0u) ? OX_END_INSIDE : OX_END_OUTSIDE;
   const float sign = end == 0u ? 1.0f : -1.0f;
   const float near = s->pair->epsilon;
   for (float passed = -INFINITY;;) {

@@ -45,6 +45,7 @@ static inline uint ox_merge_chains(__global ox_feature* features, uint a, uint b
 
 // Puts the crossings of an edge in order (merge sort, from the bottom up); returns the first.
 static inline uint ox_sort_chain(__global ox_feature* features, uint head) {
+  if (features[head].next == OX_NONE) return head;
   uint sorted[32];  // of 2^i each; OX_NONE: there is none
   for (uint i = 0u; i < 32u; ++i) sorted[i] = OX_NONE;
   while (head != OX_NONE) {

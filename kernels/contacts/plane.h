@@ -73,7 +73,9 @@ static inline float ox_plane_depth(const ox_plane* plane, uint side, float3 p) {
 
 // An edge, as a side of the first of its triangles: 3 * triangle + k runs from corner k on.
 typedef struct {
+  uint code;
   float3 from, to;
+  float3 along;  // unit; not finite where the edge has no length
   uint face[2];  // the second is OX_NONE at a border
 } ox_ridge;
 
@@ -86,8 +88,12 @@ static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, 
   __global const ox_triangle* t = scene->surfaces.triangles + code / 3u;
   const uint across = ox_across(t, code % 3u);
   ox_ridge ridge;
+  ridge.code = code;
   ridge.from = ox_in_b(scene, pair, side, ox_corner(t, code % 3u));
   ridge.to = ox_in_b(scene, pair, side, ox_corner(t, (code + 1u) % 3u));
+  // Of unit length: products of four lengths overflow long before lengths do.
+  const float3 d = ridge.to - ridge.from;
+  ridge.along = d / sqrt(ox_dot(d, d));
   ridge.face[0] = code / 3u;
   ridge.face[1] = across == OX_NONE ? OX_NONE : mesh->triangle_first + across;
   return ridge;
@@ -150,32 +156,32 @@ static inline bool ox_edge_supports(const ox_scene* scene, uint pair, uint side,
 #define OX_PARALLEL 0.01f
 
 // Of an edge of A and one of B; OX_PLANE_NONE: they do not support it.
-static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint code_a,
-                                         uint code_b) {
+static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, const ox_ridge* a,
+                                          const ox_ridge* b) {
   ox_plane plane = ox_no_plane();
-  const ox_ridge a = ox_ridge_of(scene, pair, 0u, code_a);
-  const ox_ridge b = ox_ridge_of(scene, pair, 1u, code_b);
-  const float3 d = a.to - a.from;
-  const float3 e = b.to - b.from;
-  // Of unit length each: products of four lengths overflow long before lengths do.
-  const float3 u = d / sqrt(ox_dot(d, d));
-  const float3 v = e / sqrt(ox_dot(e, e));
-  const float3 n = ox_plain_cross(u, v);
+  const float3 n = ox_plain_cross(a->along, b->along);
   const float sine2 = ox_dot(n, n);
   if (!(sine2 > OX_PARALLEL * OX_PARALLEL)) return plane;  // or an edge has no length
-  const bool outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, &b)) >= 0.0f;
+  const bool outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, b)) >= 0.0f;
   plane.normal = (outward ? n : -n) / sqrt(sine2);
-  plane.top = ox_dot(plane.normal, b.from);
-  plane.bottom = ox_dot(plane.normal, a.from);
+  plane.top = ox_dot(plane.normal, b->from);
+  plane.bottom = ox_dot(plane.normal, a->from);
   const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;
   if (plane.top < plane.bottom ||
-      !ox_edge_supports(scene, pair, 1u, &b, plane.normal, plane.top, tolerance) ||
-      !ox_edge_supports(scene, pair, 0u, &a, -plane.normal, -plane.bottom, tolerance))
+      !ox_edge_supports(scene, pair, 1u, b, plane.normal, plane.top, tolerance) ||
+      !ox_edge_supports(scene, pair, 0u, a, -plane.normal, -plane.bottom, tolerance))
     return plane;
   plane.kind = OX_PLANE_EDGES;
-  plane.id[0] = code_a;
-  plane.id[1] = code_b;
+  plane.id[0] = a->code;
+  plane.id[1] = b->code;
   return plane;
+}
+
+static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint code_a,
+                                         uint code_b) {
+  const ox_ridge a = ox_ridge_of(scene, pair, 0u, code_a);
+  const ox_ridge b = ox_ridge_of(scene, pair, 1u, code_b);
+  return ox_plane_of_ridges(scene, pair, &a, &b);
 }
 
 // The farthest that mesh `side` reaches along a direction of the frame of B [m]; or something

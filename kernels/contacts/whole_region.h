@@ -130,14 +130,15 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
       ox_add_rim(r, 1u - side, from.id[0], &own);
     ox_add_farthest(r, side, from.normal, &past);
     for (uint i = 0u; i < own.count; ++i) {
+      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.code[i]);
       for (uint k = 0u; k < past.count; ++k) {
-        const ox_plane plane =
-            side == 0u ? ox_plane_of_edges(r->scene, r->pair, past.code[k], own.code[i])
-                       : ox_plane_of_edges(r->scene, r->pair, own.code[i], past.code[k]);
+        const ox_ridge other = ox_ridge_of(r->scene, r->pair, side, past.code[k]);
+        const ox_plane plane = side == 0u
+                                   ? ox_plane_of_ridges(r->scene, r->pair, &other, &ridge)
+                                   : ox_plane_of_ridges(r->scene, r->pair, &ridge, &other);
         ox_try_whole(r, &plane, search, best);
       }
       if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side)) continue;
-      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.code[i]);
       for (uint k = 0u; k < 2u; ++k) {
         if (ridge.face[k] == OX_NONE ||
             (from.kind != OX_PLANE_EDGES &&

@@ -95,16 +95,34 @@ static inline float ox_place_of_crossing(float3 from, float3 to, const ox_genera
   return part * length;
 }
 
-// The ends of the edges of a meshlet that may cross the other one, a bit for each vertex.
-static inline uint ox_ends_of_near_edges(__global const ox_meshlet* source,
-                                         const ox_general_points* points) {
-  uint ends = 0u;
-  for (uint e = 0u; e < source->edge_count; ++e) {
-    const uint p = OX_END(source->ends, e, 0u);
-    const uint q = OX_END(source->ends, e, 1u);
-    if ((points->beyond[p] & points->beyond[q]) == 0) ends |= 1u << p | 1u << q;
+// The edges of a meshlet that may cross the other one: a bit for each of those with even numbers,
+// and of those with odd ones. And their ends, a bit for each vertex, perhaps the first beside them.
+typedef struct {
+  uint edges[2];
+  uint ends;
+} ox_near_edges;
+
+static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source,
+                                               const ox_general_points* points) {
+  ox_near_edges near = {{0u, 0u}, 0u};
+  const ox_ints one = 1;
+  const ox_ints none = 0;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    const ox_ints ends = ox_load_ints(block, source->ends);
+    for (uint odd = 0u; odd < 2u; ++odd) {
+      const ox_ints p = ends >> (int)OX_END_SHIFT(odd, 0u) & 255;
+      const ox_ints q = ends >> (int)OX_END_SHIFT(odd, 1u) & 255;
+      ox_ints beyond_p, beyond_q;
+      ox_pick_ints(points->beyond, &p, &beyond_p);
+      ox_pick_ints(points->beyond, &q, &beyond_q);
+      const ox_ints is_near = (beyond_p & beyond_q) == 0;
+      const uint present = ox_present_lanes((source->edge_count + 1u - odd) / 2u, block);
+      near.edges[odd] |= (ox_mask_of(&is_near) & present) << (OX_VECTOR_WIDTH * block);
+      const ox_ints bits = is_near ? one << p | one << q : none;
+      near.ends |= as_uint(OX_FOLD(bits, OX_OR));
+    }
   }
-  return ends;
+  return near;
 }
 
 // Where the edges of the source cross the triangles of the target, those of some blocks of its
@@ -116,8 +134,8 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
                                      __global const ox_meshlet* target,
                                      const ox_general_points* target_points,
                                      ox_block_range blocks) {
-  uint asked = ox_ends_of_near_edges(source, points);
-  if (asked == 0u) return;
+  const ox_near_edges near = ox_find_near_edges(source, points);
+  if ((near.edges[0] | near.edges[1]) == 0u) return;
   __global const ox_mesh* meshes = fresh->scene->meshes;
   const uint flags =
       ox_is_flooded(fresh->scene, meshes + pair->mesh[side], meshes + pair->mesh[1u - side])
@@ -128,21 +146,28 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
   const ox_general_triangles* t = &triangles;
   ox_general_planes planes;
   ox_make_planes(t, blocks, &planes);
+  ox_general_boxes boxes;
+  ox_make_boxes(t, blocks, &boxes);
   ox_heights heights[OX_LANES];
-  for (; asked != 0u; asked &= asked - 1u) {
+  for (uint asked = near.ends; asked != 0u; asked &= asked - 1u) {
     const uint v = ox_lowest(asked);
     heights[v] = ox_heights_over(t, &planes, blocks, ox_general_point(points, v));
   }
   const uint present = (1u << target->triangle_count) - 1u;
-  for (uint e = 0u; e < source->edge_count; ++e) {
+  uint left[2] = {near.edges[0], near.edges[1]};
+  while ((left[0] | left[1]) != 0u) {
+    const uint odd = left[0] == 0u ? 1u : 0u;
+    const uint e = 2u * ox_lowest(left[odd]) + odd;
+    left[odd] &= left[odd] - 1u;
     const uint p = OX_END(source->ends, e, 0u);
     const uint q = OX_END(source->ends, e, 1u);
-    if ((points->beyond[p] & points->beyond[q]) != 0) continue;
     const uint doubt = heights[p].doubt | heights[q].doubt;
-    const uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & present;
+    uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & present;
     if (asked_of == 0u) continue;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);
+    asked_of &= ox_boxes_met(&boxes, blocks, from, to);
+    if (asked_of == 0u) continue;
     const ox_passes passes = ox_passes_of(t, blocks, from, to - from);
     const uint out = heights[q].above;  // where that is sure
     const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));

@@ -50,6 +50,7 @@ typedef ox_ints ox_ints_anywhere __attribute__((aligned(4)));
 #define ox_load_floats(block, p) (((__global const ox_floats_anywhere*)(p))[block])
 #define ox_load_ints(block, p) (((__global const ox_ints_anywhere*)(p))[block])
 #define ox_load_own(block, p) (((const ox_floats_anywhere*)(p))[block])
+#define ox_load_own_ints(block, p) (((const ox_ints_anywhere*)(p))[block])
 #define ox_store(v, block, p) (((ox_floats_anywhere*)(p))[block] = (v))
 #define ox_store_ints(v, block, p) (((ox_ints_anywhere*)(p))[block] = (v))
 
@@ -134,6 +135,19 @@ static inline void ox_pick_lanes(const float* from, const ox_ints* lanes, ox_flo
   ox_store_ints(*lanes, 0, lane);
   for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k) there[k] = from[lane[k]];
   *picked = ox_load_own(0, there);
+#endif
+}
+
+static inline void ox_pick_ints(const int* from, const ox_ints* lanes, ox_ints* picked) {
+#if defined(OX_HAS_AVX512)
+  const ox_native_ints all = (ox_native_ints)ox_load_own_ints(0, from);
+  *picked = __builtin_astype(__builtin_ia32_permvarsi512(all, (ox_native_ints)*lanes), ox_ints);
+#else
+  int lane[OX_VECTOR_WIDTH];
+  int there[OX_VECTOR_WIDTH];
+  ox_store_ints(*lanes, 0, lane);
+  for (uint k = 0u; k < OX_VECTOR_WIDTH; ++k) there[k] = from[lane[k]];
+  *picked = ox_load_own_ints(0, there);
 #endif
 }
 
