@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/both.h"
 #include "mesh/bvh.h"
 #include "mesh/exit_distance.h"
 #include "mesh/facets.h"
@@ -26,23 +27,35 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
   return rounded_up(largest);
 }
 
+// A thread takes tens of microseconds to start, a triangle one.
+constexpr std::size_t kTrianglesAThread = 8192;
+
+// What depends on where the vertices are, and is made on the device of what deforms.
+void find_facets(Mesh& mesh, MeshTopology& topology) {
+  Normals normals = compute_normals(mesh.vertices, topology.triangles);
+  mesh.normals = std::move(normals.vertices);
+  mesh.face_normals = std::move(normals.faces);
+  topology.facets =
+      facets(mesh.vertices, topology.triangles, mesh.face_normals, topology.neighbours);
+}
+
 // What depends on edges.
-void connect(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
-             const Bvh& bvh, MeshTopology& topology) {
-  Edges edges = find_edges(vertices, half_edges, topology.facets);
+void connect(Edges edges, const Bvh& bvh, std::size_t threads, MeshTopology& topology) {
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
-  topology.meshlets = build_meshlets(bvh, topology.triangles, all);
-  topology.rings = build_rings(vertices.size(), all);
+  do_both(
+      threads, [&] { topology.meshlets = build_meshlets(bvh, topology.triangles, all); },
+      [&] { topology.rings = build_rings(topology.vertex_count, all); });
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
 }
 
 }  // namespace
 
-Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
+Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
   Mesh mesh;
-  mesh.soup = soup;
+  mesh.soup = std::move(given);
+  const TriangleSoup& soup = mesh.soup;
   mesh.content_hash = hash_soup(soup.data(), soup.size());
   mesh.shape_hash = mesh.content_hash;
   mesh.deformable = options.deformable;
@@ -72,21 +85,24 @@ Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options) {
   mesh.box = box_of(mesh.vertices);
   mesh.mean_edge = mean_side(mesh.vertices, triangles);
   topology->chunks = cut_into_chunks(mesh.vertices);
-  const Bvh bvh = build_bvh(mesh.vertices, triangles);
-  topology->neighbours = neighbours(triangles.size(), half_edges);
+  const std::size_t threads = worthwhile_threads(triangles.size(), kTrianglesAThread);
+  Bvh bvh;
+  Edges edges;
+  do_both(
+      threads, [&] { bvh = build_bvh(mesh.vertices, triangles); },
+      [&] {
+        topology->neighbours = neighbours(triangles.size(), half_edges);
+        if (!mesh.deformable) find_facets(mesh, *topology);
+        edges = find_edges(mesh.vertices, half_edges, topology->facets);
+      });
+  connect(std::move(edges), bvh, threads, *topology);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     topology->soup = soup;
     topology->corner_vertex = std::move(welded.corner_vertex);
-    connect(mesh.vertices, half_edges, bvh, *topology);
     return mesh;
   }
 
-  Normals normals = compute_normals(mesh.vertices, triangles);
-  mesh.normals = std::move(normals.vertices);
-  mesh.face_normals = std::move(normals.faces);
-  topology->facets = facets(mesh.vertices, triangles, mesh.face_normals, topology->neighbours);
-  connect(mesh.vertices, half_edges, bvh, *topology);
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
   if (mesh.closed()) {
     mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh);

@@ -53,7 +53,7 @@ struct MeshOptions {
 };
 
 // Builds everything above. Throws std::bad_alloc only.
-Mesh build_mesh(const TriangleSoup& soup, const MeshOptions& options = {});
+Mesh build_mesh(TriangleSoup soup, const MeshOptions& options = {});
 
 // The hash that build_mesh stores, alone. What has one hash need not be one soup (soup_hash.cpp).
 std::uint64_t hash_soup(const Vec3f* corners, std::size_t corner_count);

@@ -75,9 +75,17 @@ Triangle rotated(const Triangle& t) {
   return {t[lowest], t[(lowest + 1) % 3], t[(lowest + 2) % 3]};
 }
 
-Triangle sorted(Triangle t) {
-  std::sort(t.begin(), t.end());
-  return t;
+struct Listed {
+  Triangle rotated;
+  std::uint32_t source;
+};
+
+// Of two with the same lowest vertex. First by which vertices, so that a mesh and the same inside
+// out are numbered alike.
+bool comes_first(const Listed& a, const Listed& b) {
+  const auto others = [](const Triangle& t) { return std::minmax(t[1], t[2]); };
+  return std::tuple(others(a.rotated), a.rotated, a.source) <
+         std::tuple(others(b.rotated), b.rotated, b.source);
 }
 
 }  // namespace
@@ -113,20 +121,18 @@ bool are_apart(const std::vector<Vec3f>& vertices) {
   return true;
 }
 
+// By the lowest vertex they are counted into place, as half edges are (half_edges.h).
 void order_by_vertices(WeldedMesh& mesh) {
-  struct Listed {
-    Triangle sorted;  // first, so that a mesh and the same inside out are numbered alike
-    Triangle rotated;
-    std::uint32_t source;
-  };
-  std::vector<Listed> listed;
-  listed.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    listed.push_back(
-        {sorted(mesh.triangles[i]), rotated(mesh.triangles[i]), mesh.source_triangle[i]});
-  std::sort(listed.begin(), listed.end(), [](const Listed& a, const Listed& b) {
-    return std::tie(a.sorted, a.rotated, a.source) < std::tie(b.sorted, b.rotated, b.source);
-  });
+  std::vector<std::uint32_t> next(mesh.vertices.size() + 1);
+  for (const Triangle& t : mesh.triangles) ++next[*std::min_element(t.begin(), t.end()) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Listed> listed(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle t = rotated(mesh.triangles[i]);
+    listed[next[t[0]]++] = {t, mesh.source_triangle[i]};
+  }
+  for (std::uint32_t vertex = 0, first = 0; vertex < mesh.vertices.size(); first = next[vertex++])
+    std::sort(listed.begin() + first, listed.begin() + next[vertex], comes_first);
   for (std::size_t i = 0; i < listed.size(); ++i) {
     mesh.triangles[i] = listed[i].rotated;
     mesh.source_triangle[i] = listed[i].source;

@@ -53,14 +53,16 @@ void MeshStore::update(Entry& entry) {
     if (entry.topology != nullptr) shape = deformed(entry.topology, soup_, options_.open_thickness);
     if (shape == nullptr) {
       shape = std::make_shared<const Mesh>(
-          build_mesh(soup_, {.open_thickness = options_.open_thickness, .deformable = true}));
+          build_mesh(std::move(soup_),
+                     {.open_thickness = options_.open_thickness, .deformable = true}));
       entry.topology = shape->topology;
     }
     entry.mesh = std::move(shape);
   }
-  const std::string reason = why_refused(soup_);
+  const TriangleSoup& soup = entry.mesh->soup;
+  const std::string reason = why_refused(soup);
   if (!reason.empty() && !entry.refused)  // once for a mesh that goes on changing
-    log(LogLevel::kWarning, "a mesh of " + std::to_string(soup_.size() / 3) + " triangles " +
+    log(LogLevel::kWarning, "a mesh of " + std::to_string(soup.size() / 3) + " triangles " +
                                 reason + "; its pairs get no contacts");
   entry.refused = !reason.empty();
 }
@@ -72,7 +74,7 @@ std::shared_ptr<const Mesh> MeshStore::build() {
     auto mesh = known->second.lock();
     if (mesh != nullptr && compare_soups(mesh->soup, soup_) == 0) return mesh;
   }
-  auto mesh = std::make_shared<const Mesh>(build_mesh(soup_, options_));
+  auto mesh = std::make_shared<const Mesh>(build_mesh(std::move(soup_), options_));
   by_content_.emplace(hash, mesh);
   return mesh;
 }

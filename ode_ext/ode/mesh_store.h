@@ -71,7 +71,7 @@ class MeshStore {
     bool refused = false;
   };
 
-  void update(Entry& entry);  // from soup_
+  void update(Entry& entry);  // from soup_, which a mesh that is built keeps
   std::shared_ptr<const Mesh> build();
   static void drop(Entry& entry);
 
