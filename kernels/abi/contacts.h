@@ -80,7 +80,7 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 #define OX_PLANE_TOP 3u     // [m] along it, to where what of A is below has to rise
 #define OX_PLANE_BOTTOM 4u  // to where what of B is above has to sink; of a face the same
 #define OX_PLANE_FLAGS 5u   // OX_PLANE_..., a kind, with OX_PLANE_CROSSED, OX_PLANE_PASSED
-#define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and B (ox_ridge)
+#define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and of B
 #define OX_PLANE_WORDS 8u
 
 // What may become a contact, in the frame of B, each field for itself: of a pair with n features

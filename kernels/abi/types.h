@@ -217,18 +217,19 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet_node) % 64 == 0, ox_meshlet_nodes_are_aligned
 
 // In the order of MeshTopology::triangles, which neither the program's listing of a rigid mesh
 // decides nor the shape that a deformable one was first met in: so ties may go by it. Triangles of
-// no area have three equal corners here: no ray hits them. A neighbour is the triangle across an
-// edge, counted from the mesh's first; OX_NONE where there is none or more than one.
+// no area have three equal corners here: no ray hits them. At a side there is an edge, or within a
+// facet OX_WITHIN_FACET | the triangle across it, or OX_NONE (mesh/edges.h), over all meshes.
 typedef struct {
   ox_f32 a[3];
   ox_u32 padding;
   ox_f32 b[3];
-  ox_u32 across_ab;
+  ox_u32 side_ab;
   ox_f32 c[3];
-  ox_u32 across_bc;
+  ox_u32 side_bc;
   ox_f32 normal[3];  // unit, outward
-  ox_u32 across_ca;
+  ox_u32 side_ca;
 } ox_triangle;
+#define OX_WITHIN_FACET 0x80000000u
 OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
 
 // What the pair step finds for a pair of objects A = object[0], B = object[1]; displacements are
@@ -326,7 +327,6 @@ OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);
 
 // What a contact is of in a mesh: a kind, and which over all meshes. Indices are below 2^30: no
 // device has room for as many.
-#define OX_OF_SIDE 0u  // an edge, as a side of a triangle (ox_ridge)
 #define OX_OF_VERTEX 1u
 #define OX_OF_EDGE 2u
 #define OX_OF_FACET 3u  // as one of its triangles

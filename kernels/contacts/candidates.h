@@ -138,7 +138,7 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   if (!any_b) on_b = on_a;
   ox_touch touch;
   for (uint side = 0u; side < 2u; ++side)
-    touch.feature[side] = OX_OF(OX_OF_SIDE, choice->plane.id[side]);
+    touch.feature[side] = OX_OF(OX_OF_EDGE, choice->plane.id[side]);
   // Of what is wholly inside the other the points are of the inner mesh alone.
   const uint side = any_a ? 0u : 1u;
   const uint source = side == 0u ? ridge_a.face[0] : ridge_b.face[0];

@@ -363,8 +363,7 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
         edge_planes[2u * i + k] = OX_NONE;
       } else if (ox_side_of(f->flags) == 0u) {  // of two mates that of A proposes
         const ox_plane plane =
-            ox_plane_of_edges(scene, f->pair, ox_code_of_edge(scene, f->pair, 0u, f->source),
-                              ox_code_of_edge(scene, f->pair, 1u, features[mate >> 1].source));
+            ox_plane_of_edges(scene, f->pair, f->source, features[mate >> 1].source);
         edge_planes[2u * i + k] = edge_planes[mate] =
             ox_add_plane(regions + f->region, planes, &plane, 0u);
       }

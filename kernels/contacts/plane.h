@@ -19,7 +19,7 @@
 
 typedef struct {
   uint kind;      // OX_PLANE_...
-  uint id[2];     // of a face: its triangle, 0; else the edges, of A and of B (ox_ridge)
+  uint id[2];     // of a face: its triangle, 0; else the edges, of A and of B
   float3 normal;  // unit, the way A is moved
   float top;      // [m] along it, to where what of A is below has to rise
   float bottom;   // to where what of B is above has to sink
@@ -71,63 +71,26 @@ static inline float ox_plane_depth(const ox_plane* plane, uint side, float3 p) {
   return side == 0u ? plane->top - height : height - plane->bottom;
 }
 
-// An edge, as a side of the first of its triangles: 3 * triangle + k runs from corner k on.
+// An edge between facets.
 typedef struct {
-  uint code;
+  uint edge;
   float3 from, to;
   float3 along;  // unit; not finite where the edge has no length
   uint face[2];  // the second is OX_NONE at a border
 } ox_ridge;
 
-static inline uint ox_across(__global const ox_triangle* t, uint k) {
-  return k == 0u ? t->across_ab : k == 1u ? t->across_bc : t->across_ca;
-}
-
-static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, uint code) {
-  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
-  __global const ox_triangle* t = scene->surfaces.triangles + code / 3u;
-  const uint across = ox_across(t, code % 3u);
+static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, uint edge) {
+  __global const ox_edge* e = scene->edges + edge;
   ox_ridge ridge;
-  ridge.code = code;
-  ridge.from = ox_in_b(scene, pair, side, ox_corner(t, code % 3u));
-  ridge.to = ox_in_b(scene, pair, side, ox_corner(t, (code + 1u) % 3u));
+  ridge.edge = edge;
+  ridge.from = ox_vertex_of(scene, pair, side, e->vertex[0]);
+  ridge.to = ox_vertex_of(scene, pair, side, e->vertex[1]);
   // Of unit length: products of four lengths overflow long before lengths do.
   const float3 d = ridge.to - ridge.from;
   ridge.along = d / sqrt(ox_dot(d, d));
-  ridge.face[0] = code / 3u;
-  ridge.face[1] = across == OX_NONE ? OX_NONE : mesh->triangle_first + across;
+  ridge.face[0] = e->triangle[0];
+  ridge.face[1] = e->triangle[1];
   return ridge;
-}
-
-static inline bool ox_is_at(float3 a, float3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
-// Side k of a triangle, as a side of the first of those at it.
-static inline uint ox_code_of_side(const ox_scene* scene, uint pair, uint side, uint triangle,
-                                   uint k) {
-  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
-  __global const ox_triangle* t = scene->surfaces.triangles + triangle;
-  const uint across = ox_across(t, k);
-  if (across == OX_NONE || mesh->triangle_first + across > triangle) return 3u * triangle + k;
-  __global const ox_triangle* other = scene->surfaces.triangles + mesh->triangle_first + across;
-  for (uint i = 0u; i < 3u; ++i)  // it runs the other way there
-    if (ox_is_at(ox_corner(other, i), ox_corner(t, (k + 1u) % 3u)) &&
-        ox_is_at(ox_corner(other, (i + 1u) % 3u), ox_corner(t, k)))
-      return 3u * (mesh->triangle_first + across) + i;
-  return 3u * triangle + k;
-}
-
-static inline uint ox_code_of_edge(const ox_scene* scene, uint pair, uint side, uint edge) {
-  __global const ox_edge* e = scene->edges + edge;
-  const float3 p = vload3(0, scene->vertices[e->vertex[0]].position);
-  const float3 q = vload3(0, scene->vertices[e->vertex[1]].position);
-  __global const ox_triangle* t = scene->surfaces.triangles + e->triangle[0];
-  uint k = 0u;
-  for (; k < 2u; ++k) {
-    const float3 a = ox_corner(t, k);
-    const float3 b = ox_corner(t, k + 1u);
-    if ((ox_is_at(a, p) && ox_is_at(b, q)) || (ox_is_at(a, q) && ox_is_at(b, p))) break;
-  }
-  return ox_code_of_side(scene, pair, side, e->triangle[0], k);
 }
 
 // The sum of the normals of the faces at an edge.
@@ -172,15 +135,15 @@ static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, cons
       !ox_edge_supports(scene, pair, 0u, a, -plane.normal, -plane.bottom, tolerance))
     return plane;
   plane.kind = OX_PLANE_EDGES;
-  plane.id[0] = a->code;
-  plane.id[1] = b->code;
+  plane.id[0] = a->edge;
+  plane.id[1] = b->edge;
   return plane;
 }
 
-static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint code_a,
-                                         uint code_b) {
-  const ox_ridge a = ox_ridge_of(scene, pair, 0u, code_a);
-  const ox_ridge b = ox_ridge_of(scene, pair, 1u, code_b);
+static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint edge_a,
+                                         uint edge_b) {
+  const ox_ridge a = ox_ridge_of(scene, pair, 0u, edge_a);
+  const ox_ridge b = ox_ridge_of(scene, pair, 1u, edge_b);
   return ox_plane_of_ridges(scene, pair, &a, &b);
 }
 

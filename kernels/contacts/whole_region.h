@@ -15,24 +15,24 @@
 #define OX_MOST_EDGES 64u
 typedef struct {
   uint count;
-  uint code[OX_MOST_EDGES];
+  uint edge[OX_MOST_EDGES];
 } ox_edge_set;
 
 // In ascending order, so that of too many the first are kept, in whatever order they come.
-static inline void ox_add_code(ox_edge_set* set, uint code) {
+static inline void ox_add_edge(ox_edge_set* set, uint edge) {
   uint place = set->count;
-  while (place != 0u && set->code[place - 1u] > code) --place;
-  if (place == OX_MOST_EDGES || (place != 0u && set->code[place - 1u] == code)) return;
+  while (place != 0u && set->edge[place - 1u] > edge) --place;
+  if (place == OX_MOST_EDGES || (place != 0u && set->edge[place - 1u] == edge)) return;
   if (set->count < OX_MOST_EDGES) ++set->count;
-  for (uint i = set->count - 1u; i > place; --i) set->code[i] = set->code[i - 1u];
-  set->code[place] = code;
+  for (uint i = set->count - 1u; i > place; --i) set->edge[i] = set->edge[i - 1u];
+  set->edge[place] = edge;
 }
 
-static inline void ox_add_sides(const ox_region_view* r, uint side, uint triangle,
-                                ox_edge_set* set) {
-  for (uint k = 0u; k < 3u; ++k)
-    ox_add_code(set, ox_code_of_side(r->scene, r->pair, side, triangle, k));
+static inline uint ox_side_of_triangle(__global const ox_triangle* t, uint k) {
+  return k == 0u ? t->side_ab : k == 1u ? t->side_bc : t->side_ca;
 }
+
+static inline bool ox_is_edge(uint at_side) { return (at_side & OX_WITHIN_FACET) == 0u; }
 
 // The edges of mesh `side` at a feature.
 static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global const ox_feature* f,
@@ -40,11 +40,14 @@ static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global 
   const ox_scene* scene = r->scene;
   if (ox_is_vertex(f->flags)) {
     for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k)
-      ox_add_code(set, ox_code_of_edge(scene, r->pair, side, scene->rings[k].edge));
+      if (!ox_is_flat_edge(scene, scene->rings[k].edge)) ox_add_edge(set, scene->rings[k].edge);
   } else if (ox_side_of(f->flags) == side) {
-    ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
+    ox_add_edge(set, f->source);
   } else {
-    ox_add_sides(r, side, f->triangle, set);
+    for (uint k = 0u; k < 3u; ++k) {
+      const uint at = ox_side_of_triangle(scene->surfaces.triangles + f->triangle, k);
+      if (ox_is_edge(at)) ox_add_edge(set, at);
+    }
   }
 }
 
@@ -73,24 +76,19 @@ static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint secon
 #define OX_MOST_OF_FACET 4u
 
 // The edges of the facet of a triangle, as far as a walk over it from there finds them.
-static inline void ox_add_rim_near(const ox_region_view* r, uint side, uint triangle,
-                                   ox_edge_set* set) {
-  const ox_scene* scene = r->scene;
-  const uint first = scene->meshes[scene->pairs[r->pair].mesh[side]].triangle_first;
+static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_edge_set* set) {
   uint walked[OX_MOST_OF_FACET];
   walked[0] = triangle;
   uint count = 1u;
   for (uint i = 0u; i < count; ++i)
     for (uint k = 0u; k < 3u; ++k) {
-      const uint across = ox_across(scene->surfaces.triangles + walked[i], k);
-      const uint next = across == OX_NONE ? OX_NONE : first + across;
-      if (next == OX_NONE || scene->facets[next] != scene->facets[triangle]) {
-        ox_add_code(set, ox_code_of_side(scene, r->pair, side, walked[i], k));
-        continue;
-      }
-      uint at = 0u;
-      while (at < count && walked[at] != next) ++at;
-      if (at == count && count < OX_MOST_OF_FACET) walked[count++] = next;
+      const uint at = ox_side_of_triangle(r->scene->surfaces.triangles + walked[i], k);
+      if (ox_is_edge(at)) ox_add_edge(set, at);
+      if (ox_is_edge(at) || at == OX_NONE) continue;
+      const uint next = at & ~OX_WITHIN_FACET;
+      uint known = 0u;
+      while (known < count && walked[known] != next) ++known;
+      if (known == count && count < OX_MOST_OF_FACET) walked[count++] = next;
     }
 }
 
@@ -98,19 +96,19 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint side, uint tria
 static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
   const ox_scene* scene = r->scene;
   const uint facet = scene->facets[triangle];
-  ox_add_rim_near(r, side, triangle, set);
+  ox_add_rim_near(r, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
     if (ox_side_of(ox_flags_of(r, k)) != side) continue;
     __global const ox_feature* f = ox_feature_of(r, k);
     if (!ox_is_vertex(f->flags)) {
-      if (ox_are_at_facet(scene, f->at[0], f->at[1], facet))
-        ox_add_code(set, ox_code_of_edge(scene, r->pair, side, f->source));
+      if (ox_are_at_facet(scene, f->at[0], f->at[1], facet)) ox_add_edge(set, f->source);
       continue;
     }
     for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
-      __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
-      if (ox_are_at_facet(scene, edge->triangle[0], edge->triangle[1], facet))
-        ox_add_code(set, ox_code_of_edge(scene, r->pair, side, scene->rings[i].edge));
+      const uint edge = scene->rings[i].edge;
+      if (!ox_is_flat_edge(scene, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
+                                                           scene->edges[edge].triangle[1], facet))
+        ox_add_edge(set, edge);
     }
   }
 }
@@ -125,17 +123,16 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
     ox_edge_set own, past;
     own.count = past.count = 0u;
     if (from.kind == OX_PLANE_EDGES)
-      own.code[own.count++] = from.id[1u - side];
+      own.edge[own.count++] = from.id[1u - side];
     else
       ox_add_rim(r, 1u - side, from.id[0], &own);
     ox_add_farthest(r, side, from.normal, &past);
     for (uint i = 0u; i < own.count; ++i) {
-      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.code[i]);
+      const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.edge[i]);
       for (uint k = 0u; k < past.count; ++k) {
-        const ox_ridge other = ox_ridge_of(r->scene, r->pair, side, past.code[k]);
-        const ox_plane plane = side == 0u
-                                   ? ox_plane_of_ridges(r->scene, r->pair, &other, &ridge)
-                                   : ox_plane_of_ridges(r->scene, r->pair, &ridge, &other);
+        const ox_ridge other = ox_ridge_of(r->scene, r->pair, side, past.edge[k]);
+        const ox_plane plane = side == 0u ? ox_plane_of_ridges(r->scene, r->pair, &other, &ridge)
+                                          : ox_plane_of_ridges(r->scene, r->pair, &ridge, &other);
         ox_try_whole(r, &plane, search, best);
       }
       if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side)) continue;

@@ -22,9 +22,8 @@ static inline bool ox_cast_ray(const ox_scene* scene, uint list, ox_ray* ray, ui
   const float behind = ray->memory == OX_NONE ? 0.0f : 0.5f * target->mean_edge;
   uint remember = ray->triangle;
   if (list == OX_LIST_RAYS_ITERATIVE) {
-    const bool found =
-        ox_cast_iteratively(&vertex_ray, target, scene->surfaces.triangles, walk_limit, behind,
-                            &remember, outcome, &work->iterative);
+    const bool found = ox_cast_iteratively(scene, &vertex_ray, target, walk_limit, behind,
+                                           &remember, outcome, &work->iterative);
     if (!found || (scene->modes & OX_MODE_PAPER) == 0u) {
       ray->triangle = remember == OX_NONE ? OX_NONE : remember - target->triangle_first;
       return false;

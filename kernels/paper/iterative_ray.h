@@ -22,14 +22,22 @@ static inline float2 ox_sheared(const ox_cast* cast, float3 corner) {
   return (float2)(fma(-cast->sx, z, ox_axis(p, cast->kx)), fma(-cast->sy, z, ox_axis(p, cast->ky)));
 }
 
-static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangle* triangles,
-                                  uint first, uint start, uint limit, uint* work) {
+// The triangle across a side of another; OX_NONE: there is none.
+static inline uint ox_across(__global const ox_edge* edges, uint triangle, uint at_side) {
+  if (at_side == OX_NONE) return OX_NONE;
+  if ((at_side & OX_WITHIN_FACET) != 0u) return at_side & ~OX_WITHIN_FACET;
+  __global const ox_edge* edge = edges + at_side;
+  return edge->triangle[0] == triangle ? edge->triangle[1] : edge->triangle[0];
+}
+
+static inline ox_crossing ox_walk(const ox_cast* cast, const ox_scene* scene, uint start,
+                                  uint limit, uint* work) {
   ox_crossing crossing;
   crossing.triangle = OX_NONE;
   uint k = start;
   for (uint crossed = 0u; crossed <= limit; ++crossed) {
     *work += OX_WORK_TRIANGLE;
-    __global const ox_triangle* triangle = triangles + first + k;
+    __global const ox_triangle* triangle = scene->surfaces.triangles + k;
     const float3 corner_a = vload3(0, triangle->a);
     const float3 corner_b = vload3(0, triangle->b);
     const float3 corner_c = vload3(0, triangle->c);
@@ -49,12 +57,13 @@ static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangl
       // The very bits of ox_meets.
       if (!ox_meets(cast, corner_a, corner_b, corner_c, &crossing.t, &crossing.back))
         return crossing;
-      crossing.triangle = first + k;
+      crossing.triangle = k;
       return crossing;
     }
     // Across the edge that the line passes farthest outside of.
-    k = su <= sv && su <= sw ? triangle->across_bc
-                             : (sv <= sw ? triangle->across_ca : triangle->across_ab);
+    k = ox_across(scene->edges, k,
+                  su <= sv && su <= sw ? triangle->side_bc
+                                       : (sv <= sw ? triangle->side_ca : triangle->side_ab));
     if (k == OX_NONE) return crossing;
   }
   return crossing;
@@ -62,14 +71,14 @@ static inline ox_crossing ox_walk(const ox_cast* cast, __global const ox_triangl
 
 // True: *outcome is what the paper takes for the first hit. *triangle: in, over the target's
 // triangles, where to start; out, over all meshes, where the line crosses, or OX_NONE.
-static inline bool ox_cast_iteratively(const ox_vertex_ray* ray, __global const ox_mesh* mesh,
-                                       __global const ox_triangle* triangles, uint walk_limit,
-                                       float behind, uint* triangle, ox_outcome* outcome,
-                                       uint* work) {
+static inline bool ox_cast_iteratively(const ox_scene* scene, const ox_vertex_ray* ray,
+                                       __global const ox_mesh* mesh, uint walk_limit, float behind,
+                                       uint* triangle, ox_outcome* outcome, uint* work) {
+  __global const ox_triangle* triangles = scene->surfaces.triangles;
   const float epsilon = ray->epsilon;
   const ox_cast cast = ox_cast_from(ray->origin, ray->direction);
   const ox_crossing crossing =
-      ox_walk(&cast, triangles, mesh->triangle_first, *triangle, walk_limit, work);
+      ox_walk(&cast, scene, mesh->triangle_first + *triangle, walk_limit, work);
   *triangle = crossing.triangle;
   *outcome = ox_miss();
   if (crossing.triangle == OX_NONE) return false;

@@ -17,19 +17,6 @@ std::uint32_t facet_of(const MeshTopology& built, std::uint32_t triangle) {
   return to_feature(FeatureKind::kFacet, built.facets.empty() ? triangle : built.facets[triangle]);
 }
 
-// Side k of a triangle. Where more than two triangles meet, several edges have the same ends.
-std::uint32_t edge_of_side(const MeshTopology& built, std::uint32_t triangle, std::uint32_t k) {
-  const std::uint32_t from = built.triangles[triangle][k];
-  const std::uint32_t to = built.triangles[triangle][(k + 1) % 3];
-  for (std::uint32_t i = built.rings.starts[from]; i < built.rings.starts[from + 1]; ++i) {
-    const auto [vertex, edge] = built.rings.neighbours[i];
-    if (vertex != to || edge >= built.edges.size()) continue;
-    const auto& at = built.edges[edge].triangles;
-    if (at[0] == triangle || at[1] == triangle) return to_feature(FeatureKind::kEdge, edge);
-  }
-  return facet_of(built, triangle);
-}
-
 }  // namespace
 
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word) {
@@ -41,10 +28,8 @@ std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::ui
       return to_feature(FeatureKind::kVertex, index - place.vertex_first);
     case OX_OF_EDGE:
       return to_feature(FeatureKind::kEdge, index - place.edge_first);
-    case OX_OF_FACET:
-      return facet_of(built, index - place.triangle_first);
     default:
-      return edge_of_side(built, index / 3 - place.triangle_first, index % 3);
+      return facet_of(built, index - place.triangle_first);
   }
 }
 

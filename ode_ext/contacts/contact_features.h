@@ -12,7 +12,7 @@
 
 namespace ode_ext {
 
-// Of what the device says (OX_OF) of mesh `mesh`. An edge within a facet is the facet.
+// Of what the device says (OX_OF) of mesh `mesh`.
 std::uint32_t feature_of(const DeviceMeshes& meshes, std::uint32_t mesh, std::uint32_t word);
 
 // Two contacts of a pair may be of the same two features: an edge crosses a facet that is not quite

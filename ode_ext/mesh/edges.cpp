@@ -19,12 +19,22 @@ bool comes_before(const Vec3f& a, const Vec3f& b) {
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets) {
   Edges edges;
+  edges.sides.assign(half_edges.size() / 3, {kNone, kNone, kNone});
+  const auto side_of = [&](std::uint32_t side) -> std::uint32_t& {
+    return edges.sides[side / 3][side % 3];
+  };
   std::vector<Edge> found;
+  std::vector<std::array<std::uint32_t, 2>> sides;  // of those; the second is kNone if it is alone
   std::vector<Vec3f> middles;
-  for (std::size_t i = 0; i < half_edges.size();) {
+  const auto are_same = [&](std::size_t i, std::size_t k) {
+    return i < k && k < half_edges.size() && same_edge(half_edges[i], half_edges[k]);
+  };
+  for (std::size_t i = 0, begin = 0; i < half_edges.size();) {
+    if (!are_same(begin, i)) begin = i;
     const HalfEdge& a = half_edges[i];
-    const bool paired = i + 1 < half_edges.size() && same_edge(a, half_edges[i + 1]);
-    Edge edge{{a.low, a.high}, {a.side / 3, paired ? half_edges[i + 1].side / 3 : kNone}};
+    const bool paired = are_same(i, i + 1);
+    const HalfEdge& b = half_edges[paired ? i + 1 : i];
+    Edge edge{{a.low, a.high}, {a.side / 3, paired ? b.side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
     if (paired && !a.upward) std::swap(edge.triangles[0], edge.triangles[1]);
     // Where a deformable mesh's vertices are changes.
@@ -32,12 +42,17 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
       std::swap(edge.vertices[0], edge.vertices[1]);
       if (paired) std::swap(edge.triangles[0], edge.triangles[1]);
     }
+    const bool alone = begin == i && !are_same(i, i + 2);
     i += paired ? 2 : 1;
     if (paired && !facets.empty() && facets[edge.triangles[0]] == facets[edge.triangles[1]]) {
       edges.flat.push_back(edge);
+      if (!alone || a.upward == b.upward) continue;
+      side_of(a.side) = b.side / 3 | kWithinFacet;
+      side_of(b.side) = a.side / 3 | kWithinFacet;
       continue;
     }
     found.push_back(edge);
+    sides.push_back({a.side, paired ? b.side : kNone});
     middles.push_back(0.5f * vertices[edge.vertices[0]] + 0.5f * vertices[edge.vertices[1]]);
   }
   Joined joined(vertices.size());
@@ -46,12 +61,16 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
   };
   for (const Edge& edge : found) join(edge);
   std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
-  if (facets.empty()) {
-    edges.apart = std::move(found);
-    return edges;
-  }
+  const auto add = [&](std::size_t i) {
+    for (const std::uint32_t side : sides[i])
+      if (side != kNone) side_of(side) = static_cast<std::uint32_t>(edges.apart.size());
+    edges.apart.push_back(found[i]);
+  };
   edges.apart.reserve(found.size());
-  for (const std::uint32_t i : order_into_runs(middles)) edges.apart.push_back(found[i]);
+  if (facets.empty())
+    for (std::size_t i = 0; i < found.size(); ++i) add(i);
+  else
+    for (const std::uint32_t i : order_into_runs(middles)) add(i);
   return edges;
 }
 

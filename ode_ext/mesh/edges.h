@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edges of a mesh that are worth casting: those between facets, where its surface bends, and as
-// many within facets as join all its vertices.
+// many within facets as join all its vertices. And what is at the sides of its triangles.
 #pragma once
 
 #include <array>
@@ -20,11 +20,18 @@ struct Edge {
   std::array<std::uint32_t, 2> triangles;
 };
 
+// What is at each side of a triangle, from corner k to corner (k + 1) % 3: an edge between facets;
+// or within a facet kWithinFacet with the triangle across, a neighbour as in neighbours.h; kNone
+// where triangles of one facet meet that are no neighbours.
+using Sides = std::array<std::uint32_t, 3>;
+inline constexpr std::uint32_t kWithinFacet = 1u << 31;
+
 struct Edges {
   std::vector<Edge> apart;  // between facets, in runs by their middles (runs.h)
   // Within a facet, by their vertices: none of which the ends are joined by the others and `apart`.
   // So each two vertices that any edges of the mesh join, these join too.
   std::vector<Edge> flat;
+  std::vector<Sides> sides;  // of each triangle
 };
 
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they

@@ -11,8 +11,10 @@
 #include "mesh/facets.h"
 #include "mesh/half_edges.h"
 #include "mesh/measures.h"
+#include "mesh/neighbours.h"
 #include "mesh/normals.h"
 #include "mesh/orientation.h"
+#include "mesh/rings.h"
 #include "mesh/vertex_chunks.h"
 #include "mesh/weld.h"
 
@@ -31,12 +33,11 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 constexpr std::size_t kTrianglesAThread = 8192;
 
 // What depends on where the vertices are, and is made on the device of what deforms.
-void find_facets(Mesh& mesh, MeshTopology& topology) {
+void find_facets(const std::vector<Neighbours>& across, Mesh& mesh, MeshTopology& topology) {
   Normals normals = compute_normals(mesh.vertices, topology.triangles);
   mesh.normals = std::move(normals.vertices);
   mesh.face_normals = std::move(normals.faces);
-  topology.facets =
-      facets(mesh.vertices, topology.triangles, mesh.face_normals, topology.neighbours);
+  topology.facets = facets(mesh.vertices, topology.triangles, mesh.face_normals, across);
 }
 
 // What depends on edges.
@@ -45,9 +46,12 @@ void connect(Edges edges, const Bvh& bvh, std::size_t threads, MeshTopology& top
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
   do_both(
       threads, [&] { topology.meshlets = build_meshlets(bvh, topology.triangles, all); },
-      [&] { topology.rings = build_rings(topology.vertex_count, all); });
+      [&] {
+        topology.components = find_components(topology.vertex_count, edges.apart, edges.flat);
+      });
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
+  topology.sides = std::move(edges.sides);
 }
 
 }  // namespace
@@ -91,8 +95,8 @@ Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
   do_both(
       threads, [&] { bvh = build_bvh(mesh.vertices, triangles); },
       [&] {
-        topology->neighbours = neighbours(triangles.size(), half_edges);
-        if (!mesh.deformable) find_facets(mesh, *topology);
+        const std::vector<Neighbours> across = neighbours(triangles.size(), half_edges);
+        if (!mesh.deformable) find_facets(across, mesh, *topology);
         edges = find_edges(mesh.vertices, half_edges, topology->facets);
       });
   connect(std::move(edges), bvh, threads, *topology);

@@ -9,8 +9,6 @@
 #include "mesh/box.h"
 #include "mesh/edges.h"
 #include "mesh/meshlets.h"
-#include "mesh/neighbours.h"
-#include "mesh/rings.h"
 #include "mesh/runs.h"
 #include "mesh/triangle.h"
 #include "mesh/vec.h"
@@ -42,15 +40,15 @@ struct MeshTopology {
   std::vector<std::uint32_t> source_triangle;
   // Of deformable meshes: as in WeldedMesh.
   std::vector<std::uint32_t> corner_vertex;
-  // The triangles across each triangle's edges.
-  std::vector<Neighbours> neighbours;
   // For each triangle its facet, by the largest of its triangles (facets.h); empty for a deformable
   // mesh, whose triangles are facets each.
   std::vector<std::uint32_t> facets;
   // As in edges.h. Indices of edges count those between facets first, then those within one.
   std::vector<Edge> edges, flat_edges;
-  Meshlets meshlets;  // with these edges
-  Rings rings;        // of these edges
+  std::vector<Sides> sides;  // of each triangle
+  Meshlets meshlets;         // with these edges
+  // A vertex of each part that these edges join, its lowest.
+  std::vector<std::uint32_t> components;
 
   std::vector<VertexChunk> chunks;  // of the vertices
 

@@ -7,24 +7,36 @@
 
 namespace ode_ext {
 
-Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges) {
+Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges,
+                  const std::vector<Edge>& flat_edges) {
   Rings rings;
   rings.starts.resize(vertex_count + 1);
-  for (const Edge& edge : edges)
-    for (const std::uint32_t vertex : edge.vertices) ++rings.starts[vertex + 1];
+  for (const auto* some : {&edges, &flat_edges})
+    for (const Edge& edge : *some)
+      for (const std::uint32_t vertex : edge.vertices) ++rings.starts[vertex + 1];
   std::partial_sum(rings.starts.begin(), rings.starts.end(), rings.starts.begin());
-  rings.neighbours.resize(2 * edges.size());
+  rings.neighbours.resize(rings.starts.back());
   std::vector<std::uint32_t> next(rings.starts.begin(), rings.starts.end() - 1);
-  Joined joined(vertex_count);
-  for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const auto& [p, q] = edges[i].vertices;
-    rings.neighbours[next[p]++] = {q, i};
-    rings.neighbours[next[q]++] = {p, i};
-    joined.join(p, q);
-  }
-  for (std::uint32_t v = 0; v < vertex_count; ++v)
-    if (joined.lowest(v) == v) rings.components.push_back(v);
+  std::uint32_t i = 0;
+  for (const auto* some : {&edges, &flat_edges})
+    for (const Edge& edge : *some) {
+      const auto& [p, q] = edge.vertices;
+      rings.neighbours[next[p]++] = {q, i};
+      rings.neighbours[next[q]++] = {p, i};
+      ++i;
+    }
   return rings;
+}
+
+std::vector<std::uint32_t> find_components(std::size_t vertex_count, const std::vector<Edge>& edges,
+                                           const std::vector<Edge>& flat_edges) {
+  Joined joined(vertex_count);
+  for (const auto* some : {&edges, &flat_edges})
+    for (const Edge& edge : *some) joined.join(edge.vertices[0], edge.vertices[1]);
+  std::vector<std::uint32_t> components;
+  for (std::uint32_t v = 0; v < vertex_count; ++v)
+    if (joined.lowest(v) == v) components.push_back(v);
+  return components;
 }
 
 }  // namespace ode_ext

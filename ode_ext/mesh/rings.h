@@ -14,14 +14,18 @@ struct RingNeighbour {
   std::uint32_t vertex, edge;
 };
 
+// Of vertex v: neighbours[starts[v]] to before starts[v + 1], by their edges' order.
 struct Rings {
-  // Of vertex v: neighbours[starts[v]] to before starts[v + 1], by their edges' order.
   std::vector<std::uint32_t> starts;
   std::vector<RingNeighbour> neighbours;
-  // A vertex of each connected part, its lowest.
-  std::vector<std::uint32_t> components;
 };
 
-Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges);
+// Edges count those between facets first, then those within one, as in MeshTopology.
+Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges,
+                  const std::vector<Edge>& flat_edges);
+
+// A vertex of each part that the edges join, its lowest.
+std::vector<std::uint32_t> find_components(std::size_t vertex_count, const std::vector<Edge>& edges,
+                                           const std::vector<Edge>& flat_edges);
 
 }  // namespace ode_ext

@@ -9,6 +9,7 @@
 
 #include "mesh/both.h"
 #include "mesh/ray_cast.h"
+#include "mesh/rings.h"
 
 namespace ode_ext {
 namespace {
@@ -75,14 +76,20 @@ static_assert(kTreeWidth == OX_LANES && kTreeStack == OX_TREE_STACK);
 static_assert(offsetof(ox_meshlet_node, lo) % 64 == 0 && offsetof(ox_meshlet_node, hi) % 64 == 0,
               "lib/lanes.h loads them whole");
 
-static_assert(kNone == OX_NONE);
+static_assert(kNone == OX_NONE && kWithinFacet == OX_WITHIN_FACET);
 
-ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle) {
+// Over all meshes, what is at a side of a triangle (mesh/edges.h).
+ox_u32 over_all(std::uint32_t side, const MeshRange& first) {
+  if (side == kNone) return OX_NONE;
+  return side + ((side & kWithinFacet) != 0 ? first.triangle_first : first.edge_first);
+}
+
+ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle, const MeshRange& first) {
   ox_triangle record{};
-  const Neighbours& across = mesh.topology->neighbours[triangle];
-  record.across_ab = across[0];
-  record.across_bc = across[1];
-  record.across_ca = across[2];
+  const Sides& sides = mesh.topology->sides[triangle];
+  record.side_ab = over_all(sides[0], first);
+  record.side_bc = over_all(sides[1], first);
+  record.side_ca = over_all(sides[2], first);
   if (mesh.deformable) return record;
   const Triangle& corners = mesh.topology->triangles[triangle];
   const bool flat = mesh.face_normals[triangle] == Vec3f{};
@@ -223,7 +230,7 @@ void DeviceMeshes::reserve(const MeshList& meshes) {
   host_facets_.reserve(triangles);
   host_edges_.reserve(
       sum([](const MeshTopology& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); }));
-  host_rings_.reserve(sum([](const MeshTopology& mesh) { return mesh.rings.neighbours.size(); }));
+  host_rings_.reserve(2 * host_edges_.capacity());
   host_meshlets_.reserve(
       sum([](const MeshTopology& mesh) { return mesh.meshlets.meshlets.size(); }));
 }
@@ -248,7 +255,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
   record.meshlet_count = static_cast<ox_u32>(built.meshlets.meshlets.size());
   record.meshlet_node_first = static_cast<ox_u32>(host_meshlet_nodes_.size());
   record.meshlet_node_count = static_cast<ox_u32>(built.meshlets.tree.size());
-  record.component_count = static_cast<ox_u32>(built.rings.components.size());
+  record.component_count = static_cast<ox_u32>(built.components.size());
   record.flags = (mesh.closed() ? OX_MESH_CLOSED : 0u) |
                  (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
                  (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u);
@@ -274,19 +281,19 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
       worthwhile_threads(built.triangles.size(), kTrianglesAThread),
       [&] {
         append_edges(built, first);
-        append_rings(built.rings, first);
+        append_rings(built, first);
         append_owners(built, first.vertex_first);
       },
       [&] {
         append_meshlets(mesh, first, host_meshlets_);
-        append_triangles(mesh);
+        append_triangles(mesh, first);
       });
 }
 
-void DeviceMeshes::append_triangles(const Mesh& mesh) {
+void DeviceMeshes::append_triangles(const Mesh& mesh, const MeshRange& first) {
   const std::vector<std::uint32_t>& facets = mesh.topology->facets;
   for (std::uint32_t t = 0; t < mesh.topology->triangles.size(); ++t) {
-    host_triangles_.push_back(to_record(mesh, t));
+    host_triangles_.push_back(to_record(mesh, t, first));
     host_facets_.push_back(facets.empty() ? t : facets[t]);
   }
 }
@@ -316,7 +323,8 @@ void DeviceMeshes::append_edges(const MeshTopology& mesh, const MeshRange& first
   append_all(mesh.flat_edges);
 }
 
-void DeviceMeshes::append_rings(const Rings& rings, const MeshRange& first) {
+void DeviceMeshes::append_rings(const MeshTopology& mesh, const MeshRange& first) {
+  const Rings rings = build_rings(mesh.vertex_count, mesh.edges, mesh.flat_edges);
   const ox_u32 before = host_ring_starts_.back();
   for (std::size_t v = 1; v < rings.starts.size(); ++v)
     host_ring_starts_.push_back(before + rings.starts[v]);

@@ -66,8 +66,8 @@ class DeviceMeshes {
   // `before`: the shape it had until now, if it was here.
   void append(const Mesh& mesh, const Mesh* before);
   void append_edges(const MeshTopology& mesh, const MeshRange& first);
-  void append_rings(const Rings& rings, const MeshRange& first);
-  void append_triangles(const Mesh& mesh);
+  void append_rings(const MeshTopology& mesh, const MeshRange& first);
+  void append_triangles(const Mesh& mesh, const MeshRange& first);
   void append_owners(const MeshTopology& mesh, std::uint32_t vertex_first);
   void upload();
   void add_move(std::uint32_t mesh, const Mesh& shape, bool rests);

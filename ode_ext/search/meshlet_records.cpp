@@ -114,7 +114,7 @@ void store_firsts(const Mesh& mesh, const Meshlet& meshlet, std::vector<bool>& i
 
 void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records) {
   std::vector<bool> is_first(mesh.vertices.size());
-  for (const std::uint32_t vertex : mesh.topology->rings.components) is_first[vertex] = true;
+  for (const std::uint32_t vertex : mesh.topology->components) is_first[vertex] = true;
   for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
     ox_meshlet& record = records.emplace_back();
     store_indices(mesh, meshlet, range, record);

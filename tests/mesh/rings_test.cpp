@@ -31,12 +31,16 @@ Joints sides_of(const Mesh& mesh) {
   return sides;
 }
 
+Rings rings_of(const Mesh& mesh) {
+  return build_rings(mesh.vertices.size(), mesh.topology->edges, mesh.topology->flat_edges);
+}
+
 Joints joints_of(const Mesh& mesh) {
+  const Rings rings = rings_of(mesh);
   Joints joints;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    for (std::uint32_t k = mesh.topology->rings.starts[v]; k < mesh.topology->rings.starts[v + 1];
-         ++k)
-      joints.emplace(v, mesh.topology->rings.neighbours[k].vertex);
+    for (std::uint32_t k = rings.starts[v]; k < rings.starts[v + 1]; ++k)
+      joints.emplace(v, rings.neighbours[k].vertex);
   return joints;
 }
 
@@ -66,8 +70,8 @@ TEST(Rings, JoinByEdgesOfTrianglesAllThatTheseJoin) {
     const auto parts = parts_of(sides, mesh.vertices.size());
     EXPECT_EQ(parts_of(joints, mesh.vertices.size()), parts);
     EXPECT_EQ(std::set<std::uint32_t>(parts.begin(), parts.end()),
-              std::set<std::uint32_t>(mesh.topology->rings.components.begin(),
-                                      mesh.topology->rings.components.end()));
+              std::set<std::uint32_t>(mesh.topology->components.begin(),
+                                      mesh.topology->components.end()));
   }
 }
 
@@ -76,10 +80,10 @@ TEST(Rings, NameTheEdgeToEachNeighbour) {
   ASSERT_FALSE(mesh.topology->flat_edges.empty());
   std::vector<Edge> edges = mesh.topology->edges;
   edges.insert(edges.end(), mesh.topology->flat_edges.begin(), mesh.topology->flat_edges.end());
+  const Rings rings = rings_of(mesh);
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    for (std::uint32_t k = mesh.topology->rings.starts[v]; k < mesh.topology->rings.starts[v + 1];
-         ++k) {
-      const RingNeighbour& neighbour = mesh.topology->rings.neighbours[k];
+    for (std::uint32_t k = rings.starts[v]; k < rings.starts[v + 1]; ++k) {
+      const RingNeighbour& neighbour = rings.neighbours[k];
       const auto& ends = edges.at(neighbour.edge).vertices;
       EXPECT_EQ(std::minmax(ends[0], ends[1]), std::minmax(v, neighbour.vertex));
     }
@@ -87,13 +91,13 @@ TEST(Rings, NameTheEdgeToEachNeighbour) {
 
 TEST(Rings, HaveAVertexOfEachComponent) {
   const test::TestMesh cube = test::make_cube(1, 2);
-  EXPECT_EQ(build_mesh(soup_of(cube)).topology->rings.components.size(), 1u);
+  EXPECT_EQ(build_mesh(soup_of(cube)).topology->components.size(), 1u);
   const auto three = test::merged(test::merged(cube, test::moved(cube, {3, 0, 0})),
                                   test::moved(test::make_icosphere(1, 1), {9, 0, 0}));
   const Mesh mesh = build_mesh(soup_of(three));
-  ASSERT_EQ(mesh.topology->rings.components.size(), 3u);
+  ASSERT_EQ(mesh.topology->components.size(), 3u);
   std::multiset<long> places;
-  for (const std::uint32_t v : mesh.topology->rings.components)
+  for (const std::uint32_t v : mesh.topology->components)
     places.insert(std::lround(mesh.vertices[v].x / 4));
   EXPECT_EQ(places.count(2), 1u);
 }
