@@ -52,9 +52,8 @@ void MeshStore::update(Entry& entry) {
     std::shared_ptr<const Mesh> shape;
     if (entry.topology != nullptr) shape = deformed(entry.topology, soup_, options_.open_thickness);
     if (shape == nullptr) {
-      shape = std::make_shared<const Mesh>(
-          build_mesh(std::move(soup_),
-                     {.open_thickness = options_.open_thickness, .deformable = true}));
+      shape = std::make_shared<const Mesh>(build_mesh(
+          std::move(soup_), {.open_thickness = options_.open_thickness, .deformable = true}));
       entry.topology = shape->topology;
     }
     entry.mesh = std::move(shape);
