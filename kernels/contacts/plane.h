@@ -101,13 +101,16 @@ static inline float3 ox_ridge_normal(const ox_scene* scene, uint pair, uint side
                                    : first + ox_normal_of(scene, pair, side, ridge->face[1]);
 }
 
-// Whether the faces at an edge are behind the plane with normal n through it.
+// Whether the faces at an edge are behind the plane with normal n through it. Of one of no area it
+// is not known what is beyond.
 static inline bool ox_edge_supports(const ox_scene* scene, uint pair, uint side,
                                     const ox_ridge* ridge, float3 n, float height,
                                     float tolerance) {
   for (uint k = 0u; k < 2u; ++k) {
     if (ridge->face[k] == OX_NONE) continue;
     __global const ox_triangle* t = scene->surfaces.triangles + ridge->face[k];
+    const float3 normal = vload3(0, t->normal);
+    if (ox_dot(normal, normal) == 0.0f) return false;
     for (uint corner = 0u; corner < 3u; ++corner)
       if (ox_dot(n, ox_in_b(scene, pair, side, ox_corner(t, corner))) > height + tolerance)
         return false;

@@ -22,7 +22,8 @@ static inline float2 ox_sheared(const ox_cast* cast, float3 corner) {
   return (float2)(fma(-cast->sx, z, ox_axis(p, cast->kx)), fma(-cast->sy, z, ox_axis(p, cast->ky)));
 }
 
-// The triangle across a side of another; OX_NONE: there is none.
+// The triangle across a side of another; OX_NONE: there is none. Where more than two meet it is one
+// of them: only the paper's rule takes what a walk over it finds for the first.
 static inline uint ox_across(__global const ox_edge* edges, uint triangle, uint at_side) {
   if (at_side == OX_NONE) return OX_NONE;
   if ((at_side & OX_WITHIN_FACET) != 0u) return at_side & ~OX_WITHIN_FACET;

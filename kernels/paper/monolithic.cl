@@ -4,7 +4,7 @@
 // selects. Same tests, same culls, same data; only the input is sparse and the branches diverge.
 //
 // in    tasks: one for every chunk of every pair, most with nothing to do; pairs, meshes,
-//       chunks, vertices, triangles, meshlets, meshlet_nodes, temporal_before
+//       chunks, vertices, edges, triangles, meshlets, meshlet_nodes, temporal_before
 // out   hits: of vertices that are inside; temporal
 // item  1 vertex of 1 chunk of 1 pair, whether it can collide or not (grid-stride)
 // may overflow: OX_LIST_HITS

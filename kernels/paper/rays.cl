@@ -2,7 +2,7 @@
 // The ray step of all algorithms (GRAPP section 3.3), a kernel each: where does the ray from this
 // vertex leave the target?
 //
-// in    rays of one algorithm (its list), pairs, meshes, vertices, triangles, meshlets,
+// in    rays of one algorithm (its list), pairs, meshes, vertices, edges, triangles, meshlets,
 //       meshlet_nodes
 // out   hits: of vertices that are inside
 //       temporal: the triangle from which the next pass may start

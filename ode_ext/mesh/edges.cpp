@@ -61,6 +61,8 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
   };
   for (const Edge& edge : found) join(edge);
   std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
+  for (std::uint32_t v = 0; v < vertices.size(); ++v)
+    if (joined.lowest(v) == v) edges.components.push_back(v);
   const auto add = [&](std::size_t i) {
     for (const std::uint32_t side : sides[i])
       if (side != kNone) side_of(side) = static_cast<std::uint32_t>(edges.apart.size());

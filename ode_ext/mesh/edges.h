@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edges of a mesh that are worth casting: those between facets, where its surface bends, and as
-// many within facets as join all its vertices. And what is at the sides of its triangles.
+// many within facets as join all its vertices. What is at the sides of its triangles, and how many
+// parts it has.
 #pragma once
 
 #include <array>
@@ -31,7 +32,8 @@ struct Edges {
   // Within a facet, by their vertices: none of which the ends are joined by the others and `apart`.
   // So each two vertices that any edges of the mesh join, these join too.
   std::vector<Edge> flat;
-  std::vector<Sides> sides;  // of each triangle
+  std::vector<Sides> sides;               // of each triangle
+  std::vector<std::uint32_t> components;  // a vertex of each part that edges join, its lowest
 };
 
 // `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they

@@ -14,7 +14,6 @@
 #include "mesh/neighbours.h"
 #include "mesh/normals.h"
 #include "mesh/orientation.h"
-#include "mesh/rings.h"
 #include "mesh/vertex_chunks.h"
 #include "mesh/weld.h"
 
@@ -41,14 +40,11 @@ void find_facets(const std::vector<Neighbours>& across, Mesh& mesh, MeshTopology
 }
 
 // What depends on edges.
-void connect(Edges edges, const Bvh& bvh, std::size_t threads, MeshTopology& topology) {
+void connect(Edges edges, const Bvh& bvh, MeshTopology& topology) {
   std::vector<Edge> all = edges.apart;
   all.insert(all.end(), edges.flat.begin(), edges.flat.end());
-  do_both(
-      threads, [&] { topology.meshlets = build_meshlets(bvh, topology.triangles, all); },
-      [&] {
-        topology.components = find_components(topology.vertex_count, edges.apart, edges.flat);
-      });
+  topology.meshlets = build_meshlets(bvh, topology.triangles, all);
+  topology.components = std::move(edges.components);
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
   topology.sides = std::move(edges.sides);
@@ -89,17 +85,17 @@ Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
   mesh.box = box_of(mesh.vertices);
   mesh.mean_edge = mean_side(mesh.vertices, triangles);
   topology->chunks = cut_into_chunks(mesh.vertices);
-  const std::size_t threads = worthwhile_threads(triangles.size(), kTrianglesAThread);
   Bvh bvh;
   Edges edges;
   do_both(
-      threads, [&] { bvh = build_bvh(mesh.vertices, triangles); },
+      worthwhile_threads(triangles.size(), kTrianglesAThread),
+      [&] { bvh = build_bvh(mesh.vertices, triangles); },
       [&] {
         const std::vector<Neighbours> across = neighbours(triangles.size(), half_edges);
         if (!mesh.deformable) find_facets(across, mesh, *topology);
         edges = find_edges(mesh.vertices, half_edges, topology->facets);
       });
-  connect(std::move(edges), bvh, threads, *topology);
+  connect(std::move(edges), bvh, *topology);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     topology->soup = soup;

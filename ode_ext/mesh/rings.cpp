@@ -3,8 +3,6 @@
 
 #include <numeric>
 
-#include "mesh/joined.h"
-
 namespace ode_ext {
 
 Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges,
@@ -26,17 +24,6 @@ Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges,
       ++i;
     }
   return rings;
-}
-
-std::vector<std::uint32_t> find_components(std::size_t vertex_count, const std::vector<Edge>& edges,
-                                           const std::vector<Edge>& flat_edges) {
-  Joined joined(vertex_count);
-  for (const auto* some : {&edges, &flat_edges})
-    for (const Edge& edge : *some) joined.join(edge.vertices[0], edge.vertices[1]);
-  std::vector<std::uint32_t> components;
-  for (std::uint32_t v = 0; v < vertex_count; ++v)
-    if (joined.lowest(v) == v) components.push_back(v);
-  return components;
 }
 
 }  // namespace ode_ext

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which vertices are joined by edges, and how many parts of a mesh that makes.
+// Which vertices are joined by edges.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,5 @@ struct Rings {
 // Edges count those between facets first, then those within one, as in MeshTopology.
 Rings build_rings(std::size_t vertex_count, const std::vector<Edge>& edges,
                   const std::vector<Edge>& flat_edges);
-
-// A vertex of each part that the edges join, its lowest.
-std::vector<std::uint32_t> find_components(std::size_t vertex_count, const std::vector<Edge>& edges,
-                                           const std::vector<Edge>& flat_edges);
 
 }  // namespace ode_ext

@@ -228,9 +228,10 @@ void DeviceMeshes::reserve(const MeshList& meshes) {
   host_ring_starts_.reserve(vertices + 1);
   host_triangles_.reserve(triangles);
   host_facets_.reserve(triangles);
-  host_edges_.reserve(
-      sum([](const MeshTopology& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); }));
-  host_rings_.reserve(2 * host_edges_.capacity());
+  const std::size_t edges =
+      sum([](const MeshTopology& mesh) { return mesh.edges.size() + mesh.flat_edges.size(); });
+  host_edges_.reserve(edges);
+  host_rings_.reserve(2 * edges);
   host_meshlets_.reserve(
       sum([](const MeshTopology& mesh) { return mesh.meshlets.meshlets.size(); }));
 }

@@ -207,22 +207,15 @@ auto bits_with(const Scene& scene, const ColliderOptions& options) {
   return bits_of(collider.collide(scene, nullptr));
 }
 
-// One test for each size and width: kernels are compiled anew.
-class SeparatingPlanesBySize : public ::testing::TestWithParam<std::uint32_t> {};
-
-TEST_P(SeparatingPlanesBySize, AreTheSameBytes) {
-  const TestScene scene = random_scene(200, 61);
-  ColliderOptions options;
-  options.work_group_size = GetParam();
-  EXPECT_EQ(bits_with(scene.scene, options), bits_with(scene.scene, {}));
-}
-
-INSTANTIATE_TEST_SUITE_P(WorkGroups, SeparatingPlanesBySize, ::testing::Values(1u, 32u, 256u));
-
+// One test for each width: kernels are compiled anew. In lanes and without builtins:
+// SearchInLanes (search_test.cpp).
 class SeparatingPlanesByWidth : public ::testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(SeparatingPlanesByWidth, AreTheSameBytes) {
-  const TestScene scene = random_scene(200, 61);
+  TestScene scene = random_scene(200, 61);
+  // A tree of several levels.
+  const std::uint32_t fine = scene.add_mesh(make_icosphere(0.6, 4));
+  scene.add_pair(fine, at(30, 0, 0), fine, turned({1, 2, 3}, 0.4, {30.9, 0.1, 0.2}));
   ColliderOptions options;
   options.vector_width = GetParam();
   EXPECT_EQ(bits_with(scene.scene, options), bits_with(scene.scene, {}));

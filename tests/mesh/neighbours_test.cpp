@@ -85,7 +85,7 @@ TEST(Neighbours, MustRunTheEdgeTheOtherWay) {
             (std::vector<Neighbours>{{1, kNone, kNone}, {0, kNone, kNone}}));
 }
 
-TEST(Neighbours, OfNothingAreNone) { EXPECT_TRUE(neighbours(0, {}).empty()); }
+TEST(Neighbours, OfNothingAreNone) { EXPECT_TRUE(neighbours(0, half_edges_of({})).empty()); }
 
 }  // namespace
 }  // namespace ode_ext

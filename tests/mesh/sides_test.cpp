@@ -9,6 +9,7 @@
 #include "mesh/edges.h"
 #include "mesh/half_edges.h"
 #include "mesh/mesh.h"
+#include "mesh/neighbours.h"
 #include "mesh/shapes.h"
 #include "support/test_scene.h"
 
@@ -38,9 +39,16 @@ std::vector<std::multiset<std::uint32_t>> triangles_at_edges(const MeshTopology&
   return at;
 }
 
+// A plate of two triangles, and on the side that they have in common one upright.
+TriangleSoup plate_with_a_fin() {
+  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0},      {1, 1, 0},
+          {0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0.5f, 0.5f, 1}};
+}
+
 std::vector<TriangleSoup> soups_with_sides() {
   std::vector<TriangleSoup> all{shapes::sheet(4),
                                 shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}))};
+  all.push_back(plate_with_a_fin());
   for (const test::TestMesh& made : test::small_meshes()) all.push_back(soup_of(made));
   all.push_back(soup_of(test::make_cube(1, 4)));
   return all;
@@ -60,26 +68,48 @@ TEST(Sides, NameTheEdgesOfWhichEachTriangleIsOne) {
     }
 }
 
-TEST(Sides, NameTheTriangleAcrossWithinAFacet) {
-  const Mesh mesh = build_mesh(soup_of(test::make_cube(1, 4)));
-  const MeshTopology& built = *mesh.topology;
+TEST(Sides, NameTheNeighbourAcrossWithinAFacet) {
   std::size_t within = 0;
-  for (std::uint32_t t = 0; t < built.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t side = built.sides[t][k];
-      if (is_edge(side)) continue;
-      ++within;
-      const std::uint32_t across = side & ~kWithinFacet;
-      EXPECT_EQ(built.facets.at(across), built.facets[t]);
-      const auto ends = ends_of_side(built.triangles[t], k);
-      for (const std::uint32_t end : ends)
-        EXPECT_EQ(std::count(built.triangles[across].begin(), built.triangles[across].end(), end),
-                  1);
-      const Sides& back = built.sides[across];
-      EXPECT_EQ(std::count(back.begin(), back.end(), t | kWithinFacet), 1);
-    }
-  // All sides but those at the 12 edges of the cube, of 4 steps each, from either face.
-  EXPECT_EQ(within, 3 * built.triangles.size() - std::size_t{2 * 12 * 4});
+  for (const TriangleSoup& soup : soups_with_sides()) {
+    const Mesh mesh = build_mesh(soup);
+    const MeshTopology& built = *mesh.topology;
+    const auto across = neighbours(built.triangles.size(), half_edges_of(built.triangles));
+    for (std::uint32_t t = 0; t < built.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t next = across[t][k], side = built.sides[t][k];
+        const bool is_within = next != kNone && built.facets[next] == built.facets[t];
+        within += is_within ? 1 : 0;
+        if (is_within)
+          EXPECT_EQ(side, next | kWithinFacet);
+        else
+          EXPECT_TRUE(is_edge(side) || side == kNone);
+      }
+  }
+  EXPECT_GT(within, 500u);
+}
+
+// Two of the plate's, and the fin, meet: the two are of one facet, and no neighbours.
+TEST(Sides, AtAnEdgeWhereAFinStandsAreOfNoNeighbours) {
+  const Mesh mesh = build_mesh(plate_with_a_fin());
+  const MeshTopology& built = *mesh.topology;
+  const auto found = std::find_if(built.edges.begin(), built.edges.end(), [&](const Edge& edge) {
+    return mesh.vertices[edge.vertices[0]].z + mesh.vertices[edge.vertices[1]].z > 0.9f;
+  });
+  ASSERT_NE(found, built.edges.end());
+  const std::uint32_t fin = found->triangles[0];
+  std::size_t feet = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto ends = ends_of_side(built.triangles[fin], k);
+    if (std::any_of(ends.begin(), ends.end(), [&](auto v) { return mesh.vertices[v].z > 0.5f; }))
+      continue;
+    for (std::uint32_t t = 0; t < built.triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (t != fin && ends_of_side(built.triangles[t], i) == ends) {
+          ++feet;
+          EXPECT_TRUE(is_edge(built.sides[t][i]) || built.sides[t][i] == kNone);
+        }
+  }
+  EXPECT_EQ(feet, 2u);
 }
 
 TEST(Sides, AreOfEdgesAloneWhereAMeshDeforms) {
