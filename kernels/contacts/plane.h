@@ -101,19 +101,59 @@ static inline float3 ox_ridge_normal(const ox_scene* scene, uint pair, uint side
                                    : first + ox_normal_of(scene, pair, side, ridge->face[1]);
 }
 
-// Whether the faces at an edge are behind the plane with normal n through it. Of one of no area it
-// is not known what is beyond.
-static inline bool ox_edge_supports(const ox_scene* scene, uint pair, uint side,
-                                    const ox_ridge* ridge, float3 n, float height,
-                                    float tolerance) {
+static inline uint ox_side_of_triangle(__global const ox_triangle* t, uint k) {
+  return k == 0u ? t->side_ab : k == 1u ? t->side_bc : t->side_ca;
+}
+
+static inline bool ox_is_edge(uint at_side) { return (at_side & OX_WITHIN_FACET) == 0u; }
+
+// What a face at an edge has to be behind, or else the edge does not support it.
+typedef struct {
+  uint pair, side;
+  float3 normal;
+  float height;  // [m] along it
+} ox_support;
+
+static inline bool ox_has_area(__global const ox_triangle* t) {
+  return t->normal[0] != 0.0f || t->normal[1] != 0.0f || t->normal[2] != 0.0f;
+}
+
+// Of a face of no area it is not told.
+static inline bool ox_is_behind_support(const ox_scene* scene, const ox_support* support,
+                                        uint face) {
+  __global const ox_triangle* t = scene->surfaces.triangles + face;
+  for (uint corner = 0u; corner < 3u; ++corner) {
+    const float3 p = ox_in_b(scene, support->pair, support->side, ox_corner(t, corner));
+    if (ox_dot(support->normal, p) > support->height) return false;
+  }
+  return ox_has_area(t);
+}
+
+// The same of what is across the other sides of a face of no area, as lies between one long edge
+// and two short ones.
+static inline bool ox_is_all_behind(const ox_scene* scene, const ox_support* support, uint face,
+                                    uint edge) {
+  for (uint k = 0u; k < 3u; ++k) {
+    const uint at = ox_side_of_triangle(scene->surfaces.triangles + face, k);
+    if (at == edge) continue;
+    if (!ox_is_edge(at)) return false;
+    __global const uint* of_edge = scene->edges[at].triangle;
+    const uint across = of_edge[0] == face ? of_edge[1] : of_edge[0];
+    if (across == OX_NONE || !ox_is_behind_support(scene, support, across)) return false;
+  }
+  return true;
+}
+
+// Whether the faces at an edge are behind a plane through it.
+static inline bool ox_edge_supports(const ox_scene* scene, const ox_support* support,
+                                    const ox_ridge* ridge) {
   for (uint k = 0u; k < 2u; ++k) {
-    if (ridge->face[k] == OX_NONE) continue;
-    __global const ox_triangle* t = scene->surfaces.triangles + ridge->face[k];
-    const float3 normal = vload3(0, t->normal);
-    if (ox_dot(normal, normal) == 0.0f) return false;
-    for (uint corner = 0u; corner < 3u; ++corner)
-      if (ox_dot(n, ox_in_b(scene, pair, side, ox_corner(t, corner))) > height + tolerance)
-        return false;
+    const uint face = ridge->face[k];
+    if (face == OX_NONE) continue;
+    if (ox_has_area(scene->surfaces.triangles + face)
+            ? !ox_is_behind_support(scene, support, face)
+            : !ox_is_all_behind(scene, support, face, ridge->edge))
+      return false;
   }
   return true;
 }
@@ -128,14 +168,16 @@ static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, cons
   const float3 n = ox_plain_cross(a->along, b->along);
   const float sine2 = ox_dot(n, n);
   if (!(sine2 > OX_PARALLEL * OX_PARALLEL)) return plane;  // or an edge has no length
-  const bool outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, b)) >= 0.0f;
-  plane.normal = (outward ? n : -n) / sqrt(sine2);
+  const float outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, b));
+  if (outward == 0.0f) return plane;  // its faces have no area
+  plane.normal = (outward > 0.0f ? n : -n) / sqrt(sine2);
   plane.top = ox_dot(plane.normal, b->from);
   plane.bottom = ox_dot(plane.normal, a->from);
   const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;
-  if (plane.top < plane.bottom ||
-      !ox_edge_supports(scene, pair, 1u, b, plane.normal, plane.top, tolerance) ||
-      !ox_edge_supports(scene, pair, 0u, a, -plane.normal, -plane.bottom, tolerance))
+  const ox_support of_b = {pair, 1u, plane.normal, plane.top + tolerance};
+  const ox_support of_a = {pair, 0u, -plane.normal, -plane.bottom + tolerance};
+  if (plane.top < plane.bottom || !ox_edge_supports(scene, &of_b, b) ||
+      !ox_edge_supports(scene, &of_a, a))
     return plane;
   plane.kind = OX_PLANE_EDGES;
   plane.id[0] = a->edge;

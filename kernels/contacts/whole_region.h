@@ -28,12 +28,6 @@ static inline void ox_add_edge(ox_edge_set* set, uint edge) {
   set->edge[place] = edge;
 }
 
-static inline uint ox_side_of_triangle(__global const ox_triangle* t, uint k) {
-  return k == 0u ? t->side_ab : k == 1u ? t->side_bc : t->side_ca;
-}
-
-static inline bool ox_is_edge(uint at_side) { return (at_side & OX_WITHIN_FACET) == 0u; }
-
 // The edges of mesh `side` at a feature.
 static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global const ox_feature* f,
                                    ox_edge_set* set) {

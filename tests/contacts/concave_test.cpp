@@ -115,5 +115,46 @@ TEST(Concave, ContactsOfABallInAFineTroughAreNoDeeperThanItIs) {
   }
 }
 
+// Two slopes of a roof, the one with a long side at the crest and the other with two short ones: a
+// triangle of no area lies between. `is_whole`: or the former has two as well, and there is none.
+TestMesh roof(bool is_whole) {
+  const float c = std::sqrt(0.75f), s = -0.5f;
+  TestMesh mesh{{-1, -1, 0, -1, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, c, -1, s, c, 1, s},
+                {0, 4, 1, 2, 5, 3, 3, 5, 6, 3, 6, 4}};
+  if (is_whole)
+    mesh.indices.insert(mesh.indices.end(), {0, 2, 3, 0, 3, 4});
+  else
+    mesh.indices.insert(mesh.indices.end(), {0, 2, 4, 2, 3, 4});
+  return mesh;
+}
+
+Contact deepest_of(const std::vector<Contact>& contacts) {
+  return *std::max_element(contacts.begin(), contacts.end(),
+                           [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
+}
+
+// Rods on edge across the crest, level with what is between the slopes and steeper than either.
+TEST(Concave, ContactsAtATriangleOfNoAreaAreThoseOfTheRoofWithoutIt) {
+  for (const double slope : {-0.26, -0.1, -0.45, -1.05})
+    for (const double y : {0.37, -0.52})
+      for (const double deep : {0.002, 0.01}) {
+        SCOPED_TRACE(std::to_string(slope) + ", " + std::to_string(y));
+        TestPose pose =
+            composed(turned({0, 1, 0}, -slope), turned({1, 0, 0}, std::numbers::pi / 4));
+        pose.position = {0, y, 0.1 * std::sqrt(0.5) - deep};
+        for (const TestPose& frame : some_frames()) {
+          const auto found =
+              Placed{make_rod(1, 0.1), roof(false), pose, TestPose{}}.contacts(frame);
+          const auto whole = Placed{make_rod(1, 0.1), roof(true), pose, TestPose{}}.contacts(frame);
+          ASSERT_FALSE(found.empty());
+          ASSERT_FALSE(whole.empty());
+          const Contact ours = deepest_of(found), theirs = deepest_of(whole);
+          EXPECT_NEAR(ours.depth, theirs.depth, 0.01 * theirs.depth);
+          EXPECT_NEAR(ours.normal.x, theirs.normal.x, 0.01);
+          EXPECT_NEAR(ours.normal.z, theirs.normal.z, 0.01);
+        }
+      }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
