@@ -227,11 +227,12 @@ TEST_P(SearchInLanes, FindsTheSameBytesByVectorsAndByItems) {
   EXPECT_EQ(contacts(options), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Widths, SearchInLanes,
-    testing::Values(std::tuple{8u, Lanes::kVectors, false}, std::tuple{16u, Lanes::kVectors, true},
-                    std::tuple{16u, Lanes::kVectors, false}, std::tuple{1u, Lanes::kItems, true},
-                    std::tuple{8u, Lanes::kItems, true}));
+INSTANTIATE_TEST_SUITE_P(Widths, SearchInLanes,
+                         testing::Values(std::tuple{8u, Lanes::kVectors, false},
+                                         std::tuple{16u, Lanes::kVectors, true},
+                                         std::tuple{16u, Lanes::kVectors, false},
+                                         std::tuple{1u, Lanes::kItems, true},
+                                         std::tuple{8u, Lanes::kItems, true}));
 
 }  // namespace
 }  // namespace ode_ext::test
