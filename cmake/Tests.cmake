@@ -29,7 +29,6 @@ list(REMOVE_ITEM support_sources ${world_sources} ${PROJECT_SOURCE_DIR}/tests/su
 add_library(ode_ext_test_support STATIC EXCLUDE_FROM_ALL ${support_sources})
 set_target_properties(ode_ext_test_support PROPERTIES LINKER_LANGUAGE CXX)
 ode_ext_compile_options(ode_ext_test_support)
-ode_ext_whole_rooms(ode_ext_test_support)
 target_link_libraries(ode_ext_test_support PUBLIC ode_ext_test_world)
 
 # For programs of many files, of whose compiling more than half is reading these.
@@ -44,7 +43,6 @@ list(FILTER accuracy_sources EXCLUDE REGEX "(/main|_test)\\.cpp$")
 add_library(contact_accuracy_parts OBJECT ${accuracy_sources})
 ode_ext_compile_options(contact_accuracy_parts)
 ode_ext_precompile(contact_accuracy_parts)
-ode_ext_whole_rooms(contact_accuracy_parts)
 # Where a string is put together there, gcc 12 sees it overrun.
 set_source_files_properties(tests/bench/accuracy/markdown.cpp PROPERTIES
                             SKIP_PRECOMPILE_HEADERS ON)
@@ -78,7 +76,6 @@ list(FILTER measuring_sources EXCLUDE REGEX "_test\\.cpp$")
 add_library(ode_ext_measuring_parts OBJECT EXCLUDE_FROM_ALL ${measuring_sources})
 ode_ext_compile_options(ode_ext_measuring_parts)
 ode_ext_precompile(ode_ext_measuring_parts)
-ode_ext_whole_rooms(ode_ext_measuring_parts)
 target_link_libraries(ode_ext_measuring_parts PUBLIC
   ode_ext_test_support demo_parts nlohmann_json::nlohmann_json CLI11::CLI11 fcl Eigen3::Eigen)
 
@@ -171,7 +168,6 @@ list(REMOVE_ITEM stability_sources ${measuring_sources})
 add_executable(contact_stability ${stability_sources})
 ode_ext_compile_options(contact_stability)
 ode_ext_precompile(contact_stability)
-ode_ext_whole_rooms(contact_stability)
 target_link_libraries(contact_stability PRIVATE
   ode_ext_core ode_ext_measuring_parts ode_ext_oracles demo_parts)
 
