@@ -37,7 +37,6 @@ typedef struct {
   bool told;     // a crossing tells of an end of its edge
   bool asks;     // it goes on from vertices of which none tells
   bool refuted;  // and got to one that is outside by a crossing
-  uint begin;    // the vertex from which the flood came to those that it is at
   uint crossed;  // so many of the queue are of parts that have crossings
 } ox_flood_state;
 
@@ -59,37 +58,60 @@ static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
   return true;
 }
 
-// Queues a vertex. False: there is no room, or it is known to be in front.
-static bool ox_flood_vertex(ox_flood_state* s, uint vertex) {
-  const uint key = OX_KEY(vertex, OX_KEY_VERTEX);
-  if (ox_has_key(s, key)) return true;
+static bool ox_is_looked_at(const ox_flood_state* s, uint vertex) {
+  if (s->table.places == 0u) return false;
+  const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex / 32u, OX_KEY_VERTICES));
+  return s->words[word] != 0u && (s->words[word + 1u] >> vertex % 32u & 1u) != 0u;
+}
+
+// False: there is no room.
+static bool ox_look_at(ox_flood_state* s, uint vertex) {
+  if (!ox_grow_table(&s->scene, s->words, &s->table)) return false;
+  const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
+  const uint word = ox_find_key(s->words, &s->table, key);
+  if (s->words[word] == 0u) {
+    s->words[word] = key;
+    s->words[word + 1u] = 0u;
+    ++s->table.used;
+  }
+  s->words[word + 1u] |= 1u << vertex % 32u;
+  return true;
+}
+
+// The first of those in the queue that hang together has this bit.
+#define OX_QUEUE_BEGINS 0x80000000u
+
+// Queues a vertex, with that bit or without. False: there is no room, or it is known to be in
+// front.
+static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
+  if (ox_is_looked_at(s, vertex)) return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
     s->leaks = ox_is_open(s);
     s->refuted = s->asks;
     return false;
   }
-  if (!ox_add_key(s, key, s->begin)) return false;
-  ox_queue(s->words, &s->table)[s->table.queued++] = vertex;
+  if (!ox_look_at(s, vertex)) return false;
+  ox_queue(s->words, &s->table)[s->table.queued++] = vertex | begins;
   return true;
+}
+
+static uint ox_queued(const ox_flood_state* s, uint i) {
+  return ox_queue(s->words, &s->table)[i] & ~OX_QUEUE_BEGINS;
 }
 
 // What hangs together lies in the queue one after the other; all of it names the first of it that
 // bounds anything.
 static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
-  uint begin = OX_NONE;
   uint first = OX_NONE;
   for (uint i = 0u; i < s->table.queued; ++i) {
-    const uint vertex = ox_queue(s->words, &s->table)[i];
+    const uint vertex = ox_queued(s, i);
+    if (vertex != ox_queue(s->words, &s->table)[i]) first = OX_NONE;
     if (ox_is_open(s)) {
       ox_append_ray(&s->scene, s->pair_side, vertex, rays);
       continue;
     }
-    if (ox_is_flat_vertex(&s->scene, s->pair_side >> 1, vertex)) continue;
-    const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex, OX_KEY_VERTEX));
-    if (s->words[word + 1u] != begin) {
-      begin = s->words[word + 1u];
-      first = vertex;
-    }
+    if (ox_is_flat_vertex(&s->scene, s->pair, s->pair_side & 1u, vertex)) continue;
+    if (first == OX_NONE) first = vertex;
     ox_append_inside(&s->scene, s->pair_side, vertex,
                      i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first, rays);
   }
@@ -192,11 +214,11 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 
 // On from the next vertex of the queue over edges that do not cross.
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
-  const uint vertex = ox_queue(s->words, &s->table)[(*next)++];
+  const uint vertex = ox_queued(s, (*next)++);
   for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
     const ox_neighbour neighbour = s->scene.rings[i];
-    if (ox_has_key(s, OX_KEY(neighbour.vertex, OX_KEY_VERTEX))) continue;  // as mostly
-    if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex)) return false;
+    if (ox_is_looked_at(s, neighbour.vertex)) continue;  // as mostly
+    if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, 0u)) return false;
   }
   return true;
 }
@@ -209,8 +231,7 @@ static bool ox_flood_on(ox_flood_state* s, uint* next) {
 
 // From a vertex to all that hang together with it, before another is begun with.
 static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
-  s->begin = vertex;
-  return ox_flood_vertex(s, vertex) && ox_flood_on(s, next);
+  return ox_flood_vertex(s, vertex, OX_QUEUE_BEGINS) && ox_flood_on(s, next);
 }
 
 static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
@@ -257,12 +278,11 @@ static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_insi
   if (!is_near && !is_inside) return true;
   const uint queued = s->table.queued;
   s->refuted = false;
-  s->begin = vertex;
-  bool done = ox_flood_vertex(s, vertex);
+  bool done = ox_flood_vertex(s, vertex, OX_QUEUE_BEGINS);
   for (uint asked = queued + 1u; done && is_near; ++asked) {
     while (done && asked == s->table.queued && *next < asked) done = ox_flood_next(s, next);
     if (!done || asked == s->table.queued) break;
-    const uint other = ox_queue(s->words, &s->table)[asked];
+    const uint other = ox_queued(s, asked);
     is_near = ox_is_near_surface(s, other);
     if (!is_near) is_inside = ox_is_vertex_inside(s, other);
   }
@@ -275,9 +295,7 @@ static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_insi
 static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint vertex = s->scene.edges[edge].vertex[end];
-    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE ||
-        ox_has_key(s, OX_KEY(vertex, OX_KEY_VERTEX)))
-      continue;
+    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_is_looked_at(s, vertex)) continue;
     const uint key = OX_KEY(vertex, OX_KEY_OUTSIDE);
     if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_OUTSIDE_SO_FAR)) return false;
     const uint word = ox_find_key(s->words, &s->table, key);
@@ -290,7 +308,7 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
 }
 
 static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
-  return ox_has_key(s, OX_KEY(first, OX_KEY_VERTEX)) || ox_flood_if_inside(s, first, true, next);
+  return ox_is_looked_at(s, first) || ox_flood_if_inside(s, first, true, next);
 }
 
 // Parts of the source that no crossing told of. Behind an open target they are not: what of it is

@@ -104,6 +104,7 @@ typedef struct {
   ox_u32 meshlet_first, meshlet_count;
   ox_u32 meshlet_node_first, meshlet_node_count;
   ox_u32 component_count;  // parts that no edge joins
+  ox_u32 flat_edge_first;  // its edges from here on, over all meshes, are within facets
   ox_u32 flags;
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
@@ -113,7 +114,7 @@ typedef struct {
   ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
   ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 84, ox_mesh_is_84_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
 
 typedef struct {
   ox_f32 position[3];

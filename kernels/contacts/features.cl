@@ -40,7 +40,8 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       f.t = crossing.t;
       f.at[0] = scene->edges[crossing.edge].triangle[0];
       f.at[1] = scene->edges[crossing.edge].triangle[1];
-      if (ox_is_flat_edge(scene, crossing.edge)) f.flags |= OX_FEATURE_FLAT;
+      if (ox_is_flat_edge(ox_mesh_of(scene, scene->pairs + f.pair, side), crossing.edge))
+        f.flags |= OX_FEATURE_FLAT;
       f.mate[0] = i << 1;
       if (f.at[1] != OX_NONE) f.mate[1] = i << 1 | 1u;
       const float3 p = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[0]);
@@ -51,7 +52,7 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       __global const ox_hit* hit = hits + (i - crossed);
       const uint side = hit->pair_side & 1u;
       f.pair = hit->pair_side >> 1;
-      const bool is_flat = ox_is_flat_vertex(scene, f.pair, hit->vertex);
+      const bool is_flat = ox_is_flat_vertex(scene, scene->pairs + f.pair, side, hit->vertex);
       f.flags = side | OX_FEATURE_VERTEX | (is_flat ? OX_FEATURE_FLAT : 0u) |
                 ((hit->kind & OX_HIT_REVERSED) != 0u ? OX_FEATURE_REVERSED : 0u);
       f.source = hit->vertex;
@@ -238,9 +239,10 @@ __kernel void region_begin(OX_SCENE_PARAMETERS, __global ox_feature* features,
 // Whether its mesh is not convex at an edge of a feature.
 static bool ox_is_in_valley(const ox_scene* scene, __global const ox_feature* f) {
   if (!ox_is_vertex(f->flags)) return ox_is_valley(scene, f->pair, f->source);
+  __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + f->pair, ox_side_of(f->flags));
   for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k) {
     const uint edge = scene->rings[k].edge;
-    if (!ox_is_flat_edge(scene, edge) && ox_is_valley(scene, f->pair, edge)) return true;
+    if (!ox_is_flat_edge(mesh, edge) && ox_is_valley(scene, f->pair, edge)) return true;
   }
   return false;
 }

@@ -129,13 +129,13 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   const ox_limits limits = {OX_CLEARANCE * r->scene->pairs[r->pair].epsilon, best->judged};
   ox_extent extent = ox_begin_extent(plane);
   if (ox_least_depth(r, &limits, kept, &extent) == INFINITY) return extent.past > limits.past;
-  const float tie = ox_edge_tie(r, plane);
-  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
-  if (beyond + tie > best->judged) return false;
   ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
   choice.depth = ox_whole_depth(r, &limits, kept, &extent);
   if (choice.depth == INFINITY) return extent.past > limits.past;
+  const float tie = ox_edge_tie(r, plane);
+  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
+  if (beyond + tie > best->judged) return false;
   choice.judged = ox_max(choice.depth, beyond) + tie;
   choice.of_body = beyond > choice.depth;
   // A pair of edges holds where it is; its contact says how far all of the body has to go.

@@ -33,8 +33,9 @@ static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global 
                                    ox_edge_set* set) {
   const ox_scene* scene = r->scene;
   if (ox_is_vertex(f->flags)) {
+    __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
     for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k)
-      if (!ox_is_flat_edge(scene, scene->rings[k].edge)) ox_add_edge(set, scene->rings[k].edge);
+      if (!ox_is_flat_edge(mesh, scene->rings[k].edge)) ox_add_edge(set, scene->rings[k].edge);
   } else if (ox_side_of(f->flags) == side) {
     ox_add_edge(set, f->source);
   } else {
@@ -90,6 +91,7 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_ed
 static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
   const ox_scene* scene = r->scene;
   const uint facet = scene->facets[triangle];
+  __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
   ox_add_rim_near(r, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
     if (ox_side_of(ox_flags_of(r, k)) != side) continue;
@@ -100,8 +102,8 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
     }
     for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
       const uint edge = scene->rings[i].edge;
-      if (!ox_is_flat_edge(scene, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
-                                                           scene->edges[edge].triangle[1], facet))
+      if (!ox_is_flat_edge(mesh, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
+                                                          scene->edges[edge].triangle[1], facet))
         ox_add_edge(set, edge);
     }
   }

@@ -5,23 +5,26 @@
 
 #include "lib/scene.h"
 
-// Whether the faces at an edge are of one facet.
-static inline bool ox_is_flat_edge(const ox_scene* scene, uint edge) {
-  const uint second = scene->edges[edge].triangle[1];
-  return second != OX_NONE &&
-         scene->facets[scene->edges[edge].triangle[0]] == scene->facets[second];
+static inline __global const ox_mesh* ox_mesh_of(const ox_scene* scene,
+                                                 __global const ox_pair* pair, uint side) {
+  return scene->meshes + pair->mesh[side];
 }
 
-// Whether a vertex is within a facet, so that it bounds nothing. Of a mesh that changes its shape,
-// or of one beside it, every vertex may need a contact.
-static inline bool ox_is_flat_vertex(const ox_scene* scene, uint pair, uint vertex) {
-  __global const uint* of_pair = scene->pairs[pair].mesh;
-  if (((scene->meshes[of_pair[0]].flags | scene->meshes[of_pair[1]].flags) & OX_MESH_DEFORMABLE) !=
-      0u)
-    return false;
-  for (uint k = scene->ring_starts[vertex]; k < scene->ring_starts[vertex + 1u]; ++k)
-    if (!ox_is_flat_edge(scene, scene->rings[k].edge)) return false;
-  return true;
+// Whether the faces at an edge are of one facet.
+static inline bool ox_is_flat_edge(__global const ox_mesh* mesh, uint edge) {
+  return edge >= mesh->flat_edge_first;
+}
+
+// Whether a vertex is within a facet, so that it bounds nothing: then the first edge at it is, too.
+// Of a mesh that changes its shape, or of one beside it, every vertex may need a contact.
+static inline bool ox_is_flat_vertex(const ox_scene* scene, __global const ox_pair* pair, uint side,
+                                     uint vertex) {
+  __global const ox_mesh* mesh = ox_mesh_of(scene, pair, side);
+  const uint flags = mesh->flags | ox_mesh_of(scene, pair, 1u - side)->flags;
+  if ((flags & OX_MESH_DEFORMABLE) != 0u) return false;
+  const uint first = scene->ring_starts[vertex];
+  return first == scene->ring_starts[vertex + 1u] ||
+         ox_is_flat_edge(mesh, scene->rings[first].edge);
 }
 
 #endif

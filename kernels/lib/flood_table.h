@@ -2,7 +2,7 @@
 // What a flood knows of one side of a pair: a hash table with open addressing, and the queue of the
 // vertices to go on from. Grows by moving, so that room goes by what is found. Device only.
 //
-// Segment of 2^k places: a key and a value each, then the queue, half as many words.
+// Segment of 2^k places: a key and a value each, then the queue, OX_QUEUE_ROOM words a place.
 #ifndef ODE_EXT_KERNELS_LIB_FLOOD_TABLE_H
 #define ODE_EXT_KERNELS_LIB_FLOOD_TABLE_H
 
@@ -10,12 +10,16 @@
 
 // What a key is of: the index of a vertex or an edge. They are below 2^30: as many edges are those
 // of 700 million triangles, and their meshlets one buffer of 45 GiB.
-#define OX_KEY_VERTEX 1u   // looked at; it gets its ray where it is still queued in the end
+//
+// Vertices 32 k to 32 k + 31, which are near one another (mesh/runs.h); value: a bit for each that
+// is looked at. One gets its ray where it is still queued in the end.
+#define OX_KEY_VERTICES 1u
 #define OX_KEY_OUTSIDE 2u  // outside by its nearest crossing; value: OX_OUTSIDE_... (flood.cl)
 #define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
 #define OX_KEY(index, kind) ((index) << 2 | (kind))
 
 #define OX_LEAST_PLACES 16u
+#define OX_QUEUE_ROOM 4u  // vertices a place
 
 typedef struct {
   uint first;   // word of the segment
@@ -42,7 +46,7 @@ static inline uint ox_take_words(const ox_scene* scene, uint count) {
 static inline ox_flood_table ox_empty_table(const ox_scene* scene, __global uint* words,
                                             uint places) {
   ox_flood_table table;
-  table.first = ox_take_words(scene, 2u * places + places / 2u);
+  table.first = ox_take_words(scene, (2u + OX_QUEUE_ROOM) * places);
   table.places = table.first == OX_NONE ? 0u : places;
   table.used = 0u;
   table.queued = 0u;
@@ -63,10 +67,12 @@ static inline __global uint* ox_queue(__global uint* words, const ox_flood_table
   return words + table->first + 2u * table->places;
 }
 
-// Room for one key more; the table is at most half full. False: there is none.
+// Room for one key more, the table being at most half full, and for one vertex more in the queue.
+// False: there is none.
 static inline bool ox_grow_table(const ox_scene* scene, __global uint* words,
                                  ox_flood_table* table) {
-  if (2u * (table->used + 1u) <= table->places) return true;
+  if (2u * (table->used + 1u) <= table->places && table->queued < OX_QUEUE_ROOM * table->places)
+    return true;
   if (table->places == 0u) {
     *table = ox_empty_table(scene, words, OX_LEAST_PLACES);
     return table->places != 0u;

@@ -69,11 +69,11 @@ ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& op
                       : of_pair + (options.edges ? most_crossings(scene, scene.pairs[i]) : 0);
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
-  // A table has fewer than 8 places for each crossing it starts from, or 4 for each key: a vertex,
-  // a vertex that is outside, an edge that crosses. A place is two and a half words, and all tables
-  // before the last one take no more than it does.
+  // A table has fewer than 8 places for each crossing it starts from, or 4 for each key: vertices
+  // near one another, a vertex that is outside, an edge that crosses. A place is six words, and all
+  // tables before the last one take no more than it does.
   const std::uint64_t flood_words =
-      options.edges ? 5 * (8 * crossings + 4 * (2 * vertices + crossings) + 32 * tile.count) : 0;
+      options.edges ? 12 * (8 * crossings + 4 * (2 * vertices + crossings) + 32 * tile.count) : 0;
   return {chunks,   chunks,        chunks,   vertices,  vertices,    vertices,
           meshlets, meshlet_pairs, vertices, crossings, flood_words, contacts};
 }

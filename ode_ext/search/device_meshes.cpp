@@ -270,6 +270,7 @@ void DeviceMeshes::append(const Mesh& mesh, const Mesh* before) {
     deformable.topology = append_topology(built, host_topologies_);
     deformable.moving = before != nullptr && before != &mesh;
   }
+  record.flat_edge_first = first.edge_first + static_cast<ox_u32>(built.edges.size());
   host_records_.push_back(record);
   for (const VertexChunk& chunk : built.chunks)
     host_chunks_.push_back(to_record(mesh, chunk, first.vertex_first));

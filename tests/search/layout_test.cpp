@@ -42,6 +42,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_mesh, meshlet_node_first),
     OFFSET_OF(ox_mesh, meshlet_node_count),
     OFFSET_OF(ox_mesh, component_count),
+    OFFSET_OF(ox_mesh, flat_edge_first),
     OFFSET_OF(ox_mesh, flags),
     OFFSET_OF(ox_mesh, box_centre),
     OFFSET_OF(ox_mesh, box_half),
