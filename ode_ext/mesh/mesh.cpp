@@ -29,7 +29,7 @@ float radius_about(Vec3f middle, const std::vector<Vec3f>& vertices) {
 }
 
 // A thread takes tens of microseconds to start, a triangle one.
-constexpr std::size_t kTrianglesAThread = 8192;
+constexpr std::size_t kTrianglesABranch = 8192;
 
 // What depends on where the vertices are, and is made on the device of what deforms.
 void find_facets(const std::vector<Neighbours>& across, Mesh& mesh, MeshTopology& topology) {
@@ -88,7 +88,7 @@ Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
   Bvh bvh;
   Edges edges;
   do_both(
-      worthwhile_threads(triangles.size(), kTrianglesAThread),
+      worthwhile_threads(triangles.size(), kTrianglesABranch),
       [&] { bvh = build_bvh(mesh.vertices, triangles); },
       [&] {
         const std::vector<Neighbours> across = neighbours(triangles.size(), half_edges);

@@ -82,7 +82,7 @@ struct Listed {
 
 // Of two with the same lowest vertex. First by which vertices, so that a mesh and the same inside
 // out are numbered alike.
-bool comes_first(const Listed& a, const Listed& b) {
+bool is_listed_first(const Listed& a, const Listed& b) {
   const auto others = [](const Triangle& t) { return std::minmax(t[1], t[2]); };
   return std::tuple(others(a.rotated), a.rotated, a.source) <
          std::tuple(others(b.rotated), b.rotated, b.source);
@@ -132,7 +132,7 @@ void order_by_vertices(WeldedMesh& mesh) {
     listed[next[t[0]]++] = {t, mesh.source_triangle[i]};
   }
   for (std::uint32_t vertex = 0, first = 0; vertex < mesh.vertices.size(); first = next[vertex++])
-    std::sort(listed.begin() + first, listed.begin() + next[vertex], comes_first);
+    std::sort(listed.begin() + first, listed.begin() + next[vertex], is_listed_first);
   for (std::size_t i = 0; i < listed.size(); ++i) {
     mesh.triangles[i] = listed[i].rotated;
     mesh.source_triangle[i] = listed[i].source;
