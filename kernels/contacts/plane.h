@@ -118,7 +118,6 @@ static inline bool ox_has_area(__global const ox_triangle* t) {
   return t->normal[0] != 0.0f || t->normal[1] != 0.0f || t->normal[2] != 0.0f;
 }
 
-// Of a face of no area it is not told.
 static inline bool ox_is_behind_support(const ox_scene* scene, const ox_support* support,
                                         uint face) {
   __global const ox_triangle* t = scene->surfaces.triangles + face;
@@ -126,21 +125,34 @@ static inline bool ox_is_behind_support(const ox_scene* scene, const ox_support*
     const float3 p = ox_in_b(scene, support->pair, support->side, ox_corner(t, corner));
     if (ox_dot(support->normal, p) > support->height) return false;
   }
-  return ox_has_area(t);
+  return true;
 }
 
-// The same of what is across the other sides of a face of no area, as lies between one long edge
-// and two short ones.
-static inline bool ox_is_all_behind(const ox_scene* scene, const ox_support* support, uint face,
-                                    uint edge) {
-  for (uint k = 0u; k < 3u; ++k) {
-    const uint at = ox_side_of_triangle(scene->surfaces.triangles + face, k);
-    if (at == edge) continue;
-    if (!ox_is_edge(at)) return false;
-    __global const uint* of_edge = scene->edges[at].triangle;
-    const uint across = of_edge[0] == face ? of_edge[1] : of_edge[0];
-    if (across == OX_NONE || !ox_is_behind_support(scene, support, across)) return false;
-  }
+// Faces of no area that lie side by side and are gone over, so many at most.
+#define OX_MOST_WITHOUT_AREA 4u
+
+// The same of what is across faces of no area that begin at an edge, as lie between one long edge
+// and several short ones.
+static inline bool ox_is_all_behind(const ox_scene* scene, const ox_support* support, uint face) {
+  uint faces[OX_MOST_WITHOUT_AREA];
+  faces[0] = face;
+  uint count = 1u;
+  for (uint i = 0u; i < count; ++i)
+    for (uint k = 0u; k < 3u; ++k) {
+      const uint at = ox_side_of_triangle(scene->surfaces.triangles + faces[i], k);
+      if (!ox_is_edge(at)) return false;
+      __global const uint* of_edge = scene->edges[at].triangle;
+      const uint across = of_edge[0] == faces[i] ? of_edge[1] : of_edge[0];
+      if (across == OX_NONE) continue;
+      if (ox_has_area(scene->surfaces.triangles + across)) {
+        if (!ox_is_behind_support(scene, support, across)) return false;
+        continue;
+      }
+      uint known = 0u;
+      while (known < count && faces[known] != across) ++known;
+      if (known == OX_MOST_WITHOUT_AREA) return false;
+      if (known == count) faces[count++] = across;
+    }
   return true;
 }
 
@@ -150,9 +162,8 @@ static inline bool ox_edge_supports(const ox_scene* scene, const ox_support* sup
   for (uint k = 0u; k < 2u; ++k) {
     const uint face = ridge->face[k];
     if (face == OX_NONE) continue;
-    if (ox_has_area(scene->surfaces.triangles + face)
-            ? !ox_is_behind_support(scene, support, face)
-            : !ox_is_all_behind(scene, support, face, ridge->edge))
+    if (ox_has_area(scene->surfaces.triangles + face) ? !ox_is_behind_support(scene, support, face)
+                                                      : !ox_is_all_behind(scene, support, face))
       return false;
   }
   return true;
@@ -168,9 +179,9 @@ static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, cons
   const float3 n = ox_plain_cross(a->along, b->along);
   const float sine2 = ox_dot(n, n);
   if (!(sine2 > OX_PARALLEL * OX_PARALLEL)) return plane;  // or an edge has no length
-  const float outward = ox_dot(n, ox_ridge_normal(scene, pair, 1u, b));
-  if (outward == 0.0f) return plane;  // its faces have no area
-  plane.normal = (outward > 0.0f ? n : -n) / sqrt(sine2);
+  // Away from B, and towards A: at the rim of an open mesh one of the two alone may tell.
+  const float3 outward = ox_ridge_normal(scene, pair, 1u, b) - ox_ridge_normal(scene, pair, 0u, a);
+  plane.normal = (ox_dot(n, outward) >= 0.0f ? n : -n) / sqrt(sine2);
   plane.top = ox_dot(plane.normal, b->from);
   plane.bottom = ox_dot(plane.normal, a->from);
   const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;

@@ -85,9 +85,9 @@ void Workload::reserve(const ListCounts& counts) {
     share_room(List::kRaysIterative, List::kRays);
   }
   for (std::uint64_t& count : wanted) count = std::max(count, options_.initial_capacity);
-  // A record takes as many words.
+  // A crossing takes as many words: 8 places of 6 (kernels/lib/flood_table.h).
   std::uint64_t& words = at(wanted, List::kFloodWords);
-  words = std::max(words, 16 * options_.initial_capacity);
+  words = std::max(words, 48 * options_.initial_capacity);
   lists_.reserve(wanted);
 }
 

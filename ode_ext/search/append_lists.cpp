@@ -21,7 +21,7 @@ constexpr std::size_t kReadBytes = OX_COUNTERS_SHARES * kCounterBytes;
 // Records of each list that one of so many shares has room for. What is of no use costs no memory
 // but addresses, mostly; a pair with more is begun again, kernel by kernel, which costs twice as
 // much. From 4 to 128 shares have room for 2^17 crossings together and as many hits, and for the
-// floods of some 400,000 vertices, most of which bound nothing and make no hits: 210 MB.
+// floods of many more vertices, most of which bound nothing and make no hits: 210 MB.
 ListCounts room_of_a_share(std::size_t shares) {
   const std::size_t features =
       std::clamp<std::size_t>(131072 / std::max<std::size_t>(shares, 1), 1024, 32768);

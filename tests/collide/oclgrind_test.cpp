@@ -64,6 +64,17 @@ TEST(OclgrindPipeline, CollidesClosedMeshesByPlanes) {
   EXPECT_EQ(found[2], 0u);
 }
 
+// One vertex is out: the flood's table grows with edges in it (kernels/lib/flood_table.h).
+TEST(OclgrindPipeline, FloodsMoreThanItsFirstTableHolds) {
+  TestScene scene;
+  const std::uint32_t ball = scene.add_mesh(make_icosphere(0.5, 2));
+  const std::uint32_t box = scene.add_mesh(make_cube(1.1));
+  scene.add_pair(ball, turned({1, 2, 3}, 0.3, {0, 0, 0.055}), box, at(0, 0, 0));
+  Collider collider(small_options());
+  EXPECT_GT(counts(collider, scene)[0], 0u);
+  EXPECT_GT(collider.report().actual[static_cast<std::size_t>(List::kHits)], 128u);
+}
+
 // Oclgrind's own device has no vectors.
 TEST(OclgrindPipeline, CollidesTheSameByVectorsAndByItems) {
   TestScene scene;

@@ -115,16 +115,24 @@ TEST(Concave, ContactsOfABallInAFineTroughAreNoDeeperThanItIs) {
   }
 }
 
-// Two slopes of a roof, the one with a long side at the crest and the other with two short ones: a
-// triangle of no area lies between. `is_whole`: or the former has two as well, and there is none.
-TestMesh roof(bool is_whole) {
+// Two slopes of a roof, the one with a long side at the crest and the other with `shorts`: one
+// triangle of no area less lies between. `is_whole`: the former has as many, and there are none.
+TestMesh roof(bool is_whole, unsigned shorts) {
   const float c = std::sqrt(0.75f), s = -0.5f;
-  TestMesh mesh{{-1, -1, 0, -1, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, c, -1, s, c, 1, s},
-                {0, 4, 1, 2, 5, 3, 3, 5, 6, 3, 6, 4}};
-  if (is_whole)
-    mesh.indices.insert(mesh.indices.end(), {0, 2, 3, 0, 3, 4});
-  else
-    mesh.indices.insert(mesh.indices.end(), {0, 2, 4, 2, 3, 4});
+  TestMesh mesh{{-1, -1, 0, -1, 1, 0, c, -1, s, c, 1, s}, {}};
+  for (unsigned i = 0; i <= shorts; ++i)
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {0, 2 * static_cast<float>(i) / static_cast<float>(shorts) - 1, 0});
+  const auto crest = [](unsigned i) { return 4 + i; };
+  const auto add = [&](unsigned a, unsigned b, unsigned k) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, k});
+  };
+  add(0, crest(shorts), 1);
+  for (unsigned i = 0; is_whole && i < shorts; ++i) add(0, crest(i), crest(i + 1));
+  if (!is_whole) add(0, crest(0), crest(shorts));
+  for (unsigned i = 1; !is_whole && i < shorts; ++i) add(crest(0), crest(i), crest(i + 1));
+  for (unsigned i = 0; i < shorts; ++i) add(crest(i), 2, crest(i + 1));
+  add(crest(shorts), 2, 3);
   return mesh;
 }
 
@@ -133,27 +141,32 @@ Contact deepest_of(const std::vector<Contact>& contacts) {
                            [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
 }
 
-// Rods on edge across the crest, level with what is between the slopes and steeper than either.
-TEST(Concave, ContactsAtATriangleOfNoAreaAreThoseOfTheRoofWithoutIt) {
-  for (const double slope : {-0.26, -0.1, -0.45, -1.05})
-    for (const double y : {0.37, -0.52})
-      for (const double deep : {0.002, 0.01}) {
-        SCOPED_TRACE(std::to_string(slope) + ", " + std::to_string(y));
-        TestPose pose =
-            composed(turned({0, 1, 0}, -slope), turned({1, 0, 0}, std::numbers::pi / 4));
-        pose.position = {0, y, 0.1 * std::sqrt(0.5) - deep};
-        for (const TestPose& frame : some_frames()) {
-          const auto found =
-              Placed{make_rod(1, 0.1), roof(false), pose, TestPose{}}.contacts(frame);
-          const auto whole = Placed{make_rod(1, 0.1), roof(true), pose, TestPose{}}.contacts(frame);
-          ASSERT_FALSE(found.empty());
-          ASSERT_FALSE(whole.empty());
-          const Contact ours = deepest_of(found), theirs = deepest_of(whole);
-          EXPECT_NEAR(ours.depth, theirs.depth, 0.01 * theirs.depth);
-          EXPECT_NEAR(ours.normal.x, theirs.normal.x, 0.01);
-          EXPECT_NEAR(ours.normal.z, theirs.normal.z, 0.01);
+// Rods on edge across the crest, level with what is between the slopes and steeper than either, as
+// either mesh of the pair.
+TEST(Concave, ContactsAtTrianglesOfNoAreaAreThoseOfTheRoofWithoutThem) {
+  const TestMesh rod = make_rod(1, 0.1);
+  for (const unsigned shorts : {2u, 3u})
+    for (const double slope : {-0.26, -0.1, -0.45, -1.05})
+      for (const double y : {0.37, -0.52})
+        for (const bool rod_is_first : {true, false}) {
+          SCOPED_TRACE(std::to_string(shorts) + " " + std::to_string(slope) + ", " +
+                       std::to_string(y) + (rod_is_first ? " first" : " second"));
+          TestPose pose =
+              composed(turned({0, 1, 0}, -slope), turned({1, 0, 0}, std::numbers::pi / 4));
+          pose.position = {0, y, 0.1 * std::sqrt(0.5) - 0.005};
+          for (const TestPose& frame : some_frames(2)) {
+            const auto deepest = [&](const TestMesh& on) {
+              const auto found = rod_is_first ? Placed{rod, on, pose, TestPose{}}.contacts(frame)
+                                              : Placed{on, rod, TestPose{}, pose}.contacts(frame);
+              return found.empty() ? Contact{} : deepest_of(found);
+            };
+            const Contact ours = deepest(roof(false, shorts));
+            const Contact theirs = deepest(roof(true, shorts));
+            EXPECT_GT(theirs.depth, 0.001);
+            EXPECT_NEAR(ours.depth, theirs.depth, 0.01 * theirs.depth);
+            EXPECT_GT(dot(point_of(ours.normal), point_of(theirs.normal)), 0.9999);
+          }
         }
-      }
 }
 
 }  // namespace

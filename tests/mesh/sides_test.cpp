@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "mesh/edges.h"
@@ -39,16 +41,19 @@ std::vector<std::multiset<std::uint32_t>> triangles_at_edges(const MeshTopology&
   return at;
 }
 
-// A plate of two triangles, and on the side that they have in common one upright.
-TriangleSoup plate_with_a_fin() {
-  return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 0},      {1, 1, 0},
-          {0, 1, 0}, {0, 0, 0}, {1, 1, 0}, {0.5f, 0.5f, 1}};
+// A plate of eight triangles, all one facet, and on one of their sides a triangle upright.
+TriangleSoup plate_with_a_fin(std::size_t side) {
+  TriangleSoup soup = shapes::sheet(2);
+  const std::size_t first = side - side % 3;
+  const Vec3f a = soup[side], b = soup[first + (side + 1) % 3];
+  soup.insert(soup.end(), {a, b, 0.5f * a + 0.5f * b + Vec3f{0, 0, 1}});
+  return soup;
 }
 
 std::vector<TriangleSoup> soups_with_sides() {
   std::vector<TriangleSoup> all{shapes::sheet(4),
                                 shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}))};
-  all.push_back(plate_with_a_fin());
+  for (std::size_t side = 0; side < 24; ++side) all.push_back(plate_with_a_fin(side));
   for (const test::TestMesh& made : test::small_meshes()) all.push_back(soup_of(made));
   all.push_back(soup_of(test::make_cube(1, 4)));
   return all;
@@ -88,28 +93,27 @@ TEST(Sides, NameTheNeighbourAcrossWithinAFacet) {
   EXPECT_GT(within, 500u);
 }
 
-// Two of the plate's, and the fin, meet: the two are of one facet, and no neighbours.
+// Where two of the plate's and the fin meet, the two are of one facet, and yet no neighbours.
 TEST(Sides, AtAnEdgeWhereAFinStandsAreOfNoNeighbours) {
-  const Mesh mesh = build_mesh(plate_with_a_fin());
-  const MeshTopology& built = *mesh.topology;
-  const auto found = std::find_if(built.edges.begin(), built.edges.end(), [&](const Edge& edge) {
-    return mesh.vertices[edge.vertices[0]].z + mesh.vertices[edge.vertices[1]].z > 0.9f;
-  });
-  ASSERT_NE(found, built.edges.end());
-  const std::uint32_t fin = found->triangles[0];
   std::size_t feet = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto ends = ends_of_side(built.triangles[fin], k);
-    if (std::any_of(ends.begin(), ends.end(), [&](auto v) { return mesh.vertices[v].z > 0.5f; }))
-      continue;
+  for (std::size_t side = 0; side < 24; ++side) {
+    const Mesh mesh = build_mesh(plate_with_a_fin(side));
+    const MeshTopology& built = *mesh.topology;
+    std::map<std::set<std::uint32_t>, std::vector<std::pair<std::uint32_t, std::size_t>>> at;
     for (std::uint32_t t = 0; t < built.triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i)
-        if (t != fin && ends_of_side(built.triangles[t], i) == ends) {
-          ++feet;
-          EXPECT_TRUE(is_edge(built.sides[t][i]) || built.sides[t][i] == kNone);
-        }
+      for (std::size_t k = 0; k < 3; ++k)
+        at[ends_of_side(built.triangles[t], k)].emplace_back(t, k);
+    for (const auto& [ends, sides] : at) {
+      if (sides.size() < 3) continue;
+      for (const auto& [t, k] : sides) {
+        const std::uint32_t found = built.sides[t][k];
+        EXPECT_TRUE(is_edge(found) || found == kNone);
+        for (const auto& [other, i] : sides)
+          feet += other != t && built.facets[other] == built.facets[t] ? 1 : 0;
+      }
+    }
   }
-  EXPECT_EQ(feet, 2u);
+  EXPECT_GT(feet, 0u);
 }
 
 TEST(Sides, AreOfEdgesAloneWhereAMeshDeforms) {

@@ -367,6 +367,14 @@ TEST_F(Flood, GrowsWhatItNeedsRoomFor) {
   EXPECT_GT(hits(collider), 4000u);
 }
 
+// Of a ball that all but fills a box its cap is out: few edges cross, and nearly all vertices are
+// inside, so that the table grows with the edges in it.
+TEST_F(Flood, KeepsCrossedEdgesWhereItsTableGrows) {
+  find(one_pair(make_icosphere(1, 5), at(0.01, 0.02, 0.15), make_cube(2.2), TestPose{}).scene);
+  EXPECT_GT(hits_, 9000u);
+  EXPECT_LT(records_.crossings.size(), 400u);
+}
+
 // There the chunks of a source that is looked at in whole need room too.
 TEST_F(Flood, GrowsWhatItNeedsRoomForAtABorder) {
   ColliderOptions tight = flooded();
