@@ -33,9 +33,12 @@ TEST_F(ApiDeterminism, RepeatedRunsAgree) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(difference(answers(), expected), "");
 }
 
-// Each size is all kernels compiled anew; collider_test.cpp has more of them.
 TEST_F(ApiDeterminism, WorkGroupSizesAgree) {
-  EXPECT_EQ(difference(answers(with("work_group_size=256")), answers()), "");
+  const auto expected = answers();
+  for (const int size : {1, 32, 64, 256}) {
+    EXPECT_EQ(difference(answers(with("work_group_size=" + std::to_string(size))), expected), "")
+        << size;
+  }
 }
 
 // 0.01 launches far too few work-groups in the second pass: each must do more, none may be lost.

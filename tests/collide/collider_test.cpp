@@ -159,12 +159,13 @@ TEST(Collider, GivesTheSameBytesWhateverItComputedBefore) {
 TEST(Collider, GivesTheSameBytesForEveryWorkGroupSize) {
   const TestScene scene = scene_with_large_meshes();
   const Bits expected = collide(scene);
-  for (const std::uint32_t size : {1u, 32u, 256u}) {
-    ColliderOptions options;
-    options.whole_steps = false;  // those are in groups of one
-    options.work_group_size = size;
-    EXPECT_EQ(collide(scene, options), expected) << size;
-  }
+  for (const bool whole_steps : {true, false})  // those are in groups of one
+    for (const std::uint32_t size : {1u, 32u, 256u}) {
+      ColliderOptions options;
+      options.whole_steps = whole_steps;
+      options.work_group_size = size;
+      EXPECT_EQ(collide(scene, options), expected) << size;
+    }
 }
 
 TEST(Collider, GivesTheSameBytesForEveryPrediction) {

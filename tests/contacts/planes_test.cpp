@@ -207,8 +207,23 @@ auto bits_with(const Scene& scene, const ColliderOptions& options) {
   return bits_of(collider.collide(scene, nullptr));
 }
 
-// One test for each width: kernels are compiled anew. In lanes and without builtins:
-// SearchInLanes (search_test.cpp).
+// One test for each size and width: kernels are compiled anew. In lanes and without builtins:
+// SearchInLanes (search_test.cpp). Whole steps are in groups of one.
+class SeparatingPlanesBySize : public ::testing::TestWithParam<std::uint32_t> {};
+
+TEST_P(SeparatingPlanesBySize, AreTheSameBytes) {
+  const TestScene scene = random_scene(200, 61);
+  const auto expected = bits_with(scene.scene, {});
+  for (const bool whole_steps : {true, false}) {
+    ColliderOptions options;
+    options.whole_steps = whole_steps;
+    options.work_group_size = GetParam();
+    EXPECT_EQ(bits_with(scene.scene, options), expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(WorkGroups, SeparatingPlanesBySize, ::testing::Values(1u, 32u, 256u));
+
 class SeparatingPlanesByWidth : public ::testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(SeparatingPlanesByWidth, AreTheSameBytes) {

@@ -399,5 +399,16 @@ TEST_F(Flood, FindsTheVerticesInsideOfADeformableMesh) {
   EXPECT_GT(hits_, 5u);
 }
 
+TEST_F(Flood, IsTheSameInGroupsOfAnySize) {
+  MovingScene moving(smooth_meshes(), 30, 0.01, 5);
+  const auto expected = bits_of(flood_.collide(moving.scene(), nullptr));
+  for (const std::uint32_t size : {1u, 32u, 256u}) {
+    ColliderOptions options = flooded();
+    options.work_group_size = size;
+    Collider collider(options);
+    EXPECT_EQ(bits_of(collider.collide(moving.scene(), nullptr)), expected) << size;
+  }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
