@@ -50,7 +50,7 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
 
 Collider::Collider(const ColliderOptions& options)
     : options_(options),
-      device_(options.device, options.largest_buffer),
+      device_(options.device, options.largest_buffer, options.share_memory),
       program_(device_, program_options(options, device_.info())),
       search_(program_, items_per_meshlet_pair(options_, device_.info())),
       assembly_(program_),

@@ -6,12 +6,13 @@
 namespace ode_ext {
 
 void ReadBack::reserve(const BatchData& data) {
-  ranges_.reserve(data.pairs.count * sizeof(ox_range));
-  contacts_.reserve(data.lists.capacity(List::kContacts) * sizeof(ox_contact));
+  ranges_.reserve(data.pairs.ranges, data.pairs.count * sizeof(ox_range));
+  contacts_.reserve(data.lists.contacts(),
+                    data.lists.capacity(List::kContacts) * sizeof(ox_contact));
 }
 
 void ReadBack::read(BatchData& data, std::uint64_t expected) {
-  data.pairs.ranges.read(ranges_.data(), data.pairs.count * sizeof(ox_range));
+  ranges_.read(data.pairs.ranges, data.pairs.count * sizeof(ox_range));
   read_contacts(data, expected);
   data.lists.count();
 }
@@ -26,7 +27,7 @@ void ReadBack::read_rest(const BatchData& data) {
 // At most as many as there is room for.
 void ReadBack::read_contacts(const BatchData& data, std::uint64_t count) {
   read_ = std::min(count, data.lists.capacity(List::kContacts));
-  data.lists.contacts().read(contacts_.data(), read_ * sizeof(ox_contact));
+  contacts_.read(data.lists.contacts(), read_ * sizeof(ox_contact));
 }
 
 }  // namespace ode_ext

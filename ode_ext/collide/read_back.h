@@ -33,7 +33,7 @@ class ReadBack {
   void read_contacts(const BatchData& data, std::uint64_t count);
 
   Device& device_;
-  PinnedMemory ranges_, contacts_;
+  HostView ranges_, contacts_;
   std::uint64_t read_ = 0;  // of the contacts
 };
 

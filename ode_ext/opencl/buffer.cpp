@@ -2,6 +2,7 @@
 #include "opencl/buffer.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -28,46 +29,83 @@ std::size_t grown_capacity(Device& device, std::size_t bytes, std::size_t old_ca
   return std::min(pages * kPage, largest);
 }
 
-MemoryHandle create_memory(Device& device, cl_mem_flags flags, std::size_t size) {
+MemoryHandle create_memory(Device& device, cl_mem_flags flags, std::size_t size,
+                           void* host = nullptr) {
   cl_int code = CL_SUCCESS;
-  MemoryHandle memory(clCreateBuffer(device.context(), flags, size, nullptr, &code));
+  MemoryHandle memory(clCreateBuffer(device.context(), flags, size, host, &code));
   device.check_call(code, "clCreateBuffer",
+                    [&] { return "Asked for: " + std::to_string(size) + " bytes."; });
+  return memory;
+}
+
+SharedHandle create_shared_memory(Device& device, std::size_t size) {
+  SharedHandle memory(clSVMAlloc(device.context(),
+                                 CL_MEM_READ_WRITE | CL_MEM_SVM_FINE_GRAIN_BUFFER, size, 0),
+                      {&device});
+  device.check_call(memory ? CL_SUCCESS : CL_MEM_OBJECT_ALLOCATION_FAILURE, "clSVMAlloc",
                     [&] { return "Asked for: " + std::to_string(size) + " bytes."; });
   return memory;
 }
 
 }  // namespace
 
+void SharedMemoryReleaser::operator()(void* data) const {
+  if (device->is_idle())
+    clSVMFree(device->context(), data);
+  else  // in destructors: there is nobody to tell if it fails
+    clEnqueueSVMFree(device->queue(), 1, &data, nullptr, nullptr, 0, nullptr, nullptr);
+}
+
 Buffer::Buffer(Buffer&& other) noexcept
     : device_(other.device_),
+      is_shared_(other.is_shared_),
+      shared_(std::move(other.shared_)),
       memory_(std::move(other.memory_)),
       capacity_(std::exchange(other.capacity_, 0)) {}
 
+void Buffer::create(std::size_t size) {
+  if (is_shared_) {
+    shared_ = create_shared_memory(*device_, size);
+    memory_ = create_memory(*device_, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, size, shared_.get());
+  } else {
+    memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
+  }
+  capacity_ = size;
+}
+
+unsigned char* Buffer::within_reach(std::size_t bytes, std::size_t offset) const {
+  const bool is_there = offset <= capacity_ && bytes <= capacity_ - offset;  // else OpenCL refuses
+  if (!shared_ || !device_->is_idle() || !is_there) return nullptr;
+  return static_cast<unsigned char*>(shared_.get()) + offset;
+}
+
 void Buffer::reserve(std::size_t bytes) {
   if (capacity_ > 0 && bytes <= capacity_) return;
-  const std::size_t old_capacity = std::exchange(capacity_, 0);
-  memory_.reset();  // first, so that old and new never need room at once
-  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
-  memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
-  capacity_ = size;
+  const std::size_t old_capacity = capacity_;
+  release();  // first, so that old and new never need room at once
+  create(grown_capacity(*device_, bytes, old_capacity));
 }
 
 void Buffer::extend(std::size_t bytes) {
   if (capacity_ > 0 && bytes <= capacity_) return;
   const std::size_t old_capacity = std::exchange(capacity_, 0);
+  const SharedHandle old_shared = std::move(shared_);
   const MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
   const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
-  memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
+  create(size);
   if (old_capacity != 0)
     device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
                                             old_capacity, 0, nullptr, nullptr),
                         "clEnqueueCopyBuffer");
   fill_zero(size - old_capacity, old_capacity);
-  capacity_ = size;
 }
 
 void Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
   if (bytes == 0) return;
+  if (unsigned char* target = within_reach(bytes, offset)) {
+    std::memcpy(target, source, bytes);
+    return;
+  }
   device_->check_call(clEnqueueWriteBuffer(device_->queue(), memory_.get(), CL_FALSE, offset, bytes,
                                            source, 0, nullptr, nullptr),
                       "clEnqueueWriteBuffer");
@@ -75,6 +113,10 @@ void Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
 
 void Buffer::fill_zero(std::size_t bytes, std::size_t offset) {
   if (bytes == 0) return;
+  if (unsigned char* target = within_reach(bytes, offset)) {
+    std::memset(target, 0, bytes);
+    return;
+  }
   const cl_uint zero = 0;
   // Size and offset must be multiples of the pattern.
   const std::size_t pattern = (bytes | offset) % sizeof(zero) == 0 ? sizeof(zero) : 1;

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Device memory that grows, and pinned host memory for transfers that do not block.
+// Device memory that grows, host memory for transfers that do not block, and what the host reads.
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "opencl/device.h"
 
 namespace ode_ext {
 
+// Where a buffer is best kept.
+enum class Memory {
+  kDevice,
+  // Where device and host both reach it, if they share memory: of what goes to and fro in each
+  // pass. A command takes some 10 us, which for a single pair is a tenth of all.
+  kShared,
+};
+
+// Frees memory of clSVMAlloc when all that has been enqueued is done.
+struct SharedMemoryReleaser {
+  Device* device = nullptr;
+  void operator()(void* data) const;
+};
+using SharedHandle = std::unique_ptr<void, SharedMemoryReleaser>;
+
 class Buffer {
  public:
-  explicit Buffer(Device& device) : device_(&device) {}
+  explicit Buffer(Device& device, Memory memory = Memory::kDevice)
+      : device_(&device), is_shared_(memory == Memory::kShared && device.info().shares_memory) {}
   Buffer(Buffer&& other) noexcept;  // leaves `other` empty
   Buffer& operator=(Buffer&&) = delete;
   Buffer(const Buffer&) = delete;
@@ -27,13 +44,17 @@ class Buffer {
   void release() {
     capacity_ = 0;
     memory_.reset();
+    shared_.reset();
   }
   std::size_t capacity() const { return capacity_; }  // [bytes]
   cl_mem get() const { return memory_.get(); }
+  // Its contents, after Device::finish(), where it is shared; else null.
+  const void* shared() const { return shared_.get(); }
 
   // The transfers do nothing for 0 bytes. Host memory given to them must live until
   // Device::finish() has returned, any call on the device has thrown DeviceError, or the Device is
-  // gone. PinnedMemory sees to that by itself.
+  // gone. PinnedMemory sees to that by itself. While the device is idle, shared buffers are written
+  // at once.
 
   // Enqueued, not waited for: `source` must stay as it is until the queue has passed it.
   void write(const void* source, std::size_t bytes, std::size_t offset = 0);
@@ -43,6 +64,12 @@ class Buffer {
 
  private:
   Device* device_;
+  void create(std::size_t size);
+  // Where the host may write at once; null: it has to enqueue.
+  unsigned char* within_reach(std::size_t bytes, std::size_t offset) const;
+
+  bool is_shared_ = false;
+  SharedHandle shared_;  // goes after memory_, which lies in it
   MemoryHandle memory_;
   std::size_t capacity_ = 0;
 };
@@ -67,6 +94,30 @@ class PinnedMemory {
   MemoryHandle memory_;
   void* data_ = nullptr;
   std::size_t capacity_ = 0;
+};
+
+// What the host reads of a buffer: the buffer itself where that is shared, else a copy.
+class HostView {
+ public:
+  explicit HostView(Device& device) : copy_(device) {}
+
+  // Room for so much of `buffer`; waits for the queue if a copy grows.
+  void reserve(const Buffer& buffer, std::size_t bytes) {
+    if (buffer.shared() == nullptr) copy_.reserve(bytes);
+  }
+  // Enqueued, not waited for, into what has been reserved: at data() after Device::finish(), until
+  // the buffer is next written to or grows.
+  void read(const Buffer& buffer, std::size_t bytes) {
+    data_ = buffer.shared();
+    if (data_ != nullptr) return;
+    data_ = copy_.data();
+    buffer.read(copy_.data(), bytes);
+  }
+  const void* data() const { return data_; }
+
+ private:
+  PinnedMemory copy_;
+  const void* data_ = nullptr;
 };
 
 }  // namespace ode_ext

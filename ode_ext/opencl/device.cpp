@@ -5,11 +5,12 @@
 
 namespace ode_ext {
 
-Device::Device(const std::string& selection, std::uint64_t largest_buffer)
+Device::Device(const std::string& selection, std::uint64_t largest_buffer, bool may_share)
     : info_(choose_device(selection)),
       label_(info_.name + " (driver " + info_.driver + ", " + info_.platform_name + ")") {
   if (largest_buffer != 0)
     info_.largest_buffer = std::min<cl_ulong>(info_.largest_buffer, largest_buffer);
+  info_.shares_memory &= may_share;
   const cl_context_properties properties[] = {
       CL_CONTEXT_PLATFORM, reinterpret_cast<cl_context_properties>(info_.platform), 0};
   cl_int code = CL_SUCCESS;
@@ -24,11 +25,13 @@ Device::~Device() { settle(); }
 
 void Device::settle() noexcept {
   clFinish(queue_.get());  // a queue that cannot even be waited for runs nothing any more
+  idle_ = true;
 }
 
 void Device::finish() {
   ++synchronizations_;
   check_call(clFinish(queue_.get()), "clFinish");
+  idle_ = true;
 }
 
 }  // namespace ode_ext

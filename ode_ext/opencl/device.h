@@ -2,9 +2,6 @@
 // An OpenCL device: which one, and the context and in-order profiling queue on it.
 #pragma once
 
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,6 +9,7 @@
 
 #include "opencl/error.h"
 #include "opencl/handle.h"
+#include "opencl/opencl.h"
 
 namespace ode_ext {
 
@@ -25,6 +23,9 @@ struct DeviceInfo {
   cl_ulong global_memory = 0;   // [bytes]
   cl_ulong largest_buffer = 0;  // [bytes]
   std::size_t work_group_limit = 0;
+  // Whether what is written by one of host and device is there for the other, without transfers
+  // (fine-grained shared virtual memory): processors, mostly.
+  bool shares_memory = false;
   cl_uint vector_width = 1;  // floats that an operation takes at once; 1 on most GPUs
   bool available = true, has_compiler = true, little_endian = true;
 };
@@ -48,9 +49,11 @@ std::string describe_devices(const std::string& selection);
 // be used from distinct threads.
 class Device {
  public:
-  // Chooses; throws DeviceError. `largest_buffer` [bytes]: no buffer is to be larger, for tests of
-  // what happens on small devices; 0: as the device has it.
-  explicit Device(const std::string& selection, std::uint64_t largest_buffer = 0);
+  // Chooses; throws DeviceError. For tests of what happens on other devices, `largest_buffer`
+  // [bytes]: no buffer is to be larger, 0: as the device has it; `may_share`: false: it shares no
+  // memory, whatever it could.
+  explicit Device(const std::string& selection, std::uint64_t largest_buffer = 0,
+                  bool may_share = true);
   ~Device();  // waits until the device no longer touches any host memory
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -58,7 +61,12 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const std::string& label() const { return label_; }  // name, driver and platform, for messages
   cl_context context() const { return context_.get(); }
-  cl_command_queue queue() const { return queue_.get(); }
+  cl_command_queue queue() {  // to enqueue something
+    idle_ = false;
+    return queue_.get();
+  }
+  // Whether nothing has been enqueued since the queue was last waited for.
+  bool is_idle() const { return idle_; }
 
   // As check() (opencl/error.h), for calls on this device. Waits for the queue before it throws, so
   // that host memory given to Buffer::read and write may go while the exception passes.
@@ -85,6 +93,7 @@ class Device {
   std::string label_;
   ContextHandle context_;
   QueueHandle queue_;
+  bool idle_ = true;
   long long synchronizations_ = 0;
 };
 

@@ -2,11 +2,10 @@
 // OpenCL errors as exceptions whose message a user can act on.
 #pragma once
 
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
 #include <stdexcept>
 #include <string>
+
+#include "opencl/opencl.h"
 
 namespace ode_ext {
 

@@ -3,11 +3,10 @@
 // checked, so that nothing leaks however a creation fails.
 #pragma once
 
-#define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
 #include <memory>
 #include <type_traits>
+
+#include "opencl/opencl.h"
 
 namespace ode_ext {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What there is: the platforms and devices that the ICD loader finds.
-#define CL_TARGET_OPENCL_VERSION 120
+#include "opencl/opencl.h"
+
 #include <CL/cl_ext.h>
 
 #include <mutex>
@@ -36,6 +37,15 @@ T value_of(cl_device_id device, cl_device_info what) {
   return value;
 }
 
+// What a GPU can share it may reach across a bus. Devices of OpenCL 1 do not know the question.
+bool shares_memory(cl_device_id device, cl_device_type type) {
+  cl_device_svm_capabilities found = 0;
+  return (type & CL_DEVICE_TYPE_CPU) != 0 &&
+         clGetDeviceInfo(device, CL_DEVICE_SVM_CAPABILITIES, sizeof(found), &found, nullptr) ==
+             CL_SUCCESS &&
+         (found & CL_DEVICE_SVM_FINE_GRAIN_BUFFER) != 0;
+}
+
 std::vector<cl_platform_id> list_platforms() {
   cl_uint count = 0;
   int code = clGetPlatformIDs(0, nullptr, &count);
@@ -58,6 +68,7 @@ DeviceInfo describe(cl_device_id id) {
   info.global_memory = value_of<cl_ulong>(id, CL_DEVICE_GLOBAL_MEM_SIZE);
   info.largest_buffer = value_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
   info.work_group_limit = value_of<std::size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  info.shares_memory = shares_memory(id, info.type);
   info.vector_width = value_of<cl_uint>(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
   info.available = value_of<cl_bool>(id, CL_DEVICE_AVAILABLE) == CL_TRUE;
   info.has_compiler = value_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE) == CL_TRUE;

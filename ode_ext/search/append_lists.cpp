@@ -15,7 +15,6 @@ static_assert(static_cast<std::size_t>(List::kChunksSmall) == OX_LIST_CHUNKS_SMA
               static_cast<std::size_t>(List::kHits) == OX_LIST_HITS && kListCount == OX_LIST_COUNT);
 
 constexpr std::size_t kCounterBytes = OX_COUNTER_WORDS * sizeof(ox_u32);
-// That are read: those of the lists, and those of all shares together.
 constexpr std::size_t kReadBytes = OX_COUNTERS_SHARES * kCounterBytes;
 
 // Records of each list that one of so many shares has room for. What is of no use costs no memory
@@ -77,9 +76,9 @@ constexpr std::uint64_t kNotWorthReleasing = std::uint64_t{32} << 20;  // [bytes
 
 AppendLists::AppendLists(Device& device)
     : device_(&device),
-      read_counters_(device),
-      counters_(device),
-      lists_(device),
+      counter_view_(device),
+      counters_(device, Memory::kShared),
+      lists_(device, Memory::kShared),
       tasks_(device),
       meshlets_(device),
       rays_(device),
@@ -88,7 +87,7 @@ AppendLists::AppendLists(Device& device)
       candidates_(device),
       crossings_(device),
       flood_words_(device),
-      contacts_(device),
+      contacts_(device, Memory::kShared),
       features_(device),
       feature_parents_(device),
       feature_slots_(device),
@@ -97,8 +96,8 @@ AppendLists::AppendLists(Device& device)
       faces_(device),
       planes_(device),
       edge_planes_(device) {
-  read_counters_.reserve(kReadBytes);
   counters_.reserve(kReadBytes);
+  counter_view_.reserve(counters_, kReadBytes);
   lists_.reserve(sizeof(host_lists_));
 }
 
@@ -233,8 +232,9 @@ void AppendLists::begin(const ListCounts& most) {
 }
 
 void AppendLists::count() {
-  counters_.read(read_counters_.data(), kReadBytes);
+  counter_view_.read(counters_, kReadBytes);
   device_->finish();
+  std::memcpy(read_counters_.data(), counter_view_.data(), kReadBytes);
 }
 
 }  // namespace ode_ext

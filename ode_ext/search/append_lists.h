@@ -86,7 +86,7 @@ class AppendLists {
  private:
   std::uint64_t read_counter(std::size_t of, std::size_t counter) const {
     const std::size_t word = (of * OX_COUNTER_COUNT + counter) * OX_COUNTER_STRIDE;
-    return static_cast<const ox_u32*>(read_counters_.data())[word];
+    return read_counters_[word];
   }
   // Lists of one kind beside one another, each with this room; the ends of their buffers.
   struct Ends {
@@ -103,7 +103,9 @@ class AppendLists {
   using Layout = std::array<ox_list, 2 * kListCount>;  // of the lists, and of a share of them
   Layout host_lists_{};
   std::optional<Layout> written_lists_;  // what the device has of them
-  PinnedMemory read_counters_;
+  // Of the lists, and of all shares together; kept, since the next kernels go on counting.
+  std::array<ox_u32, OX_COUNTERS_SHARES * OX_COUNTER_WORDS> read_counters_{};
+  HostView counter_view_;
   std::size_t shares_ = 0;
   ListCounts share_{};  // room of one of them
   Buffer counters_, lists_, tasks_, meshlets_, rays_, meshlet_pairs_, hits_, candidates_,

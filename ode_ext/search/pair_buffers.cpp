@@ -8,7 +8,11 @@
 namespace ode_ext {
 
 PairBuffers::PairBuffers(Device& device)
-    : objects(device), members(device), pairs(device), found(device), ranges(device) {}
+    : objects(device, Memory::kShared),
+      members(device, Memory::kShared),
+      pairs(device),
+      found(device),
+      ranges(device, Memory::kShared) {}
 
 void PairBuffers::upload_objects(const Scene& scene) {
   host_objects_.clear();

@@ -57,6 +57,14 @@ TEST_F(WholeStep, GivesTheBytesOfItsStepsForOnePair) {
   EXPECT_GT(compare(random_scene(120, 11).scene, 1), 300u);
 }
 
+TEST_F(WholeStep, GivesTheSameBytesWhereNoMemoryIsShared) {
+  ColliderOptions options;
+  options.share_memory = false;
+  Collider apart(options);
+  for (const Scene& few : parts_of(random_scene(120, 11).scene, 40))
+    EXPECT_EQ(bits_of(apart.collide(few, nullptr)), bits_of(whole_.collide(few, nullptr)));
+}
+
 TEST_F(WholeStep, GivesTheBytesOfItsStepsForFourPairs) {
   EXPECT_GT(compare(random_scene(120, 12).scene, 4), 300u);
 }

@@ -10,9 +10,19 @@
 #include <vector>
 
 #include "opencl/error.h"
+#include "opencl/program.h"
 
 namespace ode_ext {
 namespace {
+
+// Slow enough (some 50 ms) that it is still at it when the host goes on.
+constexpr const char* kSlowCopy = R"(
+__kernel void slow_copy(__global const uint* from, __global uint* to) {
+  uint x = 1u;
+  for (uint i = 0u; i < 50000000u; ++i) x = x * 1664525u + (x >> 16);
+  to[0] = from[0] + (x == 1u ? 1u : 0u);
+}
+)";
 
 std::vector<std::uint8_t> counting(std::size_t size) {
   std::vector<std::uint8_t> bytes(size);
@@ -170,6 +180,102 @@ TEST(Buffer, LeavesAnEmptyOneBehindWhenMoved) {
   EXPECT_EQ(to.capacity(), 4096u);
   EXPECT_EQ(from.get(), nullptr);
   EXPECT_EQ(from.capacity(), 0u);
+}
+
+// Of a device that shares memory, if this one can, and of one that does not.
+class SharedBuffer : public testing::TestWithParam<bool> {
+ protected:
+  std::uint32_t seen(const Buffer& buffer) {
+    HostView view(device_);
+    view.reserve(buffer, sizeof(std::uint32_t));
+    view.read(buffer, sizeof(std::uint32_t));
+    device_.finish();
+    std::uint32_t number = 0;
+    std::memcpy(&number, view.data(), sizeof(number));
+    return number;
+  }
+
+  Device device_{"", 0, GetParam()};
+  Program program_{device_, kSlowCopy, ""};
+  Kernel copy_{program_, "slow_copy"};
+  const std::uint32_t one_ = 1, two_ = 2;
+};
+
+INSTANTIATE_TEST_SUITE_P(WhereItMayBe, SharedBuffer, testing::Bool());
+
+TEST_P(SharedBuffer, ShowsWhatAKernelMadeOfWhatTheHostWrote) {
+  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
+  from.reserve(4);
+  to.reserve(4);
+  from.write(&one_, 4);
+  copy_.launch(1, 1, from, to);
+  EXPECT_EQ(seen(to), 1u);
+  to.fill_zero(4);
+  EXPECT_EQ(seen(to), 0u);
+}
+
+TEST_P(SharedBuffer, IsWrittenAfterTheKernelThatWasLaunchedBefore) {
+  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
+  from.reserve(4);
+  to.reserve(4);
+  from.write(&one_, 4);
+  copy_.launch(1, 1, from, to);
+  from.write(&two_, 4);
+  EXPECT_EQ(seen(to), 1u);
+  EXPECT_EQ(seen(from), 2u);
+  copy_.launch(1, 1, from, to);
+  from.fill_zero(4);
+  EXPECT_EQ(seen(to), 2u);
+}
+
+TEST_P(SharedBuffer, OutlivesItsReleaseInTheKernelsThatNeedIt) {
+  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
+  from.reserve(4);
+  to.reserve(4);
+  from.write(&one_, 4);
+  copy_.launch(1, 1, from, to);
+  from.release();
+  EXPECT_EQ(from.shared(), nullptr);
+  EXPECT_EQ(seen(to), 1u);
+}
+
+TEST_P(SharedBuffer, KeepsWhatIsInItWhereItIsExtended) {
+  Buffer buffer(device_, Memory::kShared);
+  buffer.extend(4);
+  buffer.write(&two_, 4);
+  buffer.extend(buffer.capacity() + 1);
+  EXPECT_EQ(seen(buffer), 2u);
+}
+
+TEST_P(SharedBuffer, RefusesTransfersPastItsEnd) {
+  Buffer buffer(device_, Memory::kShared);
+  buffer.reserve(4096);
+  const std::vector<std::uint8_t> bytes(4097);
+  EXPECT_THROW(buffer.write(bytes.data(), 4097), DeviceError);
+  EXPECT_THROW(buffer.write(bytes.data(), 1, 4096), DeviceError);
+  EXPECT_THROW(buffer.fill_zero(4097), DeviceError);
+}
+
+TEST_P(SharedBuffer, NeedsNoCommandsWhereItIsShared) {
+  Buffer buffer(device_, Memory::kShared);
+  buffer.reserve(4);
+  EXPECT_EQ(buffer.shared() != nullptr, device_.info().shares_memory);
+  HostView view(device_);
+  view.reserve(buffer, 4);
+  device_.finish();
+  fault_injector::disarm();
+  buffer.write(&two_, 4);
+  view.read(buffer, 4);
+  EXPECT_EQ(fault_injector::calls_checked() == 0, device_.info().shares_memory);
+}
+
+TEST(Device, ThatMaySharesMemoryIfItIsAProcessorOfPocl) {
+  const Device device(""), other("", 0, false);
+  EXPECT_FALSE(other.info().shares_memory);
+  if (device.info().platform_name == "Portable Computing Language" &&
+      device.info().type == CL_DEVICE_TYPE_CPU) {
+    EXPECT_TRUE(device.info().shares_memory);
+  }
 }
 
 TEST(PinnedMemory, TakesAndGivesWhatTheDeviceHolds) {

@@ -17,8 +17,8 @@
 
 namespace {
 
-std::atomic<int> contexts{0}, queues{0}, memories{0}, mappings{0}, programs{0}, kernels{0},
-    events{0};
+std::atomic<int> contexts{0}, queues{0}, memories{0}, mappings{0}, shared{0}, programs{0},
+    kernels{0}, events{0};
 
 const void* object_of(const void* address) {
   Dl_info info{};
@@ -87,6 +87,27 @@ void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem memory, cl_bool blocking
   static const auto original = NEXT(clEnqueueMapBuffer);
   return pass_on(original, {mappings, +1, __builtin_return_address(0)}, queue, memory, blocking,
                  flags, offset, size, wait_count, wait, event, code);
+}
+
+void* clSVMAlloc(cl_context context, cl_svm_mem_flags flags, size_t size, cl_uint alignment) {
+  static const auto original = NEXT(clSVMAlloc);
+  return pass_on(original, {shared, +1, __builtin_return_address(0)}, context, flags, size,
+                 alignment);
+}
+
+void clSVMFree(cl_context context, void* data) {
+  static const auto original = NEXT(clSVMFree);
+  original(context, data);
+  if (is_ours(__builtin_return_address(0))) --shared;
+}
+
+cl_int clEnqueueSVMFree(cl_command_queue queue, cl_uint count, void* data[],
+                        void(CL_CALLBACK* free)(cl_command_queue, cl_uint, void*[], void*),
+                        void* user_data, cl_uint wait_count, const cl_event* wait,
+                        cl_event* event) {
+  static const auto original = NEXT(clEnqueueSVMFree);
+  return pass_on(original, {shared, -1, __builtin_return_address(0)}, queue, count, data, free,
+                 user_data, wait_count, wait, event);
 }
 
 cl_program clCreateProgramWithSource(cl_context context, cl_uint count, const char** texts,
@@ -173,7 +194,7 @@ std::vector<std::uint32_t> scenario() {
     std::iota(in.begin(), in.end(), 0u);
     Program program(device, kTwoKernels, "");
     Kernel kernel(program, "twice");
-    Buffer source(device), target(device);
+    Buffer source(device, Memory::kShared), target(device);
     PinnedMemory pinned(device);
     source.reserve(4 * in.size());
     source.reserve(8192);
@@ -192,13 +213,16 @@ std::vector<std::uint32_t> scenario() {
     kernel.launch(4, 64, source, target);
     device.finish();
     kernel.take_milliseconds();  // tells of clocks that could not be read before
+    kernel.launch(4, 64, source, target);
+    source.release();  // while it is in use
+    device.finish();
     result = out;
   }
   return result;
 }
 
 std::vector<int> live() {
-  return {contexts, queues, memories, mappings, programs, kernels, events};
+  return {contexts, queues, memories, mappings, shared, programs, kernels, events};
 }
 
 std::vector<std::uint32_t> even_numbers() {
@@ -211,15 +235,16 @@ TEST(Handles, AreCountedAndAllGivenBack) {
   const std::vector<int> before = live();
   {
     Device device("");
-    Buffer buffer(device);
+    Buffer buffer(device), shared_buffer(device, Memory::kShared);
     PinnedMemory pinned(device);
     buffer.reserve(1);
+    shared_buffer.reserve(1);
     pinned.reserve(1);
     Program program(device, kTwoKernels, "");
     Kernel kernel(program, "twice");
     kernel.launch(1, 1, buffer, buffer);
     std::vector<int> during = before;
-    const int created[] = {1, 1, 2, 1, 1, 1, 1};
+    const int created[] = {1, 1, 3, 1, device.info().shares_memory ? 1 : 0, 1, 1, 1};
     for (std::size_t i = 0; i < during.size(); ++i) during[i] += created[i];
     EXPECT_EQ(live(), during) << "the counting functions are not the ones that are called";
   }
