@@ -39,9 +39,9 @@ MemoryHandle create_memory(Device& device, cl_mem_flags flags, std::size_t size,
 }
 
 SharedHandle create_shared_memory(Device& device, std::size_t size) {
-  SharedHandle memory(clSVMAlloc(device.context(),
-                                 CL_MEM_READ_WRITE | CL_MEM_SVM_FINE_GRAIN_BUFFER, size, 0),
-                      {&device});
+  SharedHandle memory(
+      clSVMAlloc(device.context(), CL_MEM_READ_WRITE | CL_MEM_SVM_FINE_GRAIN_BUFFER, size, 0),
+      {&device});
   device.check_call(memory ? CL_SUCCESS : CL_MEM_OBJECT_ALLOCATION_FAILURE, "clSVMAlloc",
                     [&] { return "Asked for: " + std::to_string(size) + " bytes."; });
   return memory;

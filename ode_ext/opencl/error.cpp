@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "opencl/error.h"
 
-#include <CL/cl_ext.h>
-
 #include <atomic>
 
 namespace ode_ext {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What there is: the platforms and devices that the ICD loader finds.
-#include "opencl/opencl.h"
-
-#include <CL/cl_ext.h>
-
 #include <mutex>
 
 #include "opencl/choice.h"
 #include "opencl/device.h"
 #include "opencl/error.h"
 #include "opencl/fork_guard.h"
+#include "opencl/opencl.h"
 
 namespace ode_ext {
 namespace {
