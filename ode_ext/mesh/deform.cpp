@@ -13,41 +13,41 @@
 namespace ode_ext {
 namespace {
 
-bool is_collapsed(const TriangleSoup& soup, std::size_t first) {
-  return soup[first] == soup[first + 1] || soup[first + 1] == soup[first + 2] ||
-         soup[first + 2] == soup[first];
+bool is_collapsed(const SourceTriangles& source, std::size_t first) {
+  return source[first] == source[first + 1] || source[first + 1] == source[first + 2] ||
+         source[first + 2] == source[first];
 }
 
 // Whether the same triangles collapse, and corners of one vertex are at one place. Floats that
 // compare equal have the same bits but for the sign of 0, as in weld().
-bool follows(const std::vector<std::uint32_t>& vertex_of, const TriangleSoup& soup,
+bool follows(const std::vector<std::uint32_t>& vertex_of, const SourceTriangles& source,
              std::vector<Vec3f>& vertices) {
-  for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
-    if (is_collapsed(soup, i) != (vertex_of[i] == kNone)) return false;
+  for (std::size_t i = 0; i + 2 < source.size(); i += 3) {
+    if (is_collapsed(source, i) != (vertex_of[i] == kNone)) return false;
     if (vertex_of[i] == kNone) continue;
-    for (std::size_t k = i; k < i + 3; ++k) vertices[vertex_of[k]] = soup[k] + Vec3f{};
+    for (std::size_t k = i; k < i + 3; ++k) vertices[vertex_of[k]] = source[k] + Vec3f{};
   }
-  for (std::size_t k = 0; k < soup.size(); ++k)
-    if (vertex_of[k] != kNone && vertices[vertex_of[k]] != soup[k]) return false;
+  for (std::size_t k = 0; k < source.size(); ++k)
+    if (vertex_of[k] != kNone && vertices[vertex_of[k]] != source[k]) return false;
   return true;
 }
 
 }  // namespace
 
 std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const MeshTopology>& topology,
-                                     const TriangleSoup& soup, float open_thickness) {
-  if (topology->corner_vertex.size() != soup.size()) return nullptr;
+                                     const SourceTriangles& source, float open_thickness) {
+  if (topology->corner_vertex.size() != source.size()) return nullptr;
   Mesh shape;
-  shape.soup = soup;
+  shape.source = source;
   shape.deformable = true;
   shape.open_thickness = open_thickness;
-  shape.content_hash = hash_soup(soup.data(), soup.size());
+  shape.content_hash = hash_soup(source);
   shape.shape_hash = shape.content_hash;
-  shape.finite = is_finite(soup);
+  shape.finite = is_finite(source);
   if (!shape.finite) return std::make_shared<const Mesh>(std::move(shape));
 
   shape.vertices.resize(topology->vertex_count);
-  if (topology->reoriented || !follows(topology->corner_vertex, soup, shape.vertices) ||
+  if (topology->reoriented || !follows(topology->corner_vertex, source, shape.vertices) ||
       !are_apart(shape.vertices))
     return nullptr;
   // Built anew, a mesh is turned where its volume is negative.

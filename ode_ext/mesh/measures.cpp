@@ -7,12 +7,6 @@
 
 namespace ode_ext {
 
-bool is_finite(const TriangleSoup& soup) {
-  return std::all_of(soup.begin(), soup.end(), [](const Vec3f& corner) {
-    return std::isfinite(corner.x) && std::isfinite(corner.y) && std::isfinite(corner.z);
-  });
-}
-
 float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles) {
   double sum = 0;
   for (const Triangle& triangle : triangles) {

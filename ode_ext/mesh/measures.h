@@ -9,8 +9,6 @@
 
 namespace ode_ext {
 
-bool is_finite(const TriangleSoup& soup);
-
 // The mean length of the sides of all triangles [m]; an edge inside the mesh counts once for each
 // of them.
 float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);

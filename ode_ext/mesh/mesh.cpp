@@ -52,20 +52,20 @@ void connect(Edges edges, const Bvh& bvh, MeshTopology& topology) {
 
 }  // namespace
 
-Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
+Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
   Mesh mesh;
-  mesh.soup = std::move(given);
-  const TriangleSoup& soup = mesh.soup;
-  mesh.content_hash = hash_soup(soup.data(), soup.size());
+  mesh.source = std::move(given);
+  const SourceTriangles& source = mesh.source;
+  mesh.content_hash = hash_soup(source);
   mesh.shape_hash = mesh.content_hash;
   mesh.deformable = options.deformable;
   if (mesh.deformable) mesh.open_thickness = options.open_thickness;
-  mesh.finite = is_finite(soup);
+  mesh.finite = is_finite(source);
   if (!mesh.finite) return mesh;
 
   // No number may depend on the shape that a deformable mesh happened to be met in first, or equal
   // contacts would be told apart by its past; nor on how the program lists a rigid one.
-  WeldedMesh welded = weld(soup, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
+  WeldedMesh welded = weld(source, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
   if (!mesh.deformable) order_by_vertices(welded);
   const auto topology = std::make_shared<MeshTopology>();
   mesh.topology = topology;
@@ -98,7 +98,7 @@ Mesh build_mesh(TriangleSoup given, const MeshOptions& options) {
   connect(std::move(edges), bvh, *topology);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
-    topology->soup = soup;
+    topology->source = source;
     topology->corner_vertex = std::move(welded.corner_vertex);
     return mesh;
   }

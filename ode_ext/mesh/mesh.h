@@ -9,6 +9,7 @@
 
 #include "mesh/box.h"
 #include "mesh/mesh_topology.h"
+#include "mesh/source_triangles.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
@@ -16,9 +17,7 @@ namespace ode_ext {
 // A topology and where its vertices are: a mesh as it was built, or a shape it has taken since.
 struct Mesh {
   std::shared_ptr<const MeshTopology> topology = std::make_shared<const MeshTopology>();
-  // What it was made of, bit for bit: by this it is known to be unchanged, or the same as another.
-  // 36 bytes a triangle, about a tenth of the rest.
-  TriangleSoup soup;
+  SourceTriangles source;  // what it was made of
   std::vector<Vec3f> vertices;  // [m], local frame; as MeshTopology numbers them
   // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
   // normals of the faces are empty for a deformable mesh: the device makes them.
@@ -33,12 +32,12 @@ struct Mesh {
   // [m].
   float radius = 0;
   float mean_edge = 0;       // [m]
-  bool finite = true;        // false: a coordinate is NaN or infinite, all but the soup is empty
+  bool finite = true;        // false: a coordinate is NaN or infinite, all but the source is empty
   bool deformable = false;   // its vertices are expected to move
   float open_thickness = 0;  // of deformable meshes: as in MeshOptions
-  std::uint64_t content_hash = 0;  // of the soup: equal soups have equal hashes
+  std::uint64_t content_hash = 0;  // hash_soup(source)
   // Of the welded vertices, so that it is the same however the triangles are ordered or wound; of
-  // deformable meshes that of the soup, whose vertices keep the order they were built in.
+  // deformable meshes that of the source, whose vertices keep the order they were built in.
   std::uint64_t shape_hash = 0;
 
   bool closed() const { return topology->closed; }
@@ -53,12 +52,6 @@ struct MeshOptions {
 };
 
 // Builds everything above. Throws std::bad_alloc only.
-Mesh build_mesh(TriangleSoup soup, const MeshOptions& options = {});
-
-// The hash that build_mesh stores, alone. What has one hash need not be one soup (soup_hash.cpp).
-std::uint64_t hash_soup(const Vec3f* corners, std::size_t corner_count);
-
-// A total order of soups by their bits: 0 for the same, and a NaN is the same as itself.
-int compare_soups(const TriangleSoup& a, const TriangleSoup& b);
+Mesh build_mesh(SourceTriangles source, const MeshOptions& options = {});
 
 }  // namespace ode_ext

@@ -10,13 +10,11 @@
 #include "mesh/edges.h"
 #include "mesh/meshlets.h"
 #include "mesh/runs.h"
+#include "mesh/source_triangles.h"
 #include "mesh/triangle.h"
 #include "mesh/vec.h"
 
 namespace ode_ext {
-
-// Corners of the triangles as the program holds them: 3 per triangle, local frame [m].
-using TriangleSoup = std::vector<Vec3f>;
 
 // A run of at most kChunkVertices consecutive vertices, near one another in space.
 struct VertexChunk {
@@ -32,7 +30,7 @@ inline constexpr std::uint32_t kChunkVertices = kRunLength;
 struct MeshTopology {
   std::size_t vertex_count = 0;
   // Of deformable meshes: what it was made of.
-  TriangleSoup soup;
+  SourceTriangles source;
   // Oriented as `inverted` says; without collapsed triangles. By their vertices; of deformable
   // meshes in the program's order.
   std::vector<Triangle> triangles;

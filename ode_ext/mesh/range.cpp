@@ -8,10 +8,10 @@
 
 namespace ode_ext {
 
-std::string why_refused(const TriangleSoup& soup) {
-  if (soup.empty()) return {};
-  if (!is_finite(soup)) return "has a vertex that is not finite";
-  const Box box = box_of(soup);
+std::string why_refused(const SourceTriangles& source) {
+  if (source.empty()) return {};
+  if (!is_finite(source)) return "has a vertex that is not finite";
+  const Box box = box_of(source);
   const double farthest = length(Vec3d(farthest_corner(box)));
   const double size = length(extent(box));
   std::ostringstream reason;

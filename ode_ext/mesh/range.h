@@ -22,6 +22,6 @@ inline constexpr float kFarthestCorner = 0x1p36f;  // [m] from the mesh's own or
 inline constexpr float kSmallestMesh = 0x1p-30f;  // [m] diagonal of the box, 9.3e-10
 
 // Why contacts of a mesh are not computed, as what a sentence about it says; empty: they are.
-std::string why_refused(const TriangleSoup& soup);
+std::string why_refused(const SourceTriangles& source);
 
 }  // namespace ode_ext

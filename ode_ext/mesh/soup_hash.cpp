@@ -4,12 +4,13 @@
 // have different hashes, and others the same by chance, 1 in 2^64. Whoever wants collisions can
 // make them, so that a hash only says where to look: what is found there has to be compared.
 // Raw bits count: -0 and +0 are different soups here, though they weld together.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 
-#include "mesh/mesh.h"
+#include "mesh/source_triangles.h"
 
 namespace ode_ext {
 namespace {
@@ -39,25 +40,57 @@ std::uint64_t load(const unsigned char* bytes, std::size_t count = kWord) {
   return word;
 }
 
+// Piece by piece; all but the last are of whole blocks.
+class SoupHash {
+ public:
+  void add(const Vec3f* corners, std::size_t count) {
+    corner_count_ += count;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(corners);
+    std::size_t left = count * sizeof(Vec3f);
+    for (; left >= kBlock; left -= kBlock, bytes += kBlock) {
+      for (std::size_t i = 0; i < kLanes; ++i)
+        lanes_[i] = absorb(lanes_[i], load(bytes + i * kWord));
+    }
+    std::memcpy(rest_.data(), bytes, left);
+    rest_size_ = left;
+  }
+
+  std::uint64_t get() const {
+    std::uint64_t hash = corner_count_;  // the length counts
+    for (const std::uint64_t lane : lanes_) hash = absorb(hash, lane);
+    const unsigned char* bytes = rest_.data();
+    std::size_t left = rest_size_;
+    for (; left >= kWord; left -= kWord, bytes += kWord) hash = absorb(hash, load(bytes));
+    if (left > 0) hash = absorb(hash, load(bytes, left));
+    return mix(hash) ^ mix(hash) >> 32;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = kLanes * kWord;  // [bytes]
+
+  std::array<std::uint64_t, kLanes> lanes_{kGolden, kRoot2, ~kGolden, ~kRoot2};
+  std::array<unsigned char, kBlock> rest_{};
+  std::size_t rest_size_ = 0;
+  std::size_t corner_count_ = 0;
+};
+
 }  // namespace
 
 std::uint64_t hash_soup(const Vec3f* corners, std::size_t corner_count) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(corners);
-  std::size_t left = corner_count * sizeof(Vec3f);
-  std::array<std::uint64_t, kLanes> lanes{kGolden, kRoot2, ~kGolden, ~kRoot2};
-  for (; left >= kLanes * kWord; left -= kLanes * kWord, bytes += kLanes * kWord) {
-    for (std::size_t i = 0; i < kLanes; ++i) lanes[i] = absorb(lanes[i], load(bytes + i * kWord));
-  }
-  std::uint64_t hash = corner_count;  // the length counts
-  for (const std::uint64_t lane : lanes) hash = absorb(hash, lane);
-  for (; left >= kWord; left -= kWord, bytes += kWord) hash = absorb(hash, load(bytes));
-  if (left > 0) hash = absorb(hash, load(bytes, left));
-  return mix(hash) ^ mix(hash) >> 32;
+  SoupHash hash;
+  if (corner_count != 0) hash.add(corners, corner_count);
+  return hash.get();
 }
 
-int compare_soups(const TriangleSoup& a, const TriangleSoup& b) {
-  if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
-  return a.empty() ? 0 : std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3f));
+std::uint64_t hash_soup(const SourceTriangles& source) {
+  SoupHash hash;
+  std::array<Vec3f, 128> piece;  // 48 blocks
+  for (std::size_t first = 0; first < source.size(); first += piece.size()) {
+    const std::size_t count = std::min(piece.size(), source.size() - first);
+    for (std::size_t i = 0; i < count; ++i) piece[i] = source[first + i];
+    hash.add(piece.data(), count);
+  }
+  return hash.get();
 }
 
 }  // namespace ode_ext

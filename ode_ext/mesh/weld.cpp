@@ -90,15 +90,20 @@ bool is_listed_first(const Listed& a, const Listed& b) {
 
 }  // namespace
 
-WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
+WeldedMesh weld(const SourceTriangles& source, VertexOrder order) {
   WeldedMesh mesh;
-  mesh.corner_vertex.assign(soup.size(), kNone);
-  Places places(soup.size());
-  for (std::size_t i = 0; i + 2 < soup.size(); i += 3) {
-    if (soup[i] == soup[i + 1] || soup[i + 1] == soup[i + 2] || soup[i + 2] == soup[i]) continue;
+  mesh.corner_vertex.assign(source.size(), kNone);
+  Places places(std::min(source.size(), source.places.size()));
+  std::vector<std::uint32_t> index_of(source.places.size(), kNone);
+  for (std::size_t i = 0; i + 2 < source.size(); i += 3) {
+    const Vec3f &a = source[i], &b = source[i + 1], &c = source[i + 2];
+    if (a == b || b == c || c == a) continue;
     mesh.source_triangle.push_back(static_cast<std::uint32_t>(i / 3));
-    for (std::size_t k = i; k < i + 3; ++k)
-      mesh.corner_vertex[k] = places.index_of(soup[k] + Vec3f{});  // -0 + 0 = +0
+    for (std::size_t k = i; k < i + 3; ++k) {
+      std::uint32_t& index = index_of[source.corners[k]];
+      if (index == kNone) index = places.index_of(source[k] + Vec3f{});  // -0 + 0 = +0
+      mesh.corner_vertex[k] = index;
+    }
   }
   mesh.vertices = places.take();
   if (order == VertexOrder::kRuns) {
@@ -107,8 +112,8 @@ WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order) {
       if (corner != kNone) corner = vertex[corner];
   }
   mesh.triangles.reserve(mesh.source_triangle.size());
-  for (const std::uint32_t source : mesh.source_triangle) {
-    const std::uint32_t* corner = &mesh.corner_vertex[3 * std::size_t{source}];
+  for (const std::uint32_t triangle : mesh.source_triangle) {
+    const std::uint32_t* corner = &mesh.corner_vertex[3 * std::size_t{triangle}];
     mesh.triangles.push_back({corner[0], corner[1], corner[2]});
   }
   return mesh;

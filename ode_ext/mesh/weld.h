@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a triangle soup to vertices and indices.
+// From triangles as a program gives them to vertices that are each there once.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "mesh/source_triangles.h"
 #include "mesh/triangle.h"
 #include "mesh/vec.h"
 
@@ -12,9 +13,9 @@ namespace ode_ext {
 
 struct WeldedMesh {
   std::vector<Vec3f> vertices;      // each place once; -0 is stored as +0
-  std::vector<Triangle> triangles;  // in the soup's order, without those that collapsed
+  std::vector<Triangle> triangles;  // in the program's order, without those that collapsed
   std::vector<std::uint32_t> source_triangle;
-  // For each corner of the soup its vertex; kNone for those of triangles that collapsed.
+  // For each corner of the source its vertex; kNone for those of triangles that collapsed.
   std::vector<std::uint32_t> corner_vertex;
 };
 
@@ -26,7 +27,7 @@ enum class VertexOrder {
 // Corners at exactly the same place become one vertex; a triangle with two equal corners collapses
 // and is dropped (a sliver with three different ones is kept: its edges hold its neighbours
 // together). All corners must be finite.
-WeldedMesh weld(const std::vector<Vec3f>& soup, VertexOrder order = VertexOrder::kRuns);
+WeldedMesh weld(const SourceTriangles& source, VertexOrder order = VertexOrder::kRuns);
 
 // Whether no two are at the same place. All must be finite, and none -0.
 bool are_apart(const std::vector<Vec3f>& vertices);

@@ -98,26 +98,26 @@ class CaptureFile {
 
  private:
   std::uint32_t mesh(const Mesh& mesh) {
-    const TriangleSoup& built = mesh.topology->soup;
+    const SourceTriangles& built = mesh.topology->source;
     std::uint32_t base = capture::kNoBase;
-    if (mesh.deformable && mesh.finite && compare_soups(mesh.soup, built) != 0) {
-      const std::uint64_t hash = hash_soup(built.data(), built.size());
+    if (mesh.deformable && mesh.finite && compare_soups(mesh.source, built) != 0) {
+      const std::uint64_t hash = hash_soup(built);
       base = number_of(built, hash, hash, base, true);
     }
-    return number_of(mesh.soup, mesh.content_hash, mesh.shape_hash, base, mesh.deformable);
+    return number_of(mesh.source, mesh.content_hash, mesh.shape_hash, base, mesh.deformable);
   }
 
   // Content that was written before has a number already. Two hashes are taken for it: a mesh that
   // is forged to have both of another is not worth keeping every mesh.
-  std::uint32_t number_of(const TriangleSoup& soup, std::uint64_t hash, std::uint64_t shape_hash,
-                          std::uint32_t base, bool deformable) {
+  std::uint32_t number_of(const SourceTriangles& source, std::uint64_t hash,
+                          std::uint64_t shape_hash, std::uint32_t base, bool deformable) {
     const auto [known, is_new] =
-        meshes_.try_emplace({hash, shape_hash, soup.size(), base, deformable},
+        meshes_.try_emplace({hash, shape_hash, source.size(), base, deformable},
                             static_cast<std::uint32_t>(meshes_.size()));
     if (!is_new) return known->second;
     put(capture::Mesh{known->second, base, deformable ? 1u : 0u,
-                      static_cast<std::uint32_t>(soup.size() / 3)});
-    put(soup.data(), soup.size() * sizeof(Vec3f));
+                      static_cast<std::uint32_t>(source.size() / 3)});
+    for (std::size_t i = 0; i < source.size(); ++i) put(source[i]);
     end_record(capture::kMesh);
     return known->second;
   }

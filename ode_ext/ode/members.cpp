@@ -96,7 +96,7 @@ bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (triangles != others) return triangles < others;
   if (a.mesh->content_hash != b.mesh->content_hash)
     return a.mesh->content_hash < b.mesh->content_hash;
-  const int soups = compare_soups(a.mesh->soup, b.mesh->soup);  // hashes can be forged
+  const int soups = compare_soups(a.mesh->source, b.mesh->source);  // hashes can be forged
   if (soups != 0) return soups < 0;
   // Copies at one pose: nothing of theirs tells them apart, so their handles have to.
   return std::less<>()(a.geom, b.geom);

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "ode/messages.h"
+#include "ode/read_triangle.h"
 
 namespace ode_ext {
 namespace {
@@ -54,13 +56,14 @@ class Probe {
         data_(dGeomTriMeshDataCreate()) {
     for (std::size_t v = 0; v < vertex_count; ++v)
       for (std::size_t axis = 0; axis < 3; ++axis) put_coordinate(v, axis);
+    TriangleSoup soup;
     for (std::size_t t = 0; t < triangle_count; ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const auto index = static_cast<dTriIndex>((t + k) % vertex_count);
         std::memcpy(&indices_[t * arrays_.index_stride + k * sizeof(index)], &index, sizeof(index));
-        soup_.push_back(
-            {coordinate_of(index, 0), coordinate_of(index, 1), coordinate_of(index, 2)});
+        soup.push_back({coordinate_of(index, 0), coordinate_of(index, 1), coordinate_of(index, 2)});
       }
+    source_ = std::move(soup);
   }
   ~Probe() { dGeomTriMeshDataDestroy(data_); }
   Probe(const Probe&) = delete;
@@ -85,7 +88,7 @@ class Probe {
   bool is_read_by(const Layout& layout) const {
     const MeshArrays found = arrays_at(layout, object());
     return found.is_single == arrays_.is_single && found.vertices == arrays_.vertices &&
-           found.give(soup_);
+           found.give(source_) && is_given_by_ode();
   }
 
  private:
@@ -98,6 +101,14 @@ class Probe {
     return at<std::uint32_t>(place) == number;
   }
 
+  bool is_given_by_ode() const {
+    const dGeomID geom = dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr);
+    TriangleSoup soup(source_.size());
+    for (std::size_t t = 0; t < arrays_.triangle_count; ++t) read_triangle(geom, t, &soup[3 * t]);
+    dGeomDestroy(geom);
+    return compare_soups(soup, source_) == 0;
+  }
+
   // No float and no half of a double is like another.
   static float coordinate_of(std::size_t v, std::size_t axis) {
     return static_cast<float>(v * v + (axis + 1) * v) + 0.25f;
@@ -105,7 +116,7 @@ class Probe {
   void put_coordinate(std::size_t v, std::size_t axis) {
     unsigned char* to = &vertices_[v * arrays_.vertex_stride];
     const float rounded = coordinate_of(v, axis);
-    const double value = rounded;
+    const double value = rounded * (1 + 0x1p-30);  // is rounded
     if (arrays_.is_single)
       std::memcpy(to + axis * sizeof(rounded), &rounded, sizeof(rounded));
     else
@@ -122,7 +133,7 @@ class Probe {
 
   std::vector<unsigned char> vertices_, indices_;
   MeshArrays arrays_;
-  TriangleSoup soup_;
+  SourceTriangles source_;
   dTriMeshDataID data_;
 };
 
@@ -189,34 +200,88 @@ std::optional<Layout> find_layout_and_say() {
 }
 
 // As ODE turns a corner by its geom's pose, here the identity: -0 becomes 0.
-float coordinate(const unsigned char* at, std::size_t axis, bool is_single) {
-  return (is_single ? load<float>(at + axis * sizeof(float))
-                    : static_cast<float>(load<double>(at + axis * sizeof(double)))) +
-         0.0f;
+template <class Real>
+float coordinate(const unsigned char* at, std::size_t axis) {
+  return static_cast<float>(load<Real>(at + axis * sizeof(Real))) + 0.0f;
 }
 
-template <bool is_single>
-bool give_soup(const MeshArrays& arrays, const TriangleSoup& soup) {
-  const Vec3f* known = soup.data();
-  for (std::size_t t = 0; t < arrays.triangle_count; ++t) {
-    const unsigned char* corners = arrays.indices + t * arrays.index_stride;
-    for (std::size_t k = 0; k < 3; ++k, ++known) {
-      const std::size_t v = load<dTriIndex>(corners + k * sizeof(dTriIndex));
-      if (v >= arrays.vertex_count) return false;
-      const unsigned char* at = arrays.vertices + v * arrays.vertex_stride;
-      const Vec3f corner = {coordinate(at, 0, is_single), coordinate(at, 1, is_single),
-                            coordinate(at, 2, is_single)};
-      if (std::memcmp(&corner, known, sizeof(corner)) != 0) return false;
-    }
+template <class Real>
+Vec3f place(const unsigned char* at) {
+  return {coordinate<Real>(at, 0), coordinate<Real>(at, 1), coordinate<Real>(at, 2)};
+}
+
+Vec3f place(const MeshArrays& arrays, std::size_t vertex) {
+  const unsigned char* at = arrays.vertices + vertex * arrays.vertex_stride;
+  return arrays.is_single ? place<float>(at) : place<double>(at);
+}
+
+std::uint32_t corner(const MeshArrays& arrays, std::size_t i) {
+  return load<dTriIndex>(arrays.indices + i / 3 * arrays.index_stride + i % 3 * sizeof(dTriIndex));
+}
+
+bool has_corners(const MeshArrays& arrays, const std::vector<std::uint32_t>& corners) {
+  if (sizeof(dTriIndex) == sizeof(std::uint32_t) && arrays.index_stride == 3 * sizeof(dTriIndex))
+    return std::memcmp(arrays.indices, corners.data(), corners.size() * sizeof(dTriIndex)) == 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    if (corner(arrays, i) != corners[i]) return false;
+  return true;
+}
+
+// Looked at in blocks, of which a compiler makes vectors where nothing lies between vertices.
+template <class Real>
+bool has_places(const MeshArrays& arrays, const std::vector<Vec3f>& places) {
+  constexpr std::size_t kBlock = 32;  // vertices
+  const bool is_dense = arrays.vertex_stride == 3 * sizeof(Real);
+  std::size_t v = 0;
+  for (; is_dense && v + kBlock <= places.size(); v += kBlock) {
+    std::array<float, 3 * kBlock> block;
+    for (std::size_t i = 0; i < block.size(); ++i)
+      block[i] = coordinate<Real>(arrays.vertices + v * arrays.vertex_stride, i);
+    if (std::memcmp(block.data(), &places[v], sizeof(block)) != 0) return false;
+  }
+  for (; v < places.size(); ++v) {
+    const Vec3f at = place<Real>(arrays.vertices + v * arrays.vertex_stride);
+    if (std::memcmp(&at, &places[v], sizeof(at)) != 0) return false;
   }
   return true;
 }
 
+bool has_vertices(const MeshArrays& arrays, const SourceTriangles& source) {
+  return arrays.is_single ? has_places<float>(arrays, source.places)
+                          : has_places<double>(arrays, source.places);
+}
+
 }  // namespace
 
-bool MeshArrays::give(const TriangleSoup& soup) const {
-  if (soup.size() != 3 * triangle_count) return false;
-  return is_single ? give_soup<true>(*this, soup) : give_soup<false>(*this, soup);
+bool MeshArrays::read(SourceTriangles& source) const {
+  source.corners.resize(3 * triangle_count);
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    source.corners[i] = corner(*this, i);
+    if (source.corners[i] >= vertex_count) return false;
+  }
+  if (vertex_count > source.size()) {
+    TriangleSoup soup;
+    for (const std::uint32_t vertex : source.corners) soup.push_back(place(*this, vertex));
+    source = std::move(soup);
+  } else {
+    source.places.resize(vertex_count);
+    for (std::size_t v = 0; v < vertex_count; ++v) source.places[v] = place(*this, v);
+  }
+  return is_finite(source);
+}
+
+bool MeshArrays::give(const SourceTriangles& source) const {
+  if (source.size() != 3 * triangle_count) return false;
+  if (source.places.size() == vertex_count && has_corners(*this, source.corners) &&
+      has_vertices(*this, source))
+    return true;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const std::uint32_t vertex = corner(*this, i);
+    if (vertex >= vertex_count) return false;
+    const Vec3f at = place(*this, vertex);
+    if (std::memcmp(&at, &source[i], sizeof(at)) != 0) return false;
+  }
+  return true;
 }
 
 std::optional<MeshArrays> arrays_of(dTriMeshDataID data) {

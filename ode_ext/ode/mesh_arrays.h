@@ -24,9 +24,12 @@ struct MeshArrays {
   std::size_t triangle_count;
   bool is_single;  // coordinates are floats, not doubles
 
-  // Whether the triangles are those of `soup`, bit for bit as MeshReader reads them. False is no
-  // answer: of what is not finite, or names no vertex, ODE has to be asked.
-  bool give(const TriangleSoup& soup) const;
+  // Overwrites `source` by the triangles, bit for bit as ODE gives them, the places in the order of
+  // the vertices; but where most vertices are of no triangle every corner gets a place of its own.
+  // False: of what is not finite, or names no vertex, ODE has to be asked.
+  bool read(SourceTriangles& source) const;
+  // Whether read() would give the same triangles. False is no answer: ODE has to be asked.
+  bool give(const SourceTriangles& source) const;
 };
 
 // Of data that a live geom has just named.

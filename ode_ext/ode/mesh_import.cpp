@@ -4,23 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "ode/mesh_arrays.h"
+#include "ode/read_triangle.h"
 
 namespace ode_ext {
-namespace {
-
-// One call a triangle, which takes most of the time of reading a mesh: ODE has none that gives
-// more.
-void read_triangle(dGeomID geom, std::size_t index, Vec3f* corners) {
-  dVector3 exact[3];
-  dGeomTriMeshGetTriangle(geom, static_cast<int>(index), &exact[0], &exact[1], &exact[2]);
-  for (std::size_t k = 0; k < 3; ++k)
-    corners[k] = {static_cast<float>(exact[k][0]), static_cast<float>(exact[k][1]),
-                  static_cast<float>(exact[k][2])};
-}
-
-}  // namespace
 
 MeshReader::MeshReader(dTriMeshDataID data)
     : data_(data), geom_(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr)) {}
@@ -31,21 +20,25 @@ std::size_t MeshReader::triangle_count() const {
   return static_cast<std::size_t>(dGeomTriMeshGetTriangleCount(geom_));
 }
 
-void MeshReader::read(TriangleSoup& soup) const {
+void MeshReader::read(SourceTriangles& source) const {
   const std::size_t count = triangle_count();
-  soup.resize(3 * count);
+  const std::optional<MeshArrays> arrays = arrays_of(data_);
+  if (arrays && arrays->triangle_count == count && arrays->read(source)) return;
+  TriangleSoup soup(3 * count);
   for (std::size_t i = 0; i < count; ++i) read_triangle(geom_, i, &soup[3 * i]);
+  source = std::move(soup);
 }
 
-bool MeshReader::still_gives(const TriangleSoup& soup) const {
+bool MeshReader::still_gives(const SourceTriangles& source) const {
   const std::size_t count = triangle_count();
-  if (soup.size() != 3 * count) return false;
+  if (source.size() != 3 * count) return false;
   const std::optional<MeshArrays> arrays = arrays_of(data_);
-  if (arrays && arrays->give(soup)) return true;
+  if (arrays && arrays->give(source)) return true;
   Vec3f corners[3];
   for (std::size_t i = 0; i < count; ++i) {
     read_triangle(geom_, i, corners);
-    if (std::memcmp(corners, &soup[3 * i], sizeof(corners)) != 0) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::memcmp(&corners[k], &source[3 * i + k], sizeof(Vec3f)) != 0) return false;
   }
   return true;
 }

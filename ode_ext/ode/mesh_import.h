@@ -18,9 +18,10 @@ class MeshReader {
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
 
-  void read(TriangleSoup& soup) const;  // overwrites it
-  // Whether read() would give `soup`, bit for bit; looks no further than the first difference.
-  bool still_gives(const TriangleSoup& soup) const;
+  void read(SourceTriangles& source) const;  // overwrites it
+  // Whether read() would give the same triangles, bit for bit; looks no further than the first that
+  // differs.
+  bool still_gives(const SourceTriangles& source) const;
   // Whether `box` is within the one that ODE took of the data when it was built, by which it finds
   // pairs.
   bool knows(const Box& box) const;

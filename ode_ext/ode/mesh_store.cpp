@@ -32,8 +32,8 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   }
 
   const MeshReader reader(data);
-  if (entry.mesh == nullptr || !reader.still_gives(entry.mesh->soup)) {
-    reader.read(soup_);
+  if (entry.mesh == nullptr || !reader.still_gives(entry.mesh->source)) {
+    reader.read(source_);
     update(entry);
     resident_is_stale_ = true;
   }
@@ -50,30 +50,31 @@ void MeshStore::update(Entry& entry) {
   } else {
     if (entry.mesh != nullptr) ++deformed_;
     std::shared_ptr<const Mesh> shape;
-    if (entry.topology != nullptr) shape = deformed(entry.topology, soup_, options_.open_thickness);
+    if (entry.topology != nullptr)
+      shape = deformed(entry.topology, source_, options_.open_thickness);
     if (shape == nullptr) {
       shape = std::make_shared<const Mesh>(build_mesh(
-          std::move(soup_), {.open_thickness = options_.open_thickness, .deformable = true}));
+          std::move(source_), {.open_thickness = options_.open_thickness, .deformable = true}));
       entry.topology = shape->topology;
     }
     entry.mesh = std::move(shape);
   }
-  const TriangleSoup& soup = entry.mesh->soup;
-  const std::string reason = why_refused(soup);
+  const SourceTriangles& source = entry.mesh->source;
+  const std::string reason = why_refused(source);
   if (!reason.empty() && !entry.refused)  // once for a mesh that goes on changing
-    log(LogLevel::kWarning, "a mesh of " + std::to_string(soup.size() / 3) + " triangles " +
+    log(LogLevel::kWarning, "a mesh of " + std::to_string(source.size() / 3) + " triangles " +
                                 reason + "; its pairs get no contacts");
   entry.refused = !reason.empty();
 }
 
 std::shared_ptr<const Mesh> MeshStore::build() {
-  const std::uint64_t hash = hash_soup(soup_.data(), soup_.size());
+  const std::uint64_t hash = hash_soup(source_);
   const auto [first, last] = by_content_.equal_range(hash);
   for (auto known = first; known != last; ++known) {
     auto mesh = known->second.lock();
-    if (mesh != nullptr && compare_soups(mesh->soup, soup_) == 0) return mesh;
+    if (mesh != nullptr && compare_soups(mesh->source, source_) == 0) return mesh;
   }
-  auto mesh = std::make_shared<const Mesh>(build_mesh(std::move(soup_), options_));
+  auto mesh = std::make_shared<const Mesh>(build_mesh(std::move(source_), options_));
   by_content_.emplace(hash, mesh);
   return mesh;
 }
@@ -83,7 +84,7 @@ std::shared_ptr<const Mesh> MeshStore::known(dTriMeshDataID data, int triangle_c
   if (found == entries_.end() || found->second.changed) return nullptr;
   const std::shared_ptr<const Mesh>& mesh = found->second.mesh;
   const bool fits =
-      mesh != nullptr && mesh->soup.size() == 3 * static_cast<std::size_t>(triangle_count);
+      mesh != nullptr && mesh->source.size() == 3 * static_cast<std::size_t>(triangle_count);
   return fits ? mesh : nullptr;
 }
 

@@ -71,7 +71,7 @@ class MeshStore {
     bool refused = false;
   };
 
-  void update(Entry& entry);  // from soup_, which a mesh that is built keeps
+  void update(Entry& entry);  // from source_, which a mesh that is built keeps
   std::shared_ptr<const Mesh> build();
   static void drop(Entry& entry);
 
@@ -85,7 +85,7 @@ class MeshStore {
   bool resident_is_stale_ = false;
   std::uint64_t next_order_ = 0;
   std::uint64_t deformed_ = 0;
-  TriangleSoup soup_;
+  SourceTriangles source_;
 };
 
 }  // namespace ode_ext

@@ -56,7 +56,7 @@ TEST(BuildMesh, TakesAnEmptySoup) {
 }
 
 TEST(BuildMesh, TakesASingleTriangle) {
-  const Mesh mesh = build_mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}});
+  const Mesh mesh = build_mesh(TriangleSoup{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}});
   expect_whole(mesh);
   EXPECT_FALSE(mesh.closed());
   EXPECT_EQ(mesh.mean_edge, 4);

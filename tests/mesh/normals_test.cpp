@@ -50,7 +50,7 @@ TEST(Normals, FollowTheTurnedWindingOfAnInvertedMesh) {
 
 TEST(Normals, OfASheetOfTwoSidesAreThoseOfTheLargestFace) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, far{2, 0, 0};
-  const Mesh mesh = build_mesh({a, b, c, a, c, far});
+  const Mesh mesh = build_mesh(TriangleSoup{a, b, c, a, c, far});
   const Vec3f up{0, 0, 1}, down{0, 0, -1};
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     expect_near(mesh.normals[i], mesh.vertices[i] == b ? up : down);
@@ -59,8 +59,8 @@ TEST(Normals, OfASheetOfTwoSidesAreThoseOfTheLargestFace) {
 
 TEST(Normals, ThatCancelExactlyDoNotDependOnTheOrderOfTheFaces) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0};
-  const Mesh one = build_mesh({a, b, c, a, c, b});
-  const Mesh two = build_mesh({a, c, b, a, b, c});
+  const Mesh one = build_mesh(TriangleSoup{a, b, c, a, c, b});
+  const Mesh two = build_mesh(TriangleSoup{a, c, b, a, b, c});
   EXPECT_EQ(one.normals, two.normals);
   for (const Vec3f& normal : one.normals) EXPECT_EQ(length(normal), 1);
 }
@@ -69,19 +69,19 @@ TEST(Normals, ThatCancelButForRoundingAreThoseOfTheLargestFace) {
   // A sheet of two sides that rounding has pulled apart by 1e-8: what is left of the sum points
   // along the sheet.
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{1, 0, 1e-8f}, e{0, 1, -1e-8f};
-  const Mesh mesh = build_mesh({a, b, c, a, e, d});
+  const Mesh mesh = build_mesh(TriangleSoup{a, b, c, a, e, d});
   for (const Vec3f& normal : mesh.normals) EXPECT_GT(std::fabs(normal.z), 0.99f);
 }
 
 TEST(Normals, AreZeroWhereThereIsNoArea) {
-  const Mesh mesh = build_mesh({{0, 0, 0}, {0.1f, 0.1f, 0.1f}, {0.2f, 0.2f, 0.2f}});
+  const Mesh mesh = build_mesh(TriangleSoup{{0, 0, 0}, {0.1f, 0.1f, 0.1f}, {0.2f, 0.2f, 0.2f}});
   ASSERT_EQ(mesh.face_normals.size(), 1u);
   EXPECT_EQ(mesh.face_normals[0], Vec3f{});
   for (const Vec3f& normal : mesh.normals) EXPECT_EQ(normal, Vec3f{});
 }
 
 TEST(Normals, OfThinTrianglesAreStillExact) {
-  const Mesh mesh = build_mesh({{0, 0, 0}, {1000, 0, 0}, {500, 1e-6f, 0}});
+  const Mesh mesh = build_mesh(TriangleSoup{{0, 0, 0}, {1000, 0, 0}, {500, 1e-6f, 0}});
   EXPECT_EQ(mesh.face_normals[0], (Vec3f{0, 0, 1}));
 }
 

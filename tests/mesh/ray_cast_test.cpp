@@ -125,7 +125,7 @@ TEST(RayCast, TellsFrontFromBackInEveryDirection) {
 }
 
 TEST(RayCast, NeverHitsTrianglesWithoutArea) {
-  const WeldedMesh mesh = weld({{0, 0, 1}, {1, 0, 1}, {2, 0, 1}});
+  const WeldedMesh mesh = weld(TriangleSoup{{0, 0, 1}, {1, 0, 1}, {2, 0, 1}});
   const Bvh bvh = build_bvh(mesh.vertices, mesh.triangles);
   for (const double x : {0.0, 0.5, 1.0, 1.5}) {
     EXPECT_EQ(cast_ray({{x, 0, 0}, {0, 0, 1}}, bvh, mesh.vertices, mesh.triangles).triangle, kNone);

@@ -23,19 +23,19 @@ TEST(Weld, MergesVerticesThatAreExactlyEqual) {
 TEST(Weld, KeepsVerticesApartThatDifferInTheLastBit) {
   const float next = std::nextafter(1.0f, 2.0f);
   const WeldedMesh mesh =
-      weld({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {next, 0, 0}, {0, 1, 0}});
+      weld(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {next, 0, 0}, {0, 1, 0}});
   EXPECT_EQ(mesh.vertices.size(), 4u);
 }
 
 TEST(Weld, TakesNegativeZeroForZero) {
   const WeldedMesh mesh =
-      weld({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 1, 0}, {-1, 0, 0}});
+      weld(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 1, 0}, {-1, 0, 0}});
   ASSERT_EQ(mesh.vertices.size(), 4u);
   EXPECT_EQ(mesh.triangles[0][0], mesh.triangles[1][0]);
 }
 
 TEST(Weld, StoresNegativeZeroAsZero) {
-  const WeldedMesh mesh = weld({{-0.0f, -0.0f, 1}, {-0.0f, 1, -0.0f}, {1, -0.0f, -0.0f}});
+  const WeldedMesh mesh = weld(TriangleSoup{{-0.0f, -0.0f, 1}, {-0.0f, 1, -0.0f}, {1, -0.0f, -0.0f}});
   ASSERT_EQ(mesh.vertices.size(), 3u);
   for (const Vec3f& vertex : mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -46,13 +46,13 @@ TEST(Weld, StoresNegativeZeroAsZero) {
 
 TEST(Weld, DropsTrianglesThatCollapseAndTheirVertices) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, alone{9, 9, 9};
-  const WeldedMesh mesh = weld({alone, alone, a, a, b, c, b, a, b, alone, alone, alone, a, c, b});
+  const WeldedMesh mesh = weld(TriangleSoup{alone, alone, a, a, b, c, b, a, b, alone, alone, alone, a, c, b});
   EXPECT_EQ(mesh.source_triangle, (std::vector<std::uint32_t>{1, 4}));
   EXPECT_EQ(mesh.vertices.size(), 3u);
 }
 
 TEST(Weld, KeepsSliversWithThreeDifferentCorners) {
-  const WeldedMesh mesh = weld({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  const WeldedMesh mesh = weld(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
   EXPECT_EQ(mesh.triangles.size(), 1u);
 }
 
@@ -75,7 +75,7 @@ TEST(Weld, OrdersVerticesByPlaceWhateverTheOrderOfTheTriangles) {
 
 TEST(Weld, TellsVerticesApartThatAreVeryNear) {
   const WeldedMesh mesh =
-      weld({{0, 0, 0}, {1e-9f, 0, 0}, {1, 1, 1}, {1e-9f, 0, 0}, {0, 0, 0}, {1, 0, 0}});
+      weld(TriangleSoup{{0, 0, 0}, {1e-9f, 0, 0}, {1, 1, 1}, {1e-9f, 0, 0}, {0, 0, 0}, {1, 0, 0}});
   ASSERT_EQ(mesh.vertices.size(), 4u);
   for (const Vec3f place : {Vec3f{0, 0, 0}, Vec3f{1e-9f, 0, 0}})
     EXPECT_EQ(std::count(mesh.vertices.begin(), mesh.vertices.end(), place), 1);
