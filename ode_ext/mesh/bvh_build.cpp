@@ -35,6 +35,8 @@ struct Bin {
   std::uint32_t count = 0;
 };
 
+using Bins = std::array<Bin, kBins>;
+
 // A plane between bins: triangles in bins up to `last_left` go to the left child.
 struct Split {
   double cost = std::numeric_limits<double>::infinity();
@@ -149,10 +151,7 @@ class Builder {
     Box centroids = empty_box();
     for (auto it = begin; it != end; ++it) centroids = grown(centroids, centre(it->box));
 
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (centroids.lo[axis] < centroids.hi[axis]) find_split(range, centroids, axis, best);
-    }
+    const Split best = find_split(range, centroids);
     if (std::isinf(best.cost)) return range.count / 2;  // all in one place
 
     const Binning binning(centroids, best.axis);
@@ -162,18 +161,31 @@ class Builder {
     return static_cast<std::uint32_t>(middle - begin);
   }
 
-  // Improves `best` by the planes of one axis. The first and the last bin are never empty, as the
-  // outermost centroids are in them.
-  void find_split(Range range, const Box& centroids, std::size_t axis, Split& best) const {
-    const Binning binning(centroids, axis);
-    std::array<Bin, kBins> bins;
+  // The best of the planes of all axes. Items are gone through once, since there are more of them
+  // than caches hold.
+  Split find_split(Range range, const Box& centroids) const {
+    std::array<Bins, 3> bins;
+    const std::array<Binning, 3> binnings{Binning(centroids, 0), Binning(centroids, 1),
+                                          Binning(centroids, 2)};
     for (std::uint32_t k = range.first; k < range.first + range.count; ++k) {
       const Box& box = items_[k].box;
-      Bin& bin = bins[binning.bin(centre(box))];
-      bin.box = grown(bin.box, box);
-      ++bin.count;
+      const Vec3f middle = centre(box);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(centroids.lo[axis] < centroids.hi[axis])) continue;
+        Bin& bin = bins[axis][binnings[axis].bin(middle)];
+        bin.box = grown(bin.box, box);
+        ++bin.count;
+      }
     }
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (centroids.lo[axis] < centroids.hi[axis]) improve(range, bins[axis], axis, best);
+    return best;
+  }
 
+  // By the planes of one axis. The first and the last bin are never empty, as the outermost
+  // centroids are in them.
+  static void improve(Range range, const Bins& bins, std::size_t axis, Split& best) {
     std::array<double, kBins> right_cost{};  // of the bins from i on
     Bin right;
     for (std::size_t i = kBins - 1; i > 0; --i) {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "mesh/joined.h"
-#include "mesh/runs.h"
 
 namespace ode_ext {
 namespace {
@@ -23,9 +22,6 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
   const auto side_of = [&](std::uint32_t side) -> std::uint32_t& {
     return edges.sides[side / 3][side % 3];
   };
-  std::vector<Edge> found;
-  std::vector<std::array<std::uint32_t, 2>> sides;  // of those; the second is kNone if it is alone
-  std::vector<Vec3f> middles;
   const auto are_same = [&](std::size_t i, std::size_t k) {
     return i < k && k < half_edges.size() && same_edge(half_edges[i], half_edges[k]);
   };
@@ -51,28 +47,18 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
       side_of(b.side) = a.side / 3 | kWithinFacet;
       continue;
     }
-    found.push_back(edge);
-    sides.push_back({a.side, paired ? b.side : kNone});
-    middles.push_back(0.5f * vertices[edge.vertices[0]] + 0.5f * vertices[edge.vertices[1]]);
+    for (const std::uint32_t side : {a.side, b.side})
+      side_of(side) = static_cast<std::uint32_t>(edges.apart.size());
+    edges.apart.push_back(edge);
   }
   Joined joined(vertices.size());
   const auto join = [&](const Edge& edge) {
     return joined.join(edge.vertices[0], edge.vertices[1]);
   };
-  for (const Edge& edge : found) join(edge);
+  for (const Edge& edge : edges.apart) join(edge);
   std::erase_if(edges.flat, [&](const Edge& edge) { return !join(edge); });
   for (std::uint32_t v = 0; v < vertices.size(); ++v)
     if (joined.lowest(v) == v) edges.components.push_back(v);
-  const auto add = [&](std::size_t i) {
-    for (const std::uint32_t side : sides[i])
-      if (side != kNone) side_of(side) = static_cast<std::uint32_t>(edges.apart.size());
-    edges.apart.push_back(found[i]);
-  };
-  edges.apart.reserve(found.size());
-  if (facets.empty())
-    for (std::size_t i = 0; i < found.size(); ++i) add(i);
-  else
-    for (const std::uint32_t i : order_into_runs(middles)) add(i);
   return edges;
 }
 

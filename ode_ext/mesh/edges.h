@@ -28,16 +28,17 @@ using Sides = std::array<std::uint32_t, 3>;
 inline constexpr std::uint32_t kWithinFacet = 1u << 31;
 
 struct Edges {
-  std::vector<Edge> apart;  // between facets, in runs by their middles (runs.h)
-  // Within a facet, by their vertices: none of which the ends are joined by the others and `apart`.
+  // Both by their vertices, the lower and then the higher: of rigid meshes these lie in runs
+  // (runs.h), and so do the edges.
+  std::vector<Edge> apart;  // between facets
+  // Within a facet: none of which the ends are joined by the others and `apart`.
   // So each two vertices that any edges of the mesh join, these join too.
   std::vector<Edge> flat;
   std::vector<Sides> sides;               // of each triangle
   std::vector<std::uint32_t> components;  // a vertex of each part that edges join, its lowest
 };
 
-// `facets` as facets.h gives them. Where these are empty, every edge is between facets, and they
-// come by their vertices, from the lower to the higher. Where more than two triangles meet, they
+// `facets` as facets.h gives them. Where these are empty, every edge is between facets. Where more than two triangles meet, they
 // are taken two by two: each of them is at one of the edges.
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets);

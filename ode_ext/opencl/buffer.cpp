@@ -125,6 +125,34 @@ void Buffer::fill_zero(std::size_t bytes, std::size_t offset) {
                       "clEnqueueFillBuffer");
 }
 
+void* Buffer::map_anew(std::size_t bytes) {
+  reserve(bytes);
+  if (bytes == 0) return nullptr;
+  cl_int code = CL_SUCCESS;
+  void* mapped =
+      clEnqueueMapBuffer(device_->queue(), memory_.get(), CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION,
+                         0, bytes, 0, nullptr, nullptr, &code);
+  try {
+    device_->check_call(code, "clEnqueueMapBuffer");
+  } catch (const DeviceError&) {
+    unmap(mapped);
+    throw;
+  }
+  return mapped;
+}
+
+void Buffer::unmap(void* mapped) noexcept {
+  if (mapped != nullptr)
+    clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr);
+}
+
+void Buffer::close(void* mapped) {
+  if (mapped == nullptr) return;
+  device_->check_call(
+      clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr),
+      "clEnqueueUnmapMemObject");
+}
+
 void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
   if (bytes == 0) return;
   device_->check_call(clEnqueueReadBuffer(device_->queue(), memory_.get(), CL_FALSE, offset, bytes,

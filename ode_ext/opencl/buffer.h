@@ -59,6 +59,12 @@ class Buffer {
   // Enqueued, not waited for: `source` must stay as it is until the queue has passed it.
   void write(const void* source, std::size_t bytes, std::size_t offset = 0);
   void fill_zero(std::size_t bytes, std::size_t offset = 0);
+  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once Device::finish() has
+  // returned; what was in it is lost. Null for none.
+  void* map_anew(std::size_t bytes);
+  // Enqueued: the end of that. Null is let pass. The first never throws.
+  void unmap(void* mapped) noexcept;
+  void close(void* mapped);
   // Enqueued, not waited for: valid after Device::finish().
   void read(void* target, std::size_t bytes, std::size_t offset = 0) const;
 

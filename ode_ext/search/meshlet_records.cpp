@@ -112,16 +112,18 @@ void store_firsts(const Mesh& mesh, const Meshlet& meshlet, std::vector<bool>& i
 
 }  // namespace
 
-void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records) {
+void append_meshlets(const Mesh& mesh, const MeshRange& range, MappedRecords<ox_meshlet>& records) {
   std::vector<bool> is_first(mesh.vertices.size());
   for (const std::uint32_t vertex : mesh.topology->components) is_first[vertex] = true;
   for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
-    ox_meshlet& record = records.emplace_back();
+    ox_meshlet record{};
     store_indices(mesh, meshlet, range, record);
     store_firsts(mesh, meshlet, is_first, record);
-    if (mesh.deformable) continue;
-    store_places(mesh, meshlet, record);
-    store_slab(mesh, meshlet, record);
+    if (!mesh.deformable) {
+      store_places(mesh, meshlet, record);
+      store_slab(mesh, meshlet, record);
+    }
+    records.push_back(record);
   }
 }
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "abi/types.h"
 #include "mesh/mesh.h"
+#include "opencl/mapped_records.h"
 
 namespace ode_ext {
 
@@ -17,6 +17,6 @@ struct MeshRange {
 
 // Appends those of a mesh. The deform step makes of a deformable one's what depends on where its
 // vertices are.
-void append_meshlets(const Mesh& mesh, const MeshRange& range, std::vector<ox_meshlet>& records);
+void append_meshlets(const Mesh& mesh, const MeshRange& range, MappedRecords<ox_meshlet>& records);
 
 }  // namespace ode_ext

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Records written into a buffer in place: where device memory is the host's there is no copy of
+// them.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include "opencl/buffer.h"
+
+namespace ode_ext {
+
+template <class T>
+class MappedRecords {
+ public:
+  // Room for `most` records; what was in the buffer is lost. To be written from the next
+  // Device::finish() on.
+  MappedRecords(Buffer& buffer, std::size_t most)
+      : buffer_(buffer), records_(static_cast<T*>(buffer.map_anew(most * sizeof(T)))) {}
+  ~MappedRecords() {  // without close(): nobody needs them any more
+    if (records_ != nullptr) buffer_.unmap(std::exchange(records_, nullptr));
+  }
+  MappedRecords(const MappedRecords&) = delete;
+  MappedRecords& operator=(const MappedRecords&) = delete;
+
+  void push_back(const T& record) { records_[size_++] = record; }
+  std::size_t size() const { return size_; }
+
+  // Enqueued: the records are there for what is enqueued after it. Throws DeviceError.
+  void close() { buffer_.close(std::exchange(records_, nullptr)); }
+
+ private:
+  Buffer& buffer_;
+  T* records_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace ode_ext

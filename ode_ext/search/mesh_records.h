@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The records of meshes, one mesh after the other, written into device memory in place.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "abi/types.h"
+#include "mesh/mesh.h"
+#include "opencl/buffer.h"
+#include "opencl/mapped_records.h"
+#include "search/meshlet_records.h"
+
+namespace ode_ext {
+
+using MeshList = std::vector<std::shared_ptr<const Mesh>>;
+
+struct MeshBuffers {
+  explicit MeshBuffers(Device& device);
+
+  Buffer chunks, vertices, triangles, edges;
+  // Of vertex v: rings[ring_starts[v]] to before ring_starts[v + 1].
+  Buffer ring_starts, rings;
+  Buffer meshlets, meshlet_nodes;
+  // Of each triangle, over all triangles: the number of its facet within its mesh.
+  Buffer facets;
+};
+
+class MeshRecords {
+ public:
+  // For all of `meshes`. They can be appended once Device::finish() has returned.
+  MeshRecords(MeshBuffers& buffers, const MeshList& meshes);
+
+  // Where the parts of the next mesh begin.
+  MeshRange next() const;
+  // Appends a mesh and returns what there is of itself; `placed`: with its vertices where this
+  // shape of it has them. The deform step makes the rest of the records of deformable meshes.
+  ox_mesh append(const Mesh& mesh, const Mesh& placed);
+  // After the last. Throws DeviceError.
+  void close();
+
+ private:
+  struct Counts;
+  MeshRecords(MeshBuffers& buffers, const Counts& counts);
+
+  void append_vertices(const Mesh& mesh, const Mesh& placed);
+  void append_triangles(const Mesh& mesh, const MeshRange& first);
+  void append_edges(const MeshTopology& mesh, const MeshRange& first);
+  void append_rings(const MeshTopology& mesh, const MeshRange& first);
+
+  MappedRecords<ox_chunk> chunks_;
+  MappedRecords<ox_vertex> vertices_;
+  MappedRecords<ox_triangle> triangles_;
+  MappedRecords<ox_edge> edges_;
+  MappedRecords<ox_u32> ring_starts_;  // one more than there are vertices
+  MappedRecords<ox_neighbour> rings_;
+  MappedRecords<ox_meshlet> meshlets_;
+  MappedRecords<ox_meshlet_node> meshlet_nodes_;
+  MappedRecords<ox_u32> facets_;
+};
+
+// What a mesh and each of its shapes have of their own.
+void measure(const Mesh& mesh, ox_mesh& record);
+
+// Of the vertices of a deformable mesh [m]; a closed one's come from rays.
+float thickness_of(const Mesh& mesh);
+
+}  // namespace ode_ext
