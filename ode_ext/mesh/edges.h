@@ -38,8 +38,8 @@ struct Edges {
   std::vector<std::uint32_t> components;  // a vertex of each part that edges join, its lowest
 };
 
-// `facets` as facets.h gives them. Where these are empty, every edge is between facets. Where more than two triangles meet, they
-// are taken two by two: each of them is at one of the edges.
+// `facets` as facets.h gives them. Where these are empty, every edge is between facets. Where more
+// than two triangles meet, they are taken two by two: each of them is at one of the edges.
 Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>& half_edges,
                  const std::vector<std::uint32_t>& facets);
 

@@ -17,7 +17,7 @@ namespace ode_ext {
 // A topology and where its vertices are: a mesh as it was built, or a shape it has taken since.
 struct Mesh {
   std::shared_ptr<const MeshTopology> topology = std::make_shared<const MeshTopology>();
-  SourceTriangles source;  // what it was made of
+  SourceTriangles source;       // what it was made of
   std::vector<Vec3f> vertices;  // [m], local frame; as MeshTopology numbers them
   // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
   // normals of the faces are empty for a deformable mesh: the device makes them.

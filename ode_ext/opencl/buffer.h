@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "opencl/device.h"
 
@@ -59,6 +60,12 @@ class Buffer {
   // Enqueued, not waited for: `source` must stay as it is until the queue has passed it.
   void write(const void* source, std::size_t bytes, std::size_t offset = 0);
   void fill_zero(std::size_t bytes, std::size_t offset = 0);
+  // Room for all of them and write().
+  template <class T>
+  void upload(const std::vector<T>& records) {
+    reserve(records.size() * sizeof(T));
+    write(records.data(), records.size() * sizeof(T));
+  }
   // Room for `bytes`, to be written in place (opencl/mapped_records.h) once Device::finish() has
   // returned; what was in it is lost. Null for none.
   void* map_anew(std::size_t bytes);

@@ -6,15 +6,6 @@
 #include "search/device_meshes.h"
 
 namespace ode_ext {
-namespace {
-
-template <class T>
-void upload(Buffer& buffer, const std::vector<T>& records) {
-  buffer.reserve(records.size() * sizeof(T));
-  buffer.write(records.data(), records.size() * sizeof(T));
-}
-
-}  // namespace
 
 DeformStep::DeformStep(Program& program)
     : triangles_(program, "deform_triangles"),
@@ -25,9 +16,9 @@ DeformStep::DeformStep(Program& program)
       meshlet_nodes_(program, "deform_meshlet_nodes"),
       meshes_(program, "deform_meshes"),
       rest_(program, "deform_rest"),
-      moves_(program.device()),
-      starts_(program.device()),
-      positions_(program.device()),
+      moves_(program.device(), Memory::kShared),
+      starts_(program.device(), Memory::kShared),
+      positions_(program.device(), Memory::kShared),
       measures_(program.device()),
       local_(std::min<std::size_t>(64, program.device().info().work_group_limit)) {}
 
@@ -42,9 +33,9 @@ void DeformStep::run(const std::vector<MeshMove>& moves, const std::vector<Vec3f
     if (!move.rests) triangles += move.record.shape.triangle_count;
   }
   const Work work = plan(moves);
-  upload(moves_, host_moves_);
-  upload(starts_, host_starts_);
-  upload(positions_, positions);
+  moves_.upload(host_moves_);
+  starts_.upload(host_starts_);
+  positions_.upload(positions);
   measures_.reserve(4 * triangles * sizeof(ox_f32));
   launch(work, meshes);
 }
@@ -52,9 +43,9 @@ void DeformStep::run(const std::vector<MeshMove>& moves, const std::vector<Vec3f
 void DeformStep::warm_up(Launch wide, const DeviceMeshes& meshes) {
   host_moves_.assign(1, ox_move{});
   host_starts_.assign(1, 0);  // no move, no item
-  upload(moves_, host_moves_);
-  upload(starts_, host_starts_);
-  upload(positions_, std::vector<Vec3f>{});
+  moves_.upload(host_moves_);
+  starts_.upload(host_starts_);
+  positions_.upload(std::vector<Vec3f>{});
   const Items none{0, 0};
   launch({none, none, none, none, none, none, none}, meshes, &wide);
 }

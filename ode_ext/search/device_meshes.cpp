@@ -9,12 +9,6 @@
 namespace ode_ext {
 namespace {
 
-template <class T>
-void upload(Buffer& buffer, const std::vector<T>& records) {
-  buffer.reserve(records.size() * sizeof(T));
-  buffer.write(records.data(), records.size() * sizeof(T));
-}
-
 // A power of two, so that scaling rounds nothing.
 float scale_for(float extent) {
   if (extent == 0) return 1;
@@ -74,8 +68,8 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
     append(parts, *mesh, known == shapes_before.end() ? nullptr : known->second);
   }
   parts.close();
-  upload(mesh_records_, host_records_);
-  upload(topologies_, host_topologies_);
+  mesh_records_.upload(host_records_);
+  topologies_.upload(host_topologies_);
 }
 
 // `before`: the shape it had until now, if it was here.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/pair_buffers.h"
 
-#include <algorithm>
-
 #include "search/object_record.h"
 
 namespace ode_ext {
@@ -17,8 +15,7 @@ PairBuffers::PairBuffers(Device& device)
 void PairBuffers::upload_objects(const Scene& scene) {
   host_objects_.clear();
   for (const Scene::Object& object : scene.objects) host_objects_.push_back(object_record(object));
-  objects.reserve(std::max<std::size_t>(1, host_objects_.size()) * sizeof(ox_object));
-  objects.write(host_objects_.data(), host_objects_.size() * sizeof(ox_object));
+  objects.upload(host_objects_);
 }
 
 void PairBuffers::upload_pairs(const Scene& scene, Tile tile) {
@@ -26,11 +23,10 @@ void PairBuffers::upload_pairs(const Scene& scene, Tile tile) {
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i)
     host_members_.insert(host_members_.end(), scene.pairs[i].begin(), scene.pairs[i].end());
   count = static_cast<cl_uint>(tile.count);
-  members.reserve(2 * tile.count * sizeof(ox_u32));
   pairs.reserve(tile.count * sizeof(ox_pair));
   found.reserve(tile.count * sizeof(ox_found));
   ranges.reserve(tile.count * sizeof(ox_range));
-  members.write(host_members_.data(), host_members_.size() * sizeof(ox_u32));
+  members.upload(host_members_);
 }
 
 }  // namespace ode_ext

@@ -88,7 +88,8 @@ TEST(Exits, PassOverAFaceTheVertexLiesOn) {
 }
 
 TEST(Exits, AreZeroWithoutANormal) {
-  const Mesh mesh = build_mesh(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {.open_thickness = 1});
+  const Mesh mesh =
+      build_mesh(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {.open_thickness = 1});
   for (const float exit : mesh.exits) EXPECT_EQ(exit, 0);
 }
 

@@ -35,7 +35,8 @@ TEST(Weld, TakesNegativeZeroForZero) {
 }
 
 TEST(Weld, StoresNegativeZeroAsZero) {
-  const WeldedMesh mesh = weld(TriangleSoup{{-0.0f, -0.0f, 1}, {-0.0f, 1, -0.0f}, {1, -0.0f, -0.0f}});
+  const WeldedMesh mesh =
+      weld(TriangleSoup{{-0.0f, -0.0f, 1}, {-0.0f, 1, -0.0f}, {1, -0.0f, -0.0f}});
   ASSERT_EQ(mesh.vertices.size(), 3u);
   for (const Vec3f& vertex : mesh.vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -46,7 +47,8 @@ TEST(Weld, StoresNegativeZeroAsZero) {
 
 TEST(Weld, DropsTrianglesThatCollapseAndTheirVertices) {
   const Vec3f a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, alone{9, 9, 9};
-  const WeldedMesh mesh = weld(TriangleSoup{alone, alone, a, a, b, c, b, a, b, alone, alone, alone, a, c, b});
+  const WeldedMesh mesh =
+      weld(TriangleSoup{alone, alone, a, a, b, c, b, a, b, alone, alone, alone, a, c, b});
   EXPECT_EQ(mesh.source_triangle, (std::vector<std::uint32_t>{1, 4}));
   EXPECT_EQ(mesh.vertices.size(), 3u);
 }
