@@ -15,8 +15,9 @@ bool Answer::holds(const PairMember& a, const PairMember& b) const {
 }
 
 void Answer::prefetch() const {
+  constexpr std::size_t kCacheLine = 64;  // [bytes]
   const char* const first = reinterpret_cast<const char*>(this);
-  __builtin_prefetch(first);
+  for (std::size_t at = 0; at < sizeof(Answer); at += kCacheLine) __builtin_prefetch(first + at);
   __builtin_prefetch(first + sizeof(Answer) - 1);
 }
 
@@ -42,7 +43,7 @@ Answers::Key Answers::key(dGeomID a, dGeomID b) {
 Answers::Slot& Answers::slot_of(const Key& key) {
   for (std::size_t place = hash(key);; ++place) {
     Slot& slot = slots_[place & (slots_.size() - 1)];
-    if (slot.answer == nullptr || (slot.key[0] == key[0] && slot.key[1] == key[1])) return slot;
+    if (slot.kept == nullptr || slot.key == key) return slot;
   }
 }
 
@@ -50,54 +51,72 @@ void Answers::grow() {
   std::vector<Slot> before(std::max(kLeastSlots, 2 * slots_.size()));
   before.swap(slots_);
   for (const Slot& slot : before)
-    if (slot.answer != nullptr) slot_of(slot.key) = slot;
+    if (slot.kept != nullptr) slot_of(slot.key) = slot;
 }
 
 Answer& Answers::entry(dGeomID a, dGeomID b) {
   if (2 * (size() + 1) > slots_.size()) grow();
   const Key wanted = key(a, b);
   Slot& slot = slot_of(wanted);
-  if (slot.answer != nullptr) return *slot.answer;
-  if (free_.empty()) {
-    slot = {wanted, &answers_.emplace_back()};
-  } else {
-    slot = {wanted, free_.back()};
-    free_.pop_back();
-    *slot.answer = {};
+  if (slot.kept == nullptr) {
+    slot.key = wanted;
+    if (free_.empty()) {
+      slot.kept = &answers_.emplace_back();
+    } else {
+      slot.kept = free_.back();
+      free_.pop_back();
+    }
+    slot.kept->key = wanted;
   }
-  return *slot.answer;
+  return slot.kept->answer;
+}
+
+void Answers::prefetch(dGeomID a, dGeomID b) const {
+  if (!slots_.empty()) __builtin_prefetch(&slots_[hash(key(a, b)) & (slots_.size() - 1)]);
 }
 
 Answer* Answers::find(dGeomID a, dGeomID b) {
-  return slots_.empty() ? nullptr : slot_of(key(a, b)).answer;
+  if (slots_.empty()) return nullptr;
+  const Key wanted = key(a, b);
+  Kept* kept = last_ != nullptr ? last_->next : nullptr;
+  if (kept == nullptr || kept->key != wanted) kept = slot_of(wanted).kept;
+  if (kept == nullptr) return nullptr;
+  if (last_ != nullptr && last_->next != kept) last_->next = kept;
+  last_ = kept;
+  if (kept->next != nullptr) {
+    __builtin_prefetch(kept->next);  // its key
+    kept->next->answer.prefetch();
+  }
+  return &kept->answer;
 }
 
 void Answers::prune(std::uint64_t pass) {
   if (pass < pruned_pass_ + kPassesRemembered) return;
   pruned_pass_ = pass;
   const auto is_old = [&](const Slot& slot) {
-    return slot.answer->last_pass + kPassesRemembered < pass;
+    return slot.kept->answer.last_pass + kPassesRemembered < pass;
   };
   std::vector<Slot> kept;
   for (const Slot& slot : slots_)
-    if (slot.answer != nullptr && !is_old(slot)) kept.push_back(slot);
+    if (slot.kept != nullptr && !is_old(slot)) kept.push_back(slot);
   if (kept.size() == size()) return;
   // Open addressing finds nothing behind a slot that became free: what is kept is put in anew.
   std::size_t count = kLeastSlots;
   while (count < 2 * (kept.size() + 1)) count *= 2;
   std::vector<Slot> slots(count);
-  std::vector<Answer*> free;
+  std::vector<Kept*> free;
+  last_ = nullptr;
   if (8 * kept.size() < answers_.size()) {
-    std::deque<Answer> together;
-    for (Slot& slot : kept) slot.answer = &together.emplace_back(*slot.answer);
+    std::deque<Kept> together;
+    for (Slot& slot : kept) slot.kept = &together.emplace_back(Kept{slot.key, slot.kept->answer});
     answers_.swap(together);
   } else {
     free = free_;
     free.reserve(free.size() + size() - kept.size());
     for (const Slot& slot : slots_) {
-      if (slot.answer == nullptr || !is_old(slot)) continue;
-      slot.answer->contacts = {};
-      free.push_back(slot.answer);
+      if (slot.kept == nullptr || !is_old(slot)) continue;
+      *slot.kept = {};
+      free.push_back(slot.kept);
     }
   }
   free_.swap(free);
@@ -109,6 +128,7 @@ void Answers::clear() {
   slots_.clear();
   answers_.clear();
   free_.clear();
+  last_ = nullptr;
 }
 
 }  // namespace ode_ext

@@ -19,6 +19,10 @@ namespace ode_ext {
 // pair nobody asks for is no longer computed ahead.
 inline constexpr std::uint64_t kPassesRemembered = 8;
 
+// How many pairs ahead answers are fetched, which have left the caches since the last pass: about
+// what memory takes to come.
+inline constexpr std::size_t kAhead = 8;
+
 struct Answer {
   std::array<dGeomID, 2> geoms{};         // contacts are those of dCollide(geoms[0], geoms[1]),
   std::array<std::uint64_t, 2> stamps{};  // as they were then
@@ -29,6 +33,9 @@ struct Answer {
   std::uint64_t last_pass = 0;       // the last one that gathered it or in which it was asked for
   std::uint64_t passes_unasked = 0;  // that gathered it since the program last asked
   std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead
+  // What is known of the geoms, the lower handle's first; of this generation of members.
+  std::array<Members::Seen*, 2> seen{};
+  std::uint64_t generation = 0;
 
   // Whether this is the answer for these two, in either order.
   bool holds(const PairMember& a, const PairMember& b) const;
@@ -37,13 +44,16 @@ struct Answer {
 };
 
 // By pair of geoms, unordered. A pass asks for each pair in turn, between two of which kernels have
-// filled the caches: open addressing, so that little is touched, and answers in the order in which
-// they were first met, as they mostly are again.
+// filled the caches: open addressing, so that little is touched, answers in the order in which they
+// were first met, as they mostly are again, and with each the one that was found after it, as it
+// mostly is again.
 class Answers {
  public:
   // The entry of the pair; created empty. Stays where it is until it is forgotten.
   Answer& entry(dGeomID a, dGeomID b);
   Answer* find(dGeomID a, dGeomID b);
+  // Into the caches: entry() of this pair is about to be called.
+  void prefetch(dGeomID a, dGeomID b) const;
   // Forgets those that no pass met of late, and moves the others together where few are left. Looks
   // every so many passes.
   void prune(std::uint64_t pass);
@@ -52,9 +62,14 @@ class Answers {
 
  private:
   using Key = std::array<dGeomID, 2>;
+  struct Kept {
+    Key key{};  // null: forgotten
+    Answer answer;
+    Kept* next = nullptr;  // what was found after this one the last time
+  };
   struct Slot {
     Key key;
-    Answer* answer = nullptr;  // null: free
+    Kept* kept = nullptr;  // null: free
   };
   static Key key(dGeomID a, dGeomID b);
   // Where the key is, or would be.
@@ -62,8 +77,9 @@ class Answers {
   void grow();
 
   std::vector<Slot> slots_;  // a power of two, at most half of them taken
-  std::deque<Answer> answers_;
-  std::vector<Answer*> free_;
+  std::deque<Kept> answers_;
+  std::vector<Kept*> free_;
+  Kept* last_ = nullptr;  // that was found
   std::uint64_t pruned_pass_ = 0;
 };
 

@@ -15,10 +15,6 @@
 namespace ode_ext {
 namespace {
 
-// How many pairs ahead answers are fetched, which have left the caches since the last pass: about
-// what memory takes to come.
-constexpr std::size_t kAhead = 8;
-
 // How many answers computed outside of any pass are kept, for programs that never make one.
 constexpr std::uint64_t kAnswersOutside = 65536;
 
@@ -109,8 +105,12 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   const Stopwatch reading;
   known_.begin_batch();
   std::vector<Answer*> entries;
-  for (const GatheredPair& pair : pairs)
-    entries.push_back(&known_.entry(pair.first.geom, pair.second.geom));
+  entries.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i + kAhead < pairs.size())
+      known_.prefetch(pairs[i + kAhead].first.geom, pairs[i + kAhead].second.geom);
+    entries.push_back(&known_.entry(pairs[i].first.geom, pairs[i].second.geom));
+  }
   const std::uint64_t pass = known_.pass();
   std::size_t gathered = 0;
   long long unasked_colliding = 0;  // as far as is known
@@ -215,7 +215,7 @@ int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2,
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
-  const Answer* known = known_.find(g1, g2);
+  Answer* known = known_.find(g1, g2);
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
 }
 

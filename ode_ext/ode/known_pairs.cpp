@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/known_pairs.h"
 
+#include <functional>
 #include <memory>
 
 #include "ode/pose_of.h"
@@ -14,20 +15,32 @@ KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, boo
       collider_(options),
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
-bool KnownPairs::holds(const Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
-  const PairMember* a = current_member(g1, within_a_pass);
-  const PairMember* b = a != nullptr ? current_member(g2, within_a_pass) : nullptr;
+bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
+  const PairMember* a = current_member(seen(answer, g1, g2), g1, within_a_pass);
+  if (a == nullptr) return false;
+  const PairMember* b = current_member(seen(answer, g2, g1), g2, within_a_pass);
   return b != nullptr && answer.holds(*a, *b);
 }
 
+Members::Seen& KnownPairs::seen(Answer& answer, dGeomID geom, dGeomID other) {
+  if (answer.generation != members_.generation()) {
+    answer.seen = {};
+    answer.generation = members_.generation();
+  }
+  Members::Seen*& seen = answer.seen[std::less<>()(geom, other) ? 0 : 1];
+  if (seen == nullptr) seen = &members_.seen(geom);
+  return *seen;
+}
+
 // Within a pass every mesh is looked at once.
-const PairMember* KnownPairs::current_member(dGeomID geom, bool within_a_pass) {
+const PairMember* KnownPairs::current_member(Members::Seen& seen, dGeomID geom,
+                                             bool within_a_pass) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
   const std::shared_ptr<const Mesh> mesh =
       within_a_pass ? meshes_.refresh(data, look_, pass_)
                     : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
-  return members_.find_same(geom, data, mesh.get(), pose_of(geom), pass_);
+  return Members::find_same(seen, data, mesh.get(), pose_of(geom), pass_);
 }
 
 AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
@@ -37,7 +50,9 @@ AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
 }
 
 void KnownPairs::add(Answer& answer, const GatheredPair& pair) {
-  add(answer, member_of(pair.first), member_of(pair.second));
+  const dGeomID a = pair.first.geom, b = pair.second.geom;
+  add(answer, member_of(seen(answer, a, b), pair.first),
+      member_of(seen(answer, b, a), pair.second));
 }
 
 void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
@@ -46,12 +61,12 @@ void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
       a.is_placed && b.is_placed && !meshes_.is_refused(a.data) && !meshes_.is_refused(b.data));
 }
 
-PairMember& KnownPairs::member_of(const PlacedGeom& placed) {
-  PairMember* seen = members_.find(placed.geom, pass_);
-  if (seen != nullptr && seen->scene == scene_.number()) return *seen;
+PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed) {
+  seen.now.last_pass = pass_;
+  if (seen.now.stamp != 0 && seen.now.scene == scene_.number()) return seen.now;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
   const auto& mesh = meshes_.refresh(data, look_, pass_);
-  PairMember& member = members_.note(placed.geom, data, mesh, pose_of(placed), pass_);
+  PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), pass_);
   member.scene = scene_.number();
   if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
   if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;

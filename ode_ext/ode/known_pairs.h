@@ -36,8 +36,9 @@ class KnownPairs {
 
   Answer* find(dGeomID g1, dGeomID g2) { return answers_.find(g1, g2); }
   Answer& entry(dGeomID g1, dGeomID g2) { return answers_.entry(g1, g2); }
+  void prefetch(dGeomID g1, dGeomID g2) const { answers_.prefetch(g1, g2); }
   // Whether an answer is of the geoms as they are now.
-  bool holds(const Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass);
+  bool holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass);
   // Of one that holds.
   AnswerCopy copy_of(const Answer& answer) const;
 
@@ -57,8 +58,10 @@ class KnownPairs {
   void clear();
 
  private:
-  PairMember& member_of(const PlacedGeom& placed);
-  const PairMember* current_member(dGeomID geom, bool within_a_pass);
+  // What is known of one geom of an answer: looked up once for it, and not again in every pass.
+  Members::Seen& seen(Answer& answer, dGeomID geom, dGeomID other);
+  PairMember& member_of(Members::Seen& seen, const PlacedGeom& placed);
+  const PairMember* current_member(Members::Seen& seen, dGeomID geom, bool within_a_pass);
 
   PassStats& stats_;
   Collider collider_;

@@ -33,10 +33,10 @@ bool is_as(const PairMember& member, dTriMeshDataID data, const Mesh* mesh, cons
 
 }  // namespace
 
-PairMember& Members::note(dGeomID geom, dTriMeshDataID data,
+PairMember& Members::note(Seen& seen, dGeomID geom, dTriMeshDataID data,
                           const std::shared_ptr<const Mesh>& mesh, const Pose& given,
                           std::uint64_t pass) {
-  auto& [now, before] = map_[geom];
+  auto& [now, before] = seen;
   if (!is_as(now, data, mesh.get(), given)) {
     const bool is_back = is_as(before, data, mesh.get(), given);
     std::swap(now, before);
@@ -58,17 +58,10 @@ PairMember& Members::note(dGeomID geom, dTriMeshDataID data,
   return now;
 }
 
-PairMember* Members::find(dGeomID geom, std::uint64_t pass) {
-  const auto found = map_.find(geom);
-  if (found == map_.end()) return nullptr;
-  found->second.now.last_pass = pass;
-  return &found->second.now;
-}
-
-const PairMember* Members::find_same(dGeomID geom, dTriMeshDataID data, const Mesh* mesh,
+const PairMember* Members::find_same(Seen& seen, dTriMeshDataID data, const Mesh* mesh,
                                      const Pose& given, std::uint64_t pass) {
-  if (find(geom, pass) == nullptr) return nullptr;
-  const auto& [now, before] = map_.at(geom);
+  auto& [now, before] = seen;
+  now.last_pass = pass;
   if (is_as(now, data, mesh, given)) return &now;
   return is_as(before, data, mesh, given) ? &before : nullptr;
 }
@@ -79,8 +72,10 @@ const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
 }
 
 void Members::prune(std::uint64_t pass) {
-  std::erase_if(
-      map_, [&](const auto& item) { return item.second.now.last_pass + kPassesRemembered < pass; });
+  const auto is_old = [&](const auto& item) {
+    return item.second.now.last_pass + kPassesRemembered < pass;
+  };
+  if (std::erase_if(map_, is_old) != 0) ++generation_;
 }
 
 bool in_canonical_order(const PairMember& a, const PairMember& b) {

@@ -30,26 +30,33 @@ struct PairMember {
 
 class Members {
  public:
-  // The geom as it is now. Stays where it is until pruned.
-  PairMember& note(dGeomID geom, dTriMeshDataID data, const std::shared_ptr<const Mesh>& mesh,
-                   const Pose& given, std::uint64_t pass);
-  // As it was last noted. Null: it never was.
-  PairMember* find(dGeomID geom, std::uint64_t pass);
+  // A geom as it was last noted, and as the time before; stamp 0: never. Stays where it is as long
+  // as generation() is the same.
+  struct Seen {
+    PairMember now, before;
+  };
+
+  Seen& seen(dGeomID geom) { return map_[geom]; }
+  std::uint64_t generation() const { return generation_; }
+  // The geom as it is now.
+  PairMember& note(Seen& seen, dGeomID geom, dTriMeshDataID data,
+                   const std::shared_ptr<const Mesh>& mesh, const Pose& given, std::uint64_t pass);
   // The geom, if it is now as it was when last noted, or as the time before: a program may move a
   // geom, collide it, and move it back. Null: it is not.
-  const PairMember* find_same(dGeomID geom, dTriMeshDataID data, const Mesh* mesh,
-                              const Pose& given, std::uint64_t pass);
+  static const PairMember* find_same(Seen& seen, dTriMeshDataID data, const Mesh* mesh,
+                                     const Pose& given, std::uint64_t pass);
   // As it was with this stamp, one of the last two.
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
   // Forgets those that nobody asked for of late.
   void prune(std::uint64_t pass);
-  void clear() { map_.clear(); }
+  void clear() {
+    map_.clear();
+    ++generation_;
+  }
 
  private:
-  struct Seen {
-    PairMember now, before;
-  };
   std::unordered_map<dGeomID, Seen> map_;
+  std::uint64_t generation_ = 1;
   std::uint64_t stamps_ = 0;  // given so far
 };
 

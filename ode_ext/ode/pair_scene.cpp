@@ -55,6 +55,8 @@ const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, Pa
 
 void PairScene::store(const PairContacts& found) {
   for (std::size_t i = 0; i < pending_.size(); ++i) {
+    if (i + kAhead < pending_.size() && found.ranges[i + kAhead].count != 0)
+      pending_[i + kAhead]->prefetch();
     const PairContacts::Range range = found.ranges[i];
     if (range.count == 0) continue;
     const auto first = found.contacts.begin() + static_cast<std::ptrdiff_t>(range.first);

@@ -21,7 +21,7 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
   for (const PlacedGeom& placed : {pair.first, pair.second}) {
     const auto [place, is_new] = members_.try_emplace(placed.geom);
     if (!is_new) continue;
-    known.members().find(placed.geom, known.pass());  // its answers may be asked for again
+    known.members().seen(placed.geom).now.last_pass = known.pass();  // it may be asked for again
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     place->second.data = data;
     place->second.mesh = known.meshes().keep(data, known.pass());
@@ -37,12 +37,14 @@ bool UnaskedPairs::wakes_by_question() {
 
 void UnaskedPairs::compute(KnownPairs& known) {
   known.begin_batch();
+  const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
+    return known.members().note(known.members().seen(geom), geom, as.data, as.mesh, as.given,
+                                known.pass());
+  };
   for (const auto& [first, second] : pairs_) {
     const PairMember &a = members_.at(first), &b = members_.at(second);
     if (known.meshes().is_as_known(a.data, a.mesh) && known.meshes().is_as_known(b.data, b.mesh))
-      known.add(known.entry(first, second),
-                known.members().note(first, a.data, a.mesh, a.given, known.pass()),
-                known.members().note(second, b.data, b.mesh, b.given, known.pass()));
+      known.add(known.entry(first, second), note(first, a), note(second, b));
   }
   pairs_.clear();
   members_.clear();

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The store of answers by itself; handles are keys in it, and these are of no geoms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "ode/answers.h"
+
+namespace ode_ext::test {
+namespace {
+
+dGeomID handle(std::size_t i) { return reinterpret_cast<dGeomID>(0x1000 + 64 * i); }
+
+class KnownAnswers : public ::testing::Test {
+ protected:
+  Answer& entry(std::size_t i, std::uint64_t last_pass) {
+    Answer& answer = answers_.entry(handle(i), handle(i + 1));
+    answer.last_pass = last_pass;
+    answer.gathering = i;
+    return answer;
+  }
+  Answer* find(std::size_t i) { return answers_.find(handle(i + 1), handle(i)); }
+
+  Answers answers_;
+};
+
+TEST_F(KnownAnswers, AreFoundInWhateverOrderTheyAreAskedFor) {
+  constexpr std::size_t kCount = 2000;
+  std::vector<std::size_t> order(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) entry(order[i] = i, 1);
+  std::mt19937 random(1);
+  for (int walk = 0; walk < 6; ++walk) {
+    if (walk % 2 == 0) std::shuffle(order.begin(), order.end(), random);
+    for (const std::size_t i : order) {
+      if (walk == 3 && i % 3 == 0) continue;  // a program that does not ask for all
+      const Answer* found = find(i);
+      ASSERT_NE(found, nullptr);
+      EXPECT_EQ(found->gathering, i);
+    }
+    EXPECT_EQ(find(kCount + 5), nullptr);
+  }
+}
+
+TEST_F(KnownAnswers, ThatAreForgottenAreNotFoundAfterThoseTheyFollowed) {
+  for (std::size_t i = 0; i < 4; ++i) entry(i, 100);
+  for (int walk = 0; walk < 2; ++walk)
+    for (std::size_t i = 0; i < 4; ++i) ASSERT_NE(find(i), nullptr);
+  find(1)->last_pass = 1;
+  answers_.prune(100);
+  EXPECT_EQ(answers_.size(), 3u);
+  ASSERT_NE(find(0), nullptr);
+  EXPECT_EQ(find(1), nullptr);
+  EXPECT_NE(find(2), nullptr);
+  // One that takes the place of what was forgotten begins empty.
+  Answer& other = answers_.entry(handle(50), handle(60));
+  EXPECT_EQ(other.gathering, 0u);
+  EXPECT_FALSE(other.valid);
+  ASSERT_NE(find(0), nullptr);
+  EXPECT_EQ(find(1), nullptr);
+}
+
+TEST_F(KnownAnswers, AreTheSameWhereTheyAreMovedTogether) {
+  for (std::size_t i = 0; i < 1000; ++i) entry(i, i % 100 == 0 ? 100 : 1);
+  for (std::size_t i = 0; i < 1000; ++i) ASSERT_NE(find(i), nullptr);
+  answers_.prune(100);
+  EXPECT_EQ(answers_.size(), 10u);
+  for (int walk = 0; walk < 2; ++walk)
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const Answer* found = find(i);
+      ASSERT_EQ(found != nullptr, i % 100 == 0) << i;
+      if (found != nullptr) {
+        EXPECT_EQ(found->gathering, i);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
