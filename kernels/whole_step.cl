@@ -50,11 +50,20 @@ static void ox_clear_counters(const ox_scene* scene) {
   for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) scene->counters[i * OX_COUNTER_STRIDE] = 0u;
 }
 
-static void ox_add_counters(const ox_scene* scene, __global volatile uint* totals) {
-  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) {
-    const uint counted = scene->counters[i * OX_COUNTER_STRIDE];
-    if (counted != 0u) atomic_add(totals + i * OX_COUNTER_STRIDE, counted);
-  }
+// What all pairs of a work-item have counted: cores that add to one counter wait for one another,
+// so they do it once.
+typedef struct {
+  uint of[OX_COUNTER_COUNT];
+} ox_sums;
+
+static void ox_add_counters(const ox_scene* scene, ox_sums* sums) {
+  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i)
+    sums->of[i] += scene->counters[i * OX_COUNTER_STRIDE];
+}
+
+static void ox_add_sums(const ox_sums* sums, __global volatile uint* totals) {
+  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i)
+    if (sums->of[i] != 0u) atomic_add(totals + i * OX_COUNTER_STRIDE, sums->of[i]);
 }
 
 static bool ox_fits(const ox_scene* scene, uint list) {
@@ -129,9 +138,11 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
                           planes + item * OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * n,
                           edge_planes + item * 2u * n,
                           candidates + item * OX_CANDIDATE_WORDS * n};
+  ox_sums sums;
+  for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) sums.of[i] = 0u;
   for (;;) {
     const uint p = atomic_inc(totals + OX_QUEUE_PAIRS * OX_COUNTER_STRIDE);
-    if (p >= pair_count) return;
+    if (p >= pair_count) break;
     scene.pair_first = p;
     scene.pair_end = p + 1u;
     ox_clear_counters(&scene);
@@ -148,8 +159,9 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
       ox_count(&scene, OX_COUNTER_LEFT);
     }
     ox_begin_found(found + p);
-    ox_add_counters(&scene, totals);
+    ox_add_counters(&scene, &sums);
   }
+  ox_add_sums(&sums, totals);
 }
 
 #endif

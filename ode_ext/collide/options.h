@@ -43,8 +43,8 @@ struct ColliderOptions {
   // Pairs are collided in tiles of at most this many vertices (whole chunks counted), so that none
   // of their counters and indices passes 2^32.
   std::uint64_t tile_vertices = std::uint64_t{1} << 29;
-  std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it, and so is
-  bool share_memory = true;          // this; the same bytes
+  std::uint64_t largest_buffer = 0;  // [bytes] as Device takes it
+  bool share_memory = true;          // as Device takes may_share; the same bytes
 };
 
 // Whether vertices are looked at one by one, as in the paper (paper/vertex_rays.h); else crossings

@@ -21,7 +21,7 @@ void ReadBack::read_rest(const BatchData& data) {
   const std::uint64_t count = data.lists.length(List::kContacts);
   if (count <= read_) return;
   read_contacts(data, count);
-  device_.finish();
+  if (!device_.is_idle()) device_.finish();
 }
 
 // At most as many as there is room for.

@@ -20,7 +20,7 @@ constexpr std::size_t kPointsAThread = 32768;
 
 // Halves the points across the longest side of their box until a run is left, as a k-d tree
 // (Bentley 1975) does, but at multiples of a run, and of so many runs together as long as there are
-// several: the order decides between equal contacts, so it stays as it was.
+// several: the order decides between equal contacts, so it is not changed lightly.
 void split(Iterator first, Iterator last, std::size_t threads) {
   for (;;) {
     const auto count = static_cast<std::uint32_t>(last - first);

@@ -15,8 +15,9 @@ namespace ode_ext {
 // Corners of triangles: 3 per triangle, local frame [m].
 using TriangleSoup = std::vector<Vec3f>;
 
-// The same with the places of corners apart from which corner is where: half as much memory, and to
-// compare it with a program's arrays nothing has to be looked up.
+// The same with the places of corners apart from which corner is where. Where corners share places,
+// as they mostly do, that is half as much memory, and to compare it with the arrays that it was
+// read from nothing has to be looked up.
 struct SourceTriangles {
   SourceTriangles() = default;
   SourceTriangles(TriangleSoup soup);  // every corner has a place of its own

@@ -78,6 +78,7 @@ void Answers::prefetch(dGeomID a, dGeomID b) const {
 Answer* Answers::find(dGeomID a, dGeomID b) {
   if (slots_.empty()) return nullptr;
   const Key wanted = key(a, b);
+  if (last_ != nullptr && last_->key == wanted) return &last_->answer;
   Kept* kept = last_ != nullptr ? last_->next : nullptr;
   if (kept == nullptr || kept->key != wanted) kept = slot_of(wanted).kept;
   if (kept == nullptr) return nullptr;

@@ -44,9 +44,9 @@ struct Answer {
 };
 
 // By pair of geoms, unordered. A pass asks for each pair in turn, between two of which kernels have
-// filled the caches: open addressing, so that little is touched, answers in the order in which they
-// were first met, as they mostly are again, and with each the one that was found after it, as it
-// mostly is again.
+// filled the caches: open addressing, so that little is touched, answers mostly in the order in
+// which they were first met, as they mostly are again, and with each the one that was found after
+// it, as it mostly is again.
 class Answers {
  public:
   // The entry of the pair; created empty. Stays where it is until it is forgotten.

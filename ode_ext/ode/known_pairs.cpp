@@ -16,9 +16,8 @@ KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, boo
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
 bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
-  const PairMember* a = current_member(seen(answer, g1, g2), g1, within_a_pass);
-  if (a == nullptr) return false;
-  const PairMember* b = current_member(seen(answer, g2, g1), g2, within_a_pass);
+  const PairMember* a = current_member(answer, g1, g2, within_a_pass);
+  const PairMember* b = a != nullptr ? current_member(answer, g2, g1, within_a_pass) : nullptr;
   return b != nullptr && answer.holds(*a, *b);
 }
 
@@ -33,14 +32,14 @@ Members::Seen& KnownPairs::seen(Answer& answer, dGeomID geom, dGeomID other) {
 }
 
 // Within a pass every mesh is looked at once.
-const PairMember* KnownPairs::current_member(Members::Seen& seen, dGeomID geom,
+const PairMember* KnownPairs::current_member(Answer& answer, dGeomID geom, dGeomID other,
                                              bool within_a_pass) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
   const std::shared_ptr<const Mesh> mesh =
       within_a_pass ? meshes_.refresh(data, look_, pass_)
                     : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
-  return Members::find_same(seen, data, mesh.get(), pose_of(geom), pass_);
+  return Members::find_same(seen(answer, geom, other), data, mesh.get(), pose_of(geom), pass_);
 }
 
 AnswerCopy KnownPairs::copy_of(const Answer& answer) const {

@@ -61,7 +61,7 @@ class KnownPairs {
   // What is known of one geom of an answer: looked up once for it, and not again in every pass.
   Members::Seen& seen(Answer& answer, dGeomID geom, dGeomID other);
   PairMember& member_of(Members::Seen& seen, const PlacedGeom& placed);
-  const PairMember* current_member(Members::Seen& seen, dGeomID geom, bool within_a_pass);
+  const PairMember* current_member(Answer& answer, dGeomID geom, dGeomID other, bool within_a_pass);
 
   PassStats& stats_;
   Collider collider_;

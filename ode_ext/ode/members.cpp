@@ -72,6 +72,8 @@ const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
 }
 
 void Members::prune(std::uint64_t pass) {
+  if (pass < pruned_pass_ + kPassesRemembered) return;
+  pruned_pass_ = pass;
   const auto is_old = [&](const auto& item) {
     return item.second.now.last_pass + kPassesRemembered < pass;
   };

@@ -47,7 +47,7 @@ class Members {
                                      const Pose& given, std::uint64_t pass);
   // As it was with this stamp, one of the last two.
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
-  // Forgets those that nobody asked for of late.
+  // Forgets those that nobody asked for of late. Looks every so many passes.
   void prune(std::uint64_t pass);
   void clear() {
     map_.clear();
@@ -57,6 +57,7 @@ class Members {
  private:
   std::unordered_map<dGeomID, Seen> map_;
   std::uint64_t generation_ = 1;
+  std::uint64_t pruned_pass_ = 0;
   std::uint64_t stamps_ = 0;  // given so far
 };
 

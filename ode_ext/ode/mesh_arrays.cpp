@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/mesh_arrays.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -109,7 +110,7 @@ class Probe {
     return compare_soups(soup, source_) == 0;
   }
 
-  // No float and no half of a double is like another.
+  // No float and no half of a double is like another, but for the first vertex.
   static float coordinate_of(std::size_t v, std::size_t axis) {
     return static_cast<float>(v * v + (axis + 1) * v) + 0.25f;
   }
@@ -220,6 +221,7 @@ std::uint32_t corner(const MeshArrays& arrays, std::size_t i) {
 }
 
 bool has_corners(const MeshArrays& arrays, const std::vector<std::uint32_t>& corners) {
+  if (corners.empty()) return true;
   if (sizeof(dTriIndex) == sizeof(std::uint32_t) && arrays.index_stride == 3 * sizeof(dTriIndex))
     return std::memcmp(arrays.indices, corners.data(), corners.size() * sizeof(dTriIndex)) == 0;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -255,24 +257,26 @@ bool has_vertices(const MeshArrays& arrays, const SourceTriangles& source) {
 
 bool MeshArrays::read(SourceTriangles& source) const {
   source.corners.resize(3 * triangle_count);
+  std::size_t named = 0;  // vertices up to the last that a triangle names
   for (std::size_t i = 0; i < source.size(); ++i) {
     source.corners[i] = corner(*this, i);
-    if (source.corners[i] >= vertex_count) return false;
+    named = std::max(named, std::size_t{source.corners[i]} + 1);
   }
-  if (vertex_count > source.size()) {
+  if (named > vertex_count) return false;
+  if (named > source.size()) {
     TriangleSoup soup;
     for (const std::uint32_t vertex : source.corners) soup.push_back(place(*this, vertex));
     source = std::move(soup);
   } else {
-    source.places.resize(vertex_count);
-    for (std::size_t v = 0; v < vertex_count; ++v) source.places[v] = place(*this, v);
+    source.places.resize(named);
+    for (std::size_t v = 0; v < named; ++v) source.places[v] = place(*this, v);
   }
   return is_finite(source);
 }
 
 bool MeshArrays::give(const SourceTriangles& source) const {
   if (source.size() != 3 * triangle_count) return false;
-  if (source.places.size() == vertex_count && has_corners(*this, source.corners) &&
+  if (source.places.size() <= vertex_count && has_corners(*this, source.corners) &&
       has_vertices(*this, source))
     return true;
   for (std::size_t i = 0; i < source.size(); ++i) {
@@ -289,6 +293,9 @@ std::optional<MeshArrays> arrays_of(dTriMeshDataID data) {
   if (!layout) return std::nullopt;
   const MeshArrays arrays = arrays_at(*layout, reinterpret_cast<const unsigned char*>(data));
   if (arrays.vertices == nullptr || arrays.indices == nullptr) return std::nullopt;
+  // ODE goes by strides of its own where those that it was given are less than this (SetStrides in
+  // its OPC_MeshInterface.cpp).
+  if (std::min(arrays.vertex_stride, arrays.index_stride) < 3 * sizeof(float)) return std::nullopt;
   return arrays;
 }
 

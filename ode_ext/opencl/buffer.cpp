@@ -38,22 +38,19 @@ MemoryHandle create_memory(Device& device, cl_mem_flags flags, std::size_t size,
   return memory;
 }
 
+// Null: there is none to be had, but there may be room for a buffer like any other.
 SharedHandle create_shared_memory(Device& device, std::size_t size) {
-  SharedHandle memory(
+  return SharedHandle(
       clSVMAlloc(device.context(), CL_MEM_READ_WRITE | CL_MEM_SVM_FINE_GRAIN_BUFFER, size, 0),
       {&device});
-  device.check_call(memory ? CL_SUCCESS : CL_MEM_OBJECT_ALLOCATION_FAILURE, "clSVMAlloc",
-                    [&] { return "Asked for: " + std::to_string(size) + " bytes."; });
-  return memory;
 }
 
 }  // namespace
 
 void SharedMemoryReleaser::operator()(void* data) const {
-  if (device->is_idle())
-    clSVMFree(device->context(), data);
-  else  // in destructors: there is nobody to tell if it fails
-    clEnqueueSVMFree(device->queue(), 1, &data, nullptr, nullptr, 0, nullptr, nullptr);
+  // clEnqueueSVMFree would not wait, but PoCL before 3.1 frees what it finds where `data` was.
+  if (!device->is_idle()) device->settle();
+  if (device->is_idle()) clSVMFree(device->context(), data);  // else something may still use it
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
@@ -64,12 +61,11 @@ Buffer::Buffer(Buffer&& other) noexcept
       capacity_(std::exchange(other.capacity_, 0)) {}
 
 void Buffer::create(std::size_t size) {
-  if (is_shared_) {
-    shared_ = create_shared_memory(*device_, size);
-    memory_ = create_memory(*device_, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, size, shared_.get());
-  } else {
-    memory_ = create_memory(*device_, CL_MEM_READ_WRITE, size);
-  }
+  SharedHandle shared;
+  if (is_shared_) shared = create_shared_memory(*device_, size);
+  const cl_mem_flags where = shared ? CL_MEM_USE_HOST_PTR : 0;
+  memory_ = create_memory(*device_, CL_MEM_READ_WRITE | where, size, shared.get());
+  shared_ = std::move(shared);
   capacity_ = size;
 }
 
@@ -93,11 +89,16 @@ void Buffer::extend(std::size_t bytes) {
   const MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
   const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
   create(size);
-  if (old_capacity != 0)
-    device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
-                                            old_capacity, 0, nullptr, nullptr),
-                        "clEnqueueCopyBuffer");
-  fill_zero(size - old_capacity, old_capacity);
+  try {
+    if (old_capacity != 0)
+      device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
+                                              old_capacity, 0, nullptr, nullptr),
+                          "clEnqueueCopyBuffer");
+    fill_zero(size - old_capacity, old_capacity);
+  } catch (const DeviceError&) {
+    release();
+    throw;
+  }
 }
 
 void Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
@@ -128,6 +129,7 @@ void Buffer::fill_zero(std::size_t bytes, std::size_t offset) {
 void* Buffer::map_anew(std::size_t bytes) {
   reserve(bytes);
   if (bytes == 0) return nullptr;
+  if (shared_) return shared_.get();
   cl_int code = CL_SUCCESS;
   void* mapped =
       clEnqueueMapBuffer(device_->queue(), memory_.get(), CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION,
@@ -141,16 +143,23 @@ void* Buffer::map_anew(std::size_t bytes) {
   return mapped;
 }
 
+int Buffer::enqueue_unmap(void* mapped) {
+  if (mapped == nullptr || mapped == shared_.get()) return CL_SUCCESS;
+  return clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr);
+}
+
+// What stays mapped is not to be used again.
 void Buffer::unmap(void* mapped) noexcept {
-  if (mapped != nullptr)
-    clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr);
+  if (enqueue_unmap(mapped) != CL_SUCCESS) release();
 }
 
 void Buffer::close(void* mapped) {
-  if (mapped == nullptr) return;
-  device_->check_call(
-      clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr),
-      "clEnqueueUnmapMemObject");
+  try {
+    device_->check_call(enqueue_unmap(mapped), "clEnqueueUnmapMemObject");
+  } catch (const DeviceError&) {
+    release();
+    throw;
+  }
 }
 
 void Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {

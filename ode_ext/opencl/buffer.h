@@ -14,11 +14,12 @@ namespace ode_ext {
 enum class Memory {
   kDevice,
   // Where device and host both reach it, if they share memory: of what goes to and fro in each
-  // pass. A command takes some 10 us, which for a single pair is a tenth of all.
+  // pass, or is written in place. A command takes some 10 us, which for a single pair is a tenth of
+  // all. What a device has no room for there is kept as any other.
   kShared,
 };
 
-// Frees memory of clSVMAlloc when all that has been enqueued is done.
+// Frees memory of clSVMAlloc once all that has been enqueued is done.
 struct SharedMemoryReleaser {
   Device* device = nullptr;
   void operator()(void* data) const;
@@ -66,10 +67,11 @@ class Buffer {
     reserve(records.size() * sizeof(T));
     write(records.data(), records.size() * sizeof(T));
   }
-  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once Device::finish() has
-  // returned; what was in it is lost. Null for none.
+  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once the device is idle; what
+  // was in it is lost. Null for none.
   void* map_anew(std::size_t bytes);
-  // Enqueued: the end of that. Null is let pass. The first never throws.
+  // Enqueued: the end of that. Null is let pass. The first never throws. Where it fails the buffer
+  // is empty then.
   void unmap(void* mapped) noexcept;
   void close(void* mapped);
   // Enqueued, not waited for: valid after Device::finish().
@@ -78,6 +80,7 @@ class Buffer {
  private:
   Device* device_;
   void create(std::size_t size);
+  int enqueue_unmap(void* mapped);
   // Where the host may write at once; null: it has to enqueue.
   unsigned char* within_reach(std::size_t bytes, std::size_t offset) const;
 

@@ -23,10 +23,7 @@ Device::Device(const std::string& selection, std::uint64_t largest_buffer, bool 
 
 Device::~Device() { settle(); }
 
-void Device::settle() noexcept {
-  clFinish(queue_.get());  // a queue that cannot even be waited for runs nothing any more
-  idle_ = true;
-}
+void Device::settle() noexcept { idle_ = clFinish(queue_.get()) == CL_SUCCESS; }
 
 void Device::finish() {
   ++synchronizations_;

@@ -24,7 +24,7 @@ struct DeviceInfo {
   cl_ulong largest_buffer = 0;  // [bytes]
   std::size_t work_group_limit = 0;
   // Whether what is written by one of host and device is there for the other, without transfers
-  // (fine-grained shared virtual memory): processors, mostly.
+  // (fine-grained shared virtual memory); asked of processors only.
   bool shares_memory = false;
   cl_uint vector_width = 1;  // floats that an operation takes at once; 1 on most GPUs
   bool available = true, has_compiler = true, little_endian = true;
@@ -61,7 +61,8 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const std::string& label() const { return label_; }  // name, driver and platform, for messages
   cl_context context() const { return context_.get(); }
-  cl_command_queue queue() {  // to enqueue something
+  // To enqueue one command; to be taken anew for each, or the device passes for idle.
+  cl_command_queue queue() {
     idle_ = false;
     return queue_.get();
   }

@@ -20,8 +20,8 @@ class DeviceError : public std::runtime_error {
 
 const char* opencl_error_name(int code);  // "CL_OUT_OF_RESOURCES"; never null
 
-// Every OpenCL call of this room that can fail goes through here, so that the fault injector sees
-// it. `code` is what the call returned; throws DeviceError naming `call`, the code, `device` (may
+// Every OpenCL call of this room that can fail goes through here, but for those of destructors, so
+// that the fault injector sees it. `code` is what the call returned; throws DeviceError naming `call`, the code, `device` (may
 // be ""; best Device::label(), which names the driver too) and what to try.
 void check(int code, const char* call, const std::string& device);
 

@@ -3,6 +3,7 @@
 // them.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -13,17 +14,21 @@ namespace ode_ext {
 template <class T>
 class MappedRecords {
  public:
-  // Room for `most` records; what was in the buffer is lost. To be written from the next
-  // Device::finish() on.
+  // Room for `most` records; what was in the buffer is lost. To be written once the device is idle.
   MappedRecords(Buffer& buffer, std::size_t most)
-      : buffer_(buffer), records_(static_cast<T*>(buffer.map_anew(most * sizeof(T)))) {}
+      : buffer_(buffer),
+        most_(most),
+        records_(static_cast<T*>(buffer.map_anew(most * sizeof(T)))) {}
   ~MappedRecords() {  // without close(): nobody needs them any more
     if (records_ != nullptr) buffer_.unmap(std::exchange(records_, nullptr));
   }
   MappedRecords(const MappedRecords&) = delete;
   MappedRecords& operator=(const MappedRecords&) = delete;
 
-  void push_back(const T& record) { records_[size_++] = record; }
+  void push_back(const T& record) {
+    assert(size_ < most_);
+    records_[size_++] = record;
+  }
   std::size_t size() const { return size_; }
 
   // Enqueued: the records are there for what is enqueued after it. Throws DeviceError.
@@ -31,6 +36,7 @@ class MappedRecords {
 
  private:
   Buffer& buffer_;
+  std::size_t most_;
   T* records_;
   std::size_t size_ = 0;
 };

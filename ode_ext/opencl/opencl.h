@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The OpenCL API as this library uses it: of 1.2, which is all that it needs, and of 2.0 what it
-// asks a device for first (Device::info().shares_memory).
+// The OpenCL API as this library uses it: headers and loader of 2.0, devices of 1.2. What a device
+// has of 2.0 it is asked for (DeviceInfo::shares_memory).
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 200

@@ -5,6 +5,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <limits>
 
 #include "opencl/error.h"
@@ -158,7 +159,10 @@ SelfTestReport self_test(Program& program) {
   std::vector<SelfTestResult> results(cases.size());
   std::uint32_t counter = 0;
   Kernel kernel(program, "self_test");
-  Buffer inputs(device), outputs(device), counters(device);
+  // As a pass does it, through memory that is shared if the device says so.
+  Buffer inputs(device, Memory::kShared), outputs(device, Memory::kShared),
+      counters(device, Memory::kShared);
+  HostView results_there(device), counter_there(device);
   inputs.reserve(cases.size() * sizeof(SelfTestCase));
   outputs.reserve(cases.size() * sizeof(SelfTestResult));
   counters.reserve(sizeof(counter));
@@ -168,9 +172,13 @@ SelfTestReport self_test(Program& program) {
   counters.fill_zero(sizeof(counter));
   kernel.launch((cases.size() + kLocal - 1) / kLocal, kLocal, inputs,
                 static_cast<cl_uint>(cases.size()), outputs, counters);
-  outputs.read(results.data(), cases.size() * sizeof(SelfTestResult));
-  counters.read(&counter, sizeof(counter));
+  results_there.reserve(outputs, results.size() * sizeof(SelfTestResult));
+  counter_there.reserve(counters, sizeof(counter));
+  results_there.read(outputs, results.size() * sizeof(SelfTestResult));
+  counter_there.read(counters, sizeof(counter));
   device.finish();
+  std::memcpy(results.data(), results_there.data(), results.size() * sizeof(SelfTestResult));
+  std::memcpy(&counter, counter_there.data(), sizeof(counter));
   return check_self_test(cases, results, counter, device.label());
 }
 

@@ -62,7 +62,7 @@ void DeviceMeshes::rebuild(const MeshList& meshes) {
   host_topologies_.clear();
   deformables_.clear();
   MeshRecords parts(parts_, meshes);
-  device_.finish();
+  if (!device_.is_idle()) device_.finish();
   for (const auto& mesh : meshes) {
     const auto known = shapes_before.find(mesh->topology.get());
     append(parts, *mesh, known == shapes_before.end() ? nullptr : known->second);

@@ -130,15 +130,15 @@ float thickness_of(const Mesh& mesh) {
 }
 
 MeshBuffers::MeshBuffers(Device& device)
-    : chunks(device),
-      vertices(device),
-      triangles(device),
-      edges(device),
-      ring_starts(device),
-      rings(device),
-      meshlets(device),
-      meshlet_nodes(device),
-      facets(device) {}
+    : chunks(device, Memory::kShared),
+      vertices(device, Memory::kShared),
+      triangles(device, Memory::kShared),
+      edges(device, Memory::kShared),
+      ring_starts(device, Memory::kShared),
+      rings(device, Memory::kShared),
+      meshlets(device, Memory::kShared),
+      meshlet_nodes(device, Memory::kShared),
+      facets(device, Memory::kShared) {}
 
 // Of all meshes together.
 struct MeshRecords::Counts {

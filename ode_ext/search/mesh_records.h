@@ -29,7 +29,7 @@ struct MeshBuffers {
 
 class MeshRecords {
  public:
-  // For all of `meshes`. They can be appended once Device::finish() has returned.
+  // For all of `meshes`. They can be appended once the device is idle.
   MeshRecords(MeshBuffers& buffers, const MeshList& meshes);
 
   // Where the parts of the next mesh begin.

@@ -14,7 +14,7 @@ namespace ode_ext {
 struct PairBuffers {
   explicit PairBuffers(Device& device);
 
-  // These enqueue only: the sources live in here.
+  // These do not wait: the sources of what they enqueue live in here.
   void upload_objects(const Scene& scene);
   void upload_pairs(const Scene& scene, Tile tile);
 

@@ -43,6 +43,17 @@ TEST_F(KnownAnswers, AreFoundInWhateverOrderTheyAreAskedFor) {
   }
 }
 
+// As where ids are asked for after contacts.
+TEST_F(KnownAnswers, AreFoundTwiceInARow) {
+  for (std::size_t i = 0; i < 100; ++i) entry(i, 1);
+  for (int walk = 0; walk < 3; ++walk)
+    for (std::size_t i = 0; i < 100; ++i)
+      for (int time = 0; time < 2; ++time) {
+        ASSERT_NE(find(i), nullptr);
+        EXPECT_EQ(find(i)->gathering, i);
+      }
+}
+
 TEST_F(KnownAnswers, ThatAreForgottenAreNotFoundAfterThoseTheyFollowed) {
   for (std::size_t i = 0; i < 4; ++i) entry(i, 100);
   for (int walk = 0; walk < 2; ++walk)

@@ -140,7 +140,7 @@ template <class Real>
 void expect_each_is_noticed_among_many() {
   const TestMesh made = make_icosphere(1, 2);
   std::vector<Real> vertices(made.vertices.begin(), made.vertices.end());
-  const std::vector<dTriIndex> indices(made.indices.begin(), made.indices.end());
+  std::vector<dTriIndex> indices(made.indices.begin(), made.indices.end());
   const dTriMeshDataID data = dGeomTriMeshDataCreate();
   const auto build_of =
       sizeof(Real) == sizeof(float) ? dGeomTriMeshDataBuildSingle : dGeomTriMeshDataBuildDouble;
@@ -156,6 +156,11 @@ void expect_each_is_noticed_among_many() {
     EXPECT_FALSE(arrays->give(source));
     coordinate = before;
   }
+  for (dTriIndex& corner : indices) {
+    const dTriIndex before = std::exchange(corner, corner == 0 ? 1 : corner - 1);
+    EXPECT_FALSE(arrays->give(source));
+    corner = before;
+  }
   EXPECT_TRUE(arrays->give(source));
   dGeomTriMeshDataDestroy(data);
 }
@@ -167,17 +172,46 @@ TEST_F(MeshArraysTest, NoticeEachCoordinateAmongMany) {
 
 TEST_F(MeshArraysTest, GiveTheSameWhateverVerticesOfNoTriangleAre) {
   Strided<double> mesh;
-  mesh.triangles[1].corner[1] = 2;
+  mesh.triangles[0].corner[1] = 3;
+  mesh.triangles[1].corner[2] = 2;  // the second vertex is of neither
   SourceTriangles source;
   ASSERT_TRUE(arrays_of(mesh.data)->read(source));
   EXPECT_EQ(compare_soups(source, mesh.read()), 0);
   for (const double other : {7.0, std::numeric_limits<double>::quiet_NaN()}) {
-    mesh.vertices[3].at[2] = other;
+    mesh.vertices[1].at[2] = other;
     EXPECT_TRUE(arrays_of(mesh.data)->give(source));
     SourceTriangles again;
     ASSERT_TRUE(arrays_of(mesh.data)->read(again));
     EXPECT_EQ(compare_soups(again, source), 0);
   }
+}
+
+// ODE goes on with the strides that it had.
+TEST_F(MeshArraysTest, OfStridesThatAreTooSmallAreLeftToOde) {
+  const TestMesh made = make_cube(1);
+  const std::vector<dTriIndex> indices(made.indices.begin(), made.indices.end());
+  for (const auto& [vertex_stride, index_stride] :
+       {std::pair{12, 4}, std::pair{12, 3}, std::pair{4, 12}}) {
+    const dTriMeshDataID data = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildSingle(data, made.vertices.data(), vertex_stride, made.vertex_count(),
+                                indices.data(), static_cast<int>(indices.size()), index_stride);
+    EXPECT_FALSE(arrays_of(data).has_value());
+    const TriangleSoup expected = odes_own(data);
+    SourceTriangles source;
+    MeshReader(data).read(source);
+    EXPECT_EQ(compare_soups(source, expected), 0);
+    EXPECT_EQ(expected[35].x, made.vertices[3 * indices[35]]);
+    dGeomTriMeshDataDestroy(data);
+  }
+}
+
+// Vertices that no triangle names may be gone, or another thread's.
+TEST_F(MeshArraysTest, AreNotReadBeyondTheLastVertexThatIsNamed) {
+  Strided<double> mesh;
+  mesh.triangles[1].corner[1] = 2;
+  SourceTriangles source;
+  ASSERT_TRUE(arrays_of(mesh.data)->read(source));
+  EXPECT_EQ(source.places.size(), 3u);
 }
 
 TEST_F(MeshArraysTest, OfManyMoreVerticesThanCornersKeepTheCornersOnly) {

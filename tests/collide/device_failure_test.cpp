@@ -85,9 +85,8 @@ TEST_P(DeviceFailureInStep, IsReportedWhileMeshesAreUploaded) {
 }
 
 // Of a batch whose lists have room for next to nothing.
-void fail_while_buffers_grow(bool whole_steps, int every, int at_least) {
+void fail_while_buffers_grow(ColliderOptions options, bool whole_steps, int every, int at_least) {
   const TestScene scene = random_scene(20, 74);
-  ColliderOptions options;
   options.whole_steps = whole_steps;
   options.initial_capacity = 1;
   Collider reference(options);
@@ -120,32 +119,34 @@ void fail_while_buffers_grow(bool whole_steps, int every, int at_least) {
   EXPECT_GT(failures, at_least);
 }
 
-TEST_F(DeviceFailure, IsReportedWhileBuffersGrow) { fail_while_buffers_grow(false, 41, 40); }
-
-TEST_F(DeviceFailure, IsReportedWhileTheBufferOfContactsGrows) {
-  fail_while_buffers_grow(true, 3, 30);
+TEST_P(DeviceFailureInStep, IsReportedWhileBuffersGrow) {
+  fail_while_buffers_grow(options(), false, 41, 40);
 }
 
-TEST_F(DeviceFailure, IsReportedWhereEveryCountIsWaitedFor) {
+TEST_P(DeviceFailureInStep, IsReportedWhileTheBufferOfContactsGrows) {
+  fail_while_buffers_grow(options(), true, 3, 30);
+}
+
+TEST_P(DeviceFailureInStep, IsReportedWhereEveryCountIsWaitedFor) {
   const TestScene scene = random_scene(20, 75);
-  ColliderOptions options;
-  options.launches = LaunchRule::kExact;
-  Collider collider(options);
+  ColliderOptions exact = options();
+  exact.launches = LaunchRule::kExact;
+  Collider collider(exact);
   const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
   EXPECT_GT(fail_every_call(collider, scene.scene, expected, kCode, [] {}), 20);
 }
 
 // Memory that runs out in the middle of a batch: halves of it may fit.
-TEST_F(DeviceFailure, OfMemoryIsMetWithSmallerTilesOrReported) {
+TEST_P(DeviceFailureInStep, OfMemoryIsMetWithSmallerTilesOrReported) {
   const TestScene scene = random_scene(20, 76), other = random_scene(5, 77);
   for (const int code : {CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_RESOURCES}) {
-    Collider collider({});
+    Collider collider(options());
     const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
     EXPECT_GT(fail_every_call(collider, scene.scene, expected, code,
                               [&] { collider.collide(other.scene, nullptr); }),
               20);
   }
-  Collider collider({});
+  Collider collider(options());
   const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
   fault_injector::arm(10, CL_OUT_OF_RESOURCES);
   EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);

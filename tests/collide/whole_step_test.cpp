@@ -58,11 +58,14 @@ TEST_F(WholeStep, GivesTheBytesOfItsStepsForOnePair) {
 }
 
 TEST_F(WholeStep, GivesTheSameBytesWhereNoMemoryIsShared) {
-  ColliderOptions options;
-  options.share_memory = false;
-  Collider apart(options);
-  for (const Scene& few : parts_of(random_scene(120, 11).scene, 40))
-    EXPECT_EQ(bits_of(apart.collide(few, nullptr)), bits_of(whole_.collide(few, nullptr)));
+  ColliderOptions options, steps = step_by_step();
+  options.share_memory = steps.share_memory = false;
+  Collider apart(options), apart_stepwise(steps);
+  for (const Scene& few : parts_of(random_scene(120, 11).scene, 40)) {
+    const auto expected = bits_of(whole_.collide(few, nullptr));
+    EXPECT_EQ(bits_of(apart.collide(few, nullptr)), expected);
+    EXPECT_EQ(bits_of(apart_stepwise.collide(few, nullptr)), expected);
+  }
 }
 
 TEST_F(WholeStep, GivesTheBytesOfItsStepsForFourPairs) {

@@ -236,7 +236,31 @@ TEST_P(SharedBuffer, OutlivesItsReleaseInTheKernelsThatNeedIt) {
   copy_.launch(1, 1, from, to);
   from.release();
   EXPECT_EQ(from.shared(), nullptr);
+  // What takes the place of memory that was freed too early.
+  const std::vector<std::vector<std::uint32_t>> others(64, std::vector<std::uint32_t>(1024, 77));
   EXPECT_EQ(seen(to), 1u);
+}
+
+TEST_P(SharedBuffer, IsEmptyAfterAnyCallThatFailedToGrowIt) {
+  for (const bool extends : {false, true})
+    for (int nth = 1;; ++nth) {
+      Buffer buffer(device_, Memory::kShared);
+      buffer.extend(4);
+      device_.finish();
+      fault_injector::arm(nth, CL_MEM_OBJECT_ALLOCATION_FAILURE);
+      try {
+        extends ? buffer.extend(8192) : buffer.reserve(8192);
+        ASSERT_LT(fault_injector::calls_checked(), nth);
+        fault_injector::disarm();
+        EXPECT_GT(nth, 1);
+        break;
+      } catch (const DeviceError&) {
+        fault_injector::disarm();
+        EXPECT_EQ(buffer.capacity(), 0u) << nth;
+        EXPECT_EQ(buffer.get(), nullptr) << nth;
+        EXPECT_EQ(buffer.shared(), nullptr) << nth;
+      }
+    }
 }
 
 TEST_P(SharedBuffer, KeepsWhatIsInItWhereItIsExtended) {

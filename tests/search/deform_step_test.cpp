@@ -25,13 +25,13 @@ constexpr double kVertexNormal = 0x1p-18;
 
 double apart(Vec3f a, Vec3f b) { return length(Vec3d(a) - Vec3d(b)); }
 
-std::vector<Vec3f> normals_of(const MeshRecords& records) {
+std::vector<Vec3f> normals_of(const RecordsOfMesh& records) {
   std::vector<Vec3f> normals;
   for (const ox_vertex& vertex : records.vertices) normals.push_back(-vec(vertex.direction));
   return normals;
 }
 
-void expect_triangles(const Mesh& mesh, const MeshRecords& records) {
+void expect_triangles(const Mesh& mesh, const RecordsOfMesh& records) {
   const MeshTopology& built = *mesh.topology;
   for (std::size_t k = 0; k < records.triangles.size(); ++k) {
     const ox_triangle& triangle = records.triangles[k];
@@ -44,7 +44,7 @@ void expect_triangles(const Mesh& mesh, const MeshRecords& records) {
   }
 }
 
-void expect_vertices(const Mesh& mesh, const MeshRecords& records) {
+void expect_vertices(const Mesh& mesh, const RecordsOfMesh& records) {
   const Normals normals = compute_normals(mesh.vertices, mesh.topology->triangles);
   for (std::size_t v = 0; v < records.vertices.size(); ++v) {
     EXPECT_EQ(vec(records.vertices[v].position), mesh.vertices[v]);
@@ -53,7 +53,7 @@ void expect_vertices(const Mesh& mesh, const MeshRecords& records) {
 }
 
 // The boxes over meshlets: tight but for the margin, which is that of a rigid mesh.
-void expect_nodes(const Mesh& mesh, const MeshRecords& records) {
+void expect_nodes(const Mesh& mesh, const RecordsOfMesh& records) {
   const MeshTopology& built = *mesh.topology;
   const float margin = 0x1p-20f * records.mesh.extent;
   const Vec3f margins{margin, margin, margin};
@@ -88,7 +88,7 @@ void expect_box(const Box& box, const ox_chunk& chunk) {
   }
 }
 
-void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
+void expect_chunks(const Mesh& mesh, const RecordsOfMesh& records) {
   const MeshTopology& built = *mesh.topology;
   float moved = 0;
   for (std::size_t i = 0; i < records.chunks.size(); ++i) {
@@ -110,7 +110,7 @@ void expect_chunks(const Mesh& mesh, const MeshRecords& records) {
   EXPECT_EQ(records.mesh.moved, moved);
 }
 
-void expect_meshlets(const Mesh& mesh, const MeshRecords& records) {
+void expect_meshlets(const Mesh& mesh, const RecordsOfMesh& records) {
   const MeshTopology& built = *mesh.topology;
   ASSERT_EQ(records.mesh.meshlet_count, built.meshlets.meshlets.size());
   for (std::size_t i = 0; i < records.meshlets.size(); ++i) {
@@ -152,7 +152,7 @@ void expect_meshlets(const Mesh& mesh, const MeshRecords& records) {
   }
 }
 
-void expect_mesh(const Mesh& mesh, const MeshRecords& records) {
+void expect_mesh(const Mesh& mesh, const RecordsOfMesh& records) {
   EXPECT_EQ(vec(records.mesh.box_centre), centre(mesh.box));
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_GE(records.mesh.box_centre[k] + records.mesh.box_half[k], mesh.box.hi[k]);
@@ -164,7 +164,7 @@ void expect_mesh(const Mesh& mesh, const MeshRecords& records) {
             OX_MESH_DEFORMABLE | (mesh.closed() ? OX_MESH_CLOSED : OX_MESH_TWO_SIDED));
 }
 
-void expect_all(const Mesh& mesh, const MeshRecords& records) {
+void expect_all(const Mesh& mesh, const RecordsOfMesh& records) {
   expect_triangles(mesh, records);
   expect_vertices(mesh, records);
   expect_nodes(mesh, records);
@@ -173,7 +173,7 @@ void expect_all(const Mesh& mesh, const MeshRecords& records) {
   expect_mesh(mesh, records);
 }
 
-void expect_moved(const Mesh& before, const Mesh& after, const MeshRecords& records) {
+void expect_moved(const Mesh& before, const Mesh& after, const RecordsOfMesh& records) {
   for (std::size_t v = 0; v < records.vertices.size(); ++v) {
     const double moved = apart(before.vertices[v], after.vertices[v]);
     EXPECT_GE(static_cast<double>(records.vertices[v].moved), moved);
@@ -196,7 +196,7 @@ TEST(DeformStep, MakesSheetsAsTheyWereBuilt) {
   rig.set(list);
   for (std::uint32_t i = 0; i < list.size(); ++i) {
     SCOPED_TRACE(kCounts[i]);
-    const MeshRecords records = rig.read(i);
+    const RecordsOfMesh records = rig.read(i);
     expect_all(*list[i], records);
     EXPECT_EQ(records.mesh.moved, 0);
     for (const ox_vertex& vertex : records.vertices) EXPECT_EQ(vertex.exit, list[i]->mean_edge);
@@ -215,7 +215,7 @@ TEST(DeformStep, FollowsSheetsOfAllSizesAtOnce) {
     rig.set(shapes);
     for (std::uint32_t i = 0; i < list.size(); ++i) {
       SCOPED_TRACE(kCounts[i]);
-      const MeshRecords records = rig.read(i);
+      const RecordsOfMesh records = rig.read(i);
       expect_all(*shapes[i], records);
       expect_moved(*before[i], *shapes[i], records);
       for (const ox_vertex& vertex : records.vertices) EXPECT_EQ(vertex.exit, shapes[i]->mean_edge);
@@ -229,7 +229,7 @@ TEST(DeformStep, LeavesWhatDoesNotMoveAlone) {
   const auto rigid = std::make_shared<const Mesh>(build_mesh(soup_of(make_cube(1, 3))));
   const auto one = deformable(strip(100)), two = deformable(strip(200));
   rig.set({one, rigid, two});
-  const MeshRecords one_before = rig.read(0), rigid_before = rig.read(1);
+  const RecordsOfMesh one_before = rig.read(0), rigid_before = rig.read(1);
   const auto shape = deformed(two, bent(strip(200)));
   rig.set({one, rigid, shape});
   expect_all(*shape, rig.read(2));
@@ -238,8 +238,8 @@ TEST(DeformStep, LeavesWhatDoesNotMoveAlone) {
     return std::vector<unsigned char>(first, first + records.size() * sizeof(records[0]));
   };
   for (const std::uint32_t i : {0u, 1u}) {
-    const MeshRecords& before = i == 0 ? one_before : rigid_before;
-    const MeshRecords after = rig.read(i);
+    const RecordsOfMesh& before = i == 0 ? one_before : rigid_before;
+    const RecordsOfMesh after = rig.read(i);
     EXPECT_EQ(bytes(after.vertices), bytes(before.vertices));
     EXPECT_EQ(bytes(after.triangles), bytes(before.triangles));
     EXPECT_EQ(bytes(after.meshlet_nodes), bytes(before.meshlet_nodes));
@@ -254,11 +254,11 @@ TEST(DeformStep, ForgetsHowFarAMeshMovedOnceItRests) {
   const auto other_shape = deformed(other, bent(strip(70)));
   rig.set({base, other});
   rig.set({shape, other});
-  const MeshRecords moving = rig.read(0);
+  const RecordsOfMesh moving = rig.read(0);
   EXPECT_GT(moving.mesh.moved, 0.05f);
   EXPECT_EQ(rig.read(1).mesh.moved, 0);
   rig.set({shape, other_shape});  // one rests as the other starts
-  const MeshRecords resting = rig.read(0);
+  const RecordsOfMesh resting = rig.read(0);
   expect_all(*shape, resting);
   EXPECT_EQ(resting.mesh.moved, 0);
   for (const ox_vertex& vertex : resting.vertices) EXPECT_EQ(vertex.moved, 0);
@@ -273,7 +273,7 @@ TEST(DeformStep, KnowsHowFarAMeshMovedWhereOthersComeAndGo) {
   const auto shape = deformed(base, bent(strip(100)));
   rig.set({base, other});
   rig.set({shape});
-  const MeshRecords records = rig.read(0);
+  const RecordsOfMesh records = rig.read(0);
   expect_all(*shape, records);
   expect_moved(*base, *shape, records);
   rig.set({other, shape});
@@ -300,7 +300,7 @@ TEST(DeformStep, CastsTheExitsOfClosedMeshes) {
     ASSERT_TRUE(shape->closed());
     rig.set({base});
     rig.set({shape});
-    const MeshRecords records = rig.read(0);
+    const RecordsOfMesh records = rig.read(0);
     expect_all(*shape, records);
     const std::vector<float> exits =
         exit_distances(shape->vertices, normals_of(records), base->topology->triangles,
@@ -344,7 +344,7 @@ TEST(DeformStep, TakesTheAreaOutOfFlatTriangles) {
   rig.set({base});
   expect_all(*base, rig.read(0));
   rig.set({shape});
-  const MeshRecords records = rig.read(0);
+  const RecordsOfMesh records = rig.read(0);
   int flats = 0;
   for (std::size_t t = 0; t < records.triangles.size(); ++t) {
     const ox_triangle& triangle = records.triangles[t];
@@ -383,7 +383,7 @@ TEST(DeformStep, KeepsTheNormalsOfThinTriangles) {
   const auto mesh = deformable(soup);
   ASSERT_EQ(mesh->topology->triangles.size(), 200u);
   rig.set({mesh});
-  const MeshRecords records = rig.read(0);
+  const RecordsOfMesh records = rig.read(0);
   expect_triangles(*mesh, records);
   // One face a vertex. (The host's sums, in fixed point, tell small angles less well.)
   for (std::size_t k = 0; k < records.triangles.size(); ++k)
@@ -397,7 +397,7 @@ TEST(DeformStep, TakesTheLargestFaceWhereNormalsCancel) {
   DeformRig rig;
   const auto mesh = deformable({a, b, c, a, c, far});
   rig.set({mesh});
-  const MeshRecords records = rig.read(0);
+  const RecordsOfMesh records = rig.read(0);
   const Vec3f up{0, 0, 1}, down{0, 0, -1};
   for (const ox_vertex& vertex : records.vertices)
     EXPECT_EQ(-vec(vertex.direction), vec(vertex.position) == b ? up : down);
@@ -427,7 +427,7 @@ TEST(DeformStep, WorksAtEveryScale) {
     DeformRig rig;
     rig.set({base});
     rig.set({shape});
-    const MeshRecords records = rig.read(0);
+    const RecordsOfMesh records = rig.read(0);
     expect_all(*shape, records);
     expect_moved(*base, *shape, records);
   }
@@ -435,7 +435,7 @@ TEST(DeformStep, WorksAtEveryScale) {
 
 // The records of a vertex by its place.
 using VertexBits = std::map<std::array<float, 3>, std::array<float, 4>>;
-VertexBits vertices_by_place(const MeshRecords& records) {
+VertexBits vertices_by_place(const RecordsOfMesh& records) {
   VertexBits bits;
   for (const ox_vertex& v : records.vertices)
     bits[{v.position[0], v.position[1], v.position[2]}] = {v.direction[0], v.direction[1],
@@ -453,9 +453,9 @@ TEST(DeformStep, GivesTheSameBitsHoweverAMeshCameToItsShape) {
     rig.set({base});
     rig.set({deformed(base, bent(soup, 1))});
     rig.set({deformed(base, target)});
-    const MeshRecords followed = rig.read(0);
+    const RecordsOfMesh followed = rig.read(0);
     rig.set({fresh});
-    const MeshRecords built = rig.read(0);
+    const RecordsOfMesh built = rig.read(0);
     EXPECT_EQ(vertices_by_place(followed), vertices_by_place(built));
     EXPECT_EQ(vertices_by_place(followed).size(), followed.vertices.size());
     ASSERT_EQ(followed.triangles.size(), built.triangles.size());

@@ -14,10 +14,8 @@
 
 namespace ode_ext::test {
 
-using MeshList = std::vector<std::shared_ptr<const Mesh>>;
-
 // What lies on the device of one mesh; all indices count from its own first.
-struct MeshRecords {
+struct RecordsOfMesh {
   ox_mesh mesh;
   std::vector<ox_vertex> vertices;
   std::vector<ox_triangle> triangles;
@@ -34,9 +32,9 @@ class DeformRig {
   }
   DeviceMeshes& meshes() { return meshes_; }
 
-  MeshRecords read(std::uint32_t i) {
+  RecordsOfMesh read(std::uint32_t i) {
     const MeshTopology& built = *meshes_.mesh(i).topology;
-    MeshRecords records;
+    RecordsOfMesh records;
     meshes_.records().read(&records.mesh, sizeof(ox_mesh), i * sizeof(ox_mesh));
     device().finish();
     read(meshes_.vertices(), records.vertices, meshes_.range(i).vertex_first, built.vertex_count);
