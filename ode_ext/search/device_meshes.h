@@ -20,8 +20,8 @@ class DeviceMeshes {
   explicit DeviceMeshes(Program& program);
 
   // Makes `meshes` the ones on the device: mesh i is the i-th. The same list again uploads nothing,
-  // a list in which only shapes of deformable meshes changed the positions of those. Sources of what
-  // is enqueued live in this object. Any other list waits once where memory is not shared.
+  // a list in which only shapes of deformable meshes changed the positions of those. Sources of
+  // what is enqueued live in this object. Any other list waits once where memory is not shared.
   void set(const MeshList& meshes);
   // The device lost its contents: the next set() uploads again.
   void forget();
