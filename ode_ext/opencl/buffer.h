@@ -67,8 +67,8 @@ class Buffer {
     reserve(records.size() * sizeof(T));
     write(records.data(), records.size() * sizeof(T));
   }
-  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once the device is idle; what
-  // was in it is lost. Null for none.
+  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once the device is idle;
+  // what was in it is lost. Null for none.
   void* map_anew(std::size_t bytes);
   // Enqueued: the end of that. Null is let pass. The first never throws. Where it fails the buffer
   // is empty then.

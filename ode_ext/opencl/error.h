@@ -21,8 +21,9 @@ class DeviceError : public std::runtime_error {
 const char* opencl_error_name(int code);  // "CL_OUT_OF_RESOURCES"; never null
 
 // Every OpenCL call of this room that can fail goes through here, but for those of destructors, so
-// that the fault injector sees it. `code` is what the call returned; throws DeviceError naming `call`, the code, `device` (may
-// be ""; best Device::label(), which names the driver too) and what to try.
+// that the fault injector sees it. `code` is what the call returned; throws DeviceError naming
+// `call`, the code, `device` (may be ""; best Device::label(), which names the driver too) and what
+// to try.
 void check(int code, const char* call, const std::string& device);
 
 // The same, with `describe()` appended to the message. It runs only if the call failed, so that the
