@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles of a dTriMeshData, bit for bit as ODE itself rounds them (to float). ODE has no call
-// that gives them; the program's arrays do, where ODE shows them (mesh_arrays.h), else a geom of
-// the data at the identity pose.
+// The triangles of a dTriMeshData, bit for bit as ODE itself rounds them (to float). ODE has no
+// call that gives them; the program's arrays do, where ODE shows them (mesh_arrays.h), else a geom
+// of the data at the identity pose.
 #pragma once
 
 #include <ode/ode.h>
