@@ -24,9 +24,9 @@ struct MeshArrays {
   std::size_t triangle_count;
   bool is_single;  // coordinates are floats, not doubles
 
-  // Overwrites `source` by the triangles, bit for bit as ODE gives them; the places are the vertices
-  // up to the last that a triangle names, or where these are more than there are corners, one for
-  // each corner. False: of what is not finite, or names no vertex, ODE has to be asked.
+  // Overwrites `source` by the triangles, bit for bit as ODE gives them; the places are the
+  // vertices up to the last that a triangle names, or where these are more than there are corners,
+  // one for each corner. False: of what is not finite, or names no vertex, ODE has to be asked.
   bool read(SourceTriangles& source) const;
   // Whether read() would give the same triangles. False is no answer: ODE has to be asked. Fastest
   // where `source` was read from these arrays; other arrays may give the same triangles.
