@@ -185,6 +185,13 @@ TEST(Buffer, LeavesAnEmptyOneBehindWhenMoved) {
 // Of a device that shares memory, if this one can, and of one that does not.
 class SharedBuffer : public testing::TestWithParam<bool> {
  protected:
+  // Launched, not waited for.
+  void copy_one() {
+    from_.reserve(4);
+    to_.reserve(4);
+    from_.write(&one_, 4);
+    copy_.launch(1, 1, from_, to_);
+  }
   std::uint32_t seen(const Buffer& buffer) {
     HostView view(device_);
     view.reserve(buffer, sizeof(std::uint32_t));
@@ -199,46 +206,35 @@ class SharedBuffer : public testing::TestWithParam<bool> {
   Program program_{device_, kSlowCopy, ""};
   Kernel copy_{program_, "slow_copy"};
   const std::uint32_t one_ = 1, two_ = 2;
+  Buffer from_{device_, Memory::kShared}, to_{device_, Memory::kShared};
 };
 
 INSTANTIATE_TEST_SUITE_P(WhereItMayBe, SharedBuffer, testing::Bool());
 
 TEST_P(SharedBuffer, ShowsWhatAKernelMadeOfWhatTheHostWrote) {
-  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
-  from.reserve(4);
-  to.reserve(4);
-  from.write(&one_, 4);
-  copy_.launch(1, 1, from, to);
-  EXPECT_EQ(seen(to), 1u);
-  to.fill_zero(4);
-  EXPECT_EQ(seen(to), 0u);
+  copy_one();
+  EXPECT_EQ(seen(to_), 1u);
+  to_.fill_zero(4);
+  EXPECT_EQ(seen(to_), 0u);
 }
 
 TEST_P(SharedBuffer, IsWrittenAfterTheKernelThatWasLaunchedBefore) {
-  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
-  from.reserve(4);
-  to.reserve(4);
-  from.write(&one_, 4);
-  copy_.launch(1, 1, from, to);
-  from.write(&two_, 4);
-  EXPECT_EQ(seen(to), 1u);
-  EXPECT_EQ(seen(from), 2u);
-  copy_.launch(1, 1, from, to);
-  from.fill_zero(4);
-  EXPECT_EQ(seen(to), 2u);
+  copy_one();
+  from_.write(&two_, 4);
+  EXPECT_EQ(seen(to_), 1u);
+  EXPECT_EQ(seen(from_), 2u);
+  copy_.launch(1, 1, from_, to_);
+  from_.fill_zero(4);
+  EXPECT_EQ(seen(to_), 2u);
 }
 
 TEST_P(SharedBuffer, OutlivesItsReleaseInTheKernelsThatNeedIt) {
-  Buffer from(device_, Memory::kShared), to(device_, Memory::kShared);
-  from.reserve(4);
-  to.reserve(4);
-  from.write(&one_, 4);
-  copy_.launch(1, 1, from, to);
-  from.release();
-  EXPECT_EQ(from.shared(), nullptr);
+  copy_one();
+  from_.release();
+  EXPECT_EQ(from_.shared(), nullptr);
   // What takes the place of memory that was freed too early.
   const std::vector<std::vector<std::uint32_t>> others(64, std::vector<std::uint32_t>(1024, 77));
-  EXPECT_EQ(seen(to), 1u);
+  EXPECT_EQ(seen(to_), 1u);
 }
 
 TEST_P(SharedBuffer, IsEmptyAfterAnyCallThatFailedToGrowIt) {
