@@ -35,33 +35,22 @@ class TreeBuilder {
     }
   }
 
+  // Parents before their children.
   std::vector<MeshletNode> build() {
     if (top_.empty()) return {};
-    emit(parts_[0]);
-    // Where each triangle is ten times as large as the one before, a tree is as deep as it has
-    // leaves. Parts of equal numbers need 6 * 15 + 1 places for 16^6 meshlets.
-    if (places_needed() > kTreeStack) {
-      tree_.clear();
-      emit({parts_[0].first, parts_[0].end, kNone});
-    }
-    return std::move(tree_);
-  }
-
- private:
-  // The tree of a part, parents before their children.
-  void emit(const Part& whole) {
     struct Pending {
       Part part;
       std::uint32_t parent, child;
+      std::uint32_t places;  // for children that wait, its own included
     };
-    std::vector<Pending> pending{{whole, kNone, 0}};
+    std::vector<Pending> pending{{parts_[0], kNone, 0, kTreeStack}};
     while (!pending.empty()) {
       const Pending next = pending.back();
       pending.pop_back();
       const auto place = static_cast<std::uint32_t>(tree_.size());
       if (next.parent != kNone) tree_[next.parent].nodes[next.child] = place;
-      const std::vector<Part> parts =
-          next.part.node == kNone ? divided_evenly(next.part) : divided(next.part);
+      const std::vector<Part> parts = divided(next.part, next.places);
+      const std::uint32_t places = places_below(parts, next.places);
       MeshletNode& node = tree_.emplace_back();
       node.count = static_cast<std::uint32_t>(parts.size());
       node.boxes.fill(empty_box());
@@ -71,15 +60,37 @@ class TreeBuilder {
         node.first[k] = parts[k].first;
         for (std::uint32_t i = parts[k].first; i < parts[k].end; ++i)
           node.boxes[k] = grown(node.boxes[k], boxes_[i]);
-        if (parts[k].end - parts[k].first > 1) pending.push_back({parts[k], place, k});
+        if (parts[k].end - parts[k].first > 1) pending.push_back({parts[k], place, k, places});
       }
     }
+    return std::move(tree_);
   }
 
-  std::vector<Part> divided(const Part& part) const {
+ private:
+  // Where each triangle is ten times as large as the one before, a tree is as deep as it has
+  // leaves: what is left of a branch is divided evenly while there are places enough for that.
+  std::vector<Part> divided(const Part& part, std::uint32_t places) const {
+    if (part.node == kNone) return divided_evenly(part);
     std::vector<Part> parts;
     for (const std::uint32_t node : collapse_.children_of(part.node)) parts.push_back(parts_[node]);
-    return parts;
+    const std::uint32_t left = places_below(parts, places);
+    const bool fits = std::all_of(parts.begin(), parts.end(), [&](const Part& child) {
+      return places_of_even(child.end - child.first) <= left;
+    });
+    return fits ? parts : divided_evenly(part);
+  }
+
+  // While the children of a node are gone through, those not yet begun wait.
+  static std::uint32_t places_below(const std::vector<Part>& parts, std::uint32_t places) {
+    return places - (static_cast<std::uint32_t>(parts.size()) - 1);
+  }
+
+  // Evenly divided: 6 * 15 + 1 for 16^6 meshlets.
+  static std::uint32_t places_of_even(std::uint32_t meshlets) {
+    std::uint32_t places = 1;
+    for (; meshlets > 1; meshlets = (meshlets + kTreeWidth - 1) / kTreeWidth)
+      places += std::min(meshlets, kTreeWidth) - 1;
+    return places;
   }
 
   static std::vector<Part> divided_evenly(const Part& part) {
@@ -90,18 +101,6 @@ class TreeBuilder {
       result.push_back({part.first + static_cast<std::uint32_t>(k * count / parts),
                         part.first + static_cast<std::uint32_t>((k + 1) * count / parts), kNone});
     return result;
-  }
-
-  // While the children of a node are gone through, those not yet begun wait.
-  std::uint32_t places_needed() const {
-    std::vector<std::uint32_t> needed(tree_.size());
-    for (std::size_t n = tree_.size(); n-- > 0;) {
-      std::uint32_t below = 1;
-      for (std::uint32_t k = 0; k < tree_[n].count; ++k)
-        if (tree_[n].nodes[k] != kNone) below = std::max(below, needed[tree_[n].nodes[k]]);
-      needed[n] = tree_[n].count - 1 + below;
-    }
-    return needed[0];
   }
 
   const std::vector<BvhNode>& top_;

@@ -89,20 +89,31 @@ TEST(MeshletTree, NeverHasMoreChildrenWaitThanAKernelHasRoomFor) {
   }
 }
 
-// Each leaf of `top` has twice the box of the one before: parted by their boxes, thousands are as
-// many levels.
-TEST(MeshletTree, OfADegenerateTreeOfTwoChildrenIsShallow) {
-  constexpr std::uint32_t kLeaves = 5000;
+// Each leaf has twice the box of the one before: parted by their boxes, thousands are as many
+// levels.
+std::vector<BvhNode> degenerate_tree(std::uint32_t leaves) {
   std::vector<BvhNode> top;
-  for (std::uint32_t i = 0; i + 1 < kLeaves; ++i) {
-    const auto size = static_cast<float>(kLeaves - i);
-    top.push_back({{0, 0, 0}, 2 * kLeaves - 1, {size, size, size}, 0});
+  for (std::uint32_t i = 0; i + 1 < leaves; ++i) {
+    const auto size = static_cast<float>(leaves - i);
+    top.push_back({{0, 0, 0}, 2 * leaves - 1, {size, size, size}, 0});
     top.push_back({{0, 0, 0}, 2 * i + 2, {1, 1, 1}, i << 3 | 1u});
   }
-  top.push_back({{0, 0, 0}, 2 * kLeaves - 1, {1, 1, 1}, (kLeaves - 1) << 3 | 1u});
-  const std::vector<MeshletNode> tree = build_meshlet_tree(top);
+  top.push_back({{0, 0, 0}, 2 * leaves - 1, {1, 1, 1}, (leaves - 1) << 3 | 1u});
+  return top;
+}
+
+TEST(MeshletTree, OfADegenerateTreeOfTwoChildrenIsShallow) {
+  const std::vector<MeshletNode> tree = build_meshlet_tree(degenerate_tree(5000));
   EXPECT_LE(most_waiting(tree, 0), kTreeStack);
-  EXPECT_LE(depth(tree, 0), 4u);  // 16^4 > 5000
+  EXPECT_LE(depth(tree, 0), (kTreeStack - 1) / (kTreeWidth - 1) + 1);  // all but one wait at each
+}
+
+// A fine mesh is divided by its boxes, whatever one branch of it would take.
+TEST(MeshletTree, DividesEvenlyOnlyWhereABranchTakesMorePlacesThanThereAre) {
+  const std::vector<MeshletNode> tree = build_meshlet_tree(degenerate_tree(5000));
+  const MeshletNode& root = tree[0];
+  EXPECT_EQ(root.count, kTreeWidth);
+  EXPECT_EQ(std::count(root.nodes.begin(), root.nodes.end(), kNone), kTreeWidth - 1);
 }
 
 TEST(MeshletTree, OfAFineMeshIsAsShallowAsItCanBeAlmost) {

@@ -75,12 +75,12 @@ TEST(Meshlets, OwnEachEdgeOnceWithItsEnds) {
 }
 
 // Sixteen lanes are for sixteen triangles: where vertices are shared, more than half are in use.
-TEST(Meshlets, AreMoreThanHalfFull) {
+TEST(Meshlets, AreThreeQuartersFull) {
   for (const TriangleSoup& soup : {test::soup_of(test::make_icosphere(1, 4)),
                                    test::soup_of(test::make_torus(1, 0.3, 64, 32))}) {
     const Mesh mesh = build_mesh(soup);
-    EXPECT_LT(mesh.topology->meshlets.meshlets.size() * kMeshletTriangles,
-              2 * mesh.topology->triangles.size());
+    EXPECT_LT(3 * mesh.topology->meshlets.meshlets.size() * kMeshletTriangles,
+              4 * mesh.topology->triangles.size());
   }
 }
 
