@@ -187,7 +187,7 @@ class Builder {
   // What triangles cost but for the area of their box. Meshlets are tested whole, however full they
   // are (Wald, Woop, Benthin, Johnson, Ernst, "Embree", 2014, count blocks of triangles likewise):
   // so they get fuller, and there are fewer of them.
-  static double work(Range range, std::uint32_t triangles) {
+  static std::uint32_t work(Range range, std::uint32_t triangles) {
     const std::uint32_t together = range.count > kMeshletTriangles ? kMeshletTriangles : 1;
     return (triangles + together - 1) / together;
   }

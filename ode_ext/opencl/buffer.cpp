@@ -75,26 +75,35 @@ unsigned char* Buffer::within_reach(std::size_t bytes, std::size_t offset) const
   return static_cast<unsigned char*>(shared_.get()) + offset;
 }
 
-void Buffer::reserve(std::size_t bytes) {
-  if (capacity_ > 0 && bytes <= capacity_) return;
-  const std::size_t old_capacity = capacity_;
-  release();  // first, so that old and new never need room at once
+bool Buffer::grow(std::size_t bytes, std::size_t kept) {
+  if (capacity_ > 0 && bytes <= capacity_) return false;
+  const std::size_t old_capacity = std::exchange(capacity_, 0);
+  SharedHandle old_shared = std::move(shared_);
+  MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
+  if (kept == 0) {                        // first, so that old and new never need room at once
+    old.reset();
+    old_shared.reset();
+  }
   create(grown_capacity(*device_, bytes, old_capacity));
+  if (kept == 0) return true;
+  try {
+    device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0, kept,
+                                            0, nullptr, nullptr),
+                        "clEnqueueCopyBuffer");
+  } catch (const DeviceError&) {
+    release();
+    throw;
+  }
+  return true;
 }
 
+void Buffer::reserve(std::size_t bytes) { grow(bytes, 0); }
+
 void Buffer::extend(std::size_t bytes) {
-  if (capacity_ > 0 && bytes <= capacity_) return;
-  const std::size_t old_capacity = std::exchange(capacity_, 0);
-  const SharedHandle old_shared = std::move(shared_);
-  const MemoryHandle old = std::move(memory_);  // OpenCL keeps it for the commands that need it
-  const std::size_t size = grown_capacity(*device_, bytes, old_capacity);
-  create(size);
+  const std::size_t kept = capacity_;
+  if (!grow(bytes, kept)) return;
   try {
-    if (old_capacity != 0)
-      device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0,
-                                              old_capacity, 0, nullptr, nullptr),
-                          "clEnqueueCopyBuffer");
-    fill_zero(size - old_capacity, old_capacity);
+    fill_zero(capacity_ - kept, kept);
   } catch (const DeviceError&) {
     release();
     throw;
@@ -126,14 +135,18 @@ void Buffer::fill_zero(std::size_t bytes, std::size_t offset) {
                       "clEnqueueFillBuffer");
 }
 
-void* Buffer::map_anew(std::size_t bytes) {
-  reserve(bytes);
+void* Buffer::map_after(std::size_t kept, std::size_t bytes) {
+  const std::size_t end = kept + bytes;
+  if (end > capacity_ || capacity_ == 0) {
+    const std::size_t largest = static_cast<std::size_t>(device_->info().largest_buffer);
+    grow(std::max(end, std::min(end + end / 8, largest)), kept);
+  }
   if (bytes == 0) return nullptr;
-  if (shared_) return shared_.get();
+  if (shared_) return static_cast<unsigned char*>(shared_.get()) + kept;
   cl_int code = CL_SUCCESS;
   void* mapped =
       clEnqueueMapBuffer(device_->queue(), memory_.get(), CL_FALSE, CL_MAP_WRITE_INVALIDATE_REGION,
-                         0, bytes, 0, nullptr, nullptr, &code);
+                         kept, bytes, 0, nullptr, nullptr, &code);
   try {
     device_->check_call(code, "clEnqueueMapBuffer");
   } catch (const DeviceError&) {
@@ -144,7 +157,7 @@ void* Buffer::map_anew(std::size_t bytes) {
 }
 
 int Buffer::enqueue_unmap(void* mapped) {
-  if (mapped == nullptr || mapped == shared_.get()) return CL_SUCCESS;
+  if (mapped == nullptr || shared_) return CL_SUCCESS;
   return clEnqueueUnmapMemObject(device_->queue(), memory_.get(), mapped, 0, nullptr, nullptr);
 }
 

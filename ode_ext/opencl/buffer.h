@@ -67,9 +67,11 @@ class Buffer {
     reserve(records.size() * sizeof(T));
     write(records.data(), records.size() * sizeof(T));
   }
-  // Room for `bytes`, to be written in place (opencl/mapped_records.h) once the device is idle;
-  // what was in it is lost. Null for none.
-  void* map_anew(std::size_t bytes);
+  // Room for `bytes` after the first `kept`, which stay, to be written in place
+  // (opencl/mapped_records.h) once the device is idle. Where it grows it takes an eighth more than
+  // that, if nothing else an eighth of memory that nobody touches: the next to come need no copy of
+  // what is kept. Null for no bytes.
+  void* map_after(std::size_t kept, std::size_t bytes);
   // Enqueued: the end of that. Null is let pass. The first never throws. Where it fails the buffer
   // is empty then.
   void unmap(void* mapped) noexcept;
@@ -79,6 +81,8 @@ class Buffer {
 
  private:
   Device* device_;
+  // As reserve(), but the first `kept` bytes stay. Returns whether it grew.
+  bool grow(std::size_t bytes, std::size_t kept);
   void create(std::size_t size);
   int enqueue_unmap(void* mapped);
   // Where the host may write at once; null: it has to enqueue.

@@ -14,11 +14,14 @@ namespace ode_ext {
 template <class T>
 class MappedRecords {
  public:
-  // Room for `most` records; what was in the buffer is lost. To be written once the device is idle.
-  MappedRecords(Buffer& buffer, std::size_t most)
+  // Room for `more` records after the first `kept`, which stay. To be written once the device is
+  // idle.
+  MappedRecords(Buffer& buffer, std::size_t kept, std::size_t more)
       : buffer_(buffer),
-        most_(most),
-        records_(static_cast<T*>(buffer.map_anew(most * sizeof(T)))) {}
+        kept_(kept),
+        most_(kept + more),
+        size_(kept),
+        records_(static_cast<T*>(buffer.map_after(kept * sizeof(T), more * sizeof(T)))) {}
   ~MappedRecords() {  // without close(): nobody needs them any more
     if (records_ != nullptr) buffer_.unmap(std::exchange(records_, nullptr));
   }
@@ -27,18 +30,17 @@ class MappedRecords {
 
   void push_back(const T& record) {
     assert(size_ < most_);
-    records_[size_++] = record;
+    records_[size_++ - kept_] = record;
   }
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return size_; }  // with those kept
 
   // Enqueued: the records are there for what is enqueued after it. Throws DeviceError.
   void close() { buffer_.close(std::exchange(records_, nullptr)); }
 
  private:
   Buffer& buffer_;
-  std::size_t most_;
+  std::size_t kept_, most_, size_;
   T* records_;
-  std::size_t size_ = 0;
 };
 
 }  // namespace ode_ext

@@ -2,21 +2,19 @@
 // What the deform step needs to know of a mesh's triangles, however its vertices lie.
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
 #include "abi/deform.h"
 #include "mesh/mesh_topology.h"
+#include "opencl/mapped_records.h"
 
 namespace ode_ext {
 
-// Where it lies in the words of all meshes; see ox_move.
-struct DeformTopology {
-  std::uint32_t corner_first = 0;
-  std::uint32_t incident_first = 0;
-};
+// How many words that takes of a deformable mesh: the vertices of each triangle, and from
+// `incident_words` on the corners at each vertex; see ox_move.
+std::size_t topology_words(const MeshTopology& mesh);
+std::size_t incident_words(const MeshTopology& mesh);
 
-// Appends to `words` what belongs to `mesh`.
-DeformTopology append_topology(const MeshTopology& mesh, std::vector<ox_u32>& words);
+void append_topology(const MeshTopology& mesh, MappedRecords<ox_u32>& words);
 
 }  // namespace ode_ext

@@ -6,6 +6,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "opencl/error.h"
+#include "search/deform_topology.h"
+
 namespace ode_ext {
 namespace {
 
@@ -18,71 +21,93 @@ float scale_for(float extent) {
 }  // namespace
 
 DeviceMeshes::DeviceMeshes(Program& program)
-    : device_(program.device()),
-      deform_(program),
-      mesh_records_(device_),
-      parts_(device_),
-      topologies_(device_) {}
+    : device_(program.device()), deform_(program), mesh_records_(device_), parts_(device_) {}
 
 void DeviceMeshes::set(const MeshList& meshes) {
-  // Nothing is in flight here (a batch ends with a wait), so the arrays may be rebuilt in place.
-  const bool anew = !are_shapes_of_the_same(meshes);
-  if (anew)
-    rebuild(meshes);
-  else
-    std::vector<ox_u32>().swap(host_topologies_);  // uploaded
+  // Nothing is in flight here (a batch ends with a wait), so records may be written in place.
+  if (!are_placed(meshes)) place(meshes);
   moves_.clear();
   positions_.clear();
-  for (auto& [i, deformable] : deformables_) {
-    const bool changed = anew || meshes[i] != meshes_[i];
-    if (changed || deformable.moving) add_move(i, *meshes[i], !changed);
-    if (!anew) deformable.moving = changed;
+  for (std::uint32_t i = 0; i < meshes.size(); ++i) {
+    Placed& placed = placed_[i];
+    if (meshes[i]->deformable) {
+      const bool changed = placed.is_new || meshes[i] != placed.mesh;
+      if (changed || placed.moving) add_move(i, *meshes[i], !changed);
+      if (!placed.is_new) placed.moving = changed;
+    }
+    placed.is_new = false;
+    if (placed.mesh != meshes[i]) placed.mesh = meshes[i];
   }
   if (!moves_.empty()) deform_.run(moves_, positions_, *this);
-  meshes_ = meshes;
 }
 
-void DeviceMeshes::forget() {
-  meshes_.clear();
-  deformables_.clear();
+bool DeviceMeshes::are_placed(const MeshList& meshes) const {
+  return std::equal(meshes.begin(), meshes.end(), placed_.begin(), placed_.end(),
+                    [](const auto& mesh, const Placed& placed) {
+                      return mesh->topology == placed.mesh->topology;
+                    });
 }
 
-bool DeviceMeshes::are_shapes_of_the_same(const MeshList& meshes) const {
-  return std::equal(meshes.begin(), meshes.end(), meshes_.begin(), meshes_.end(),
-                    [](const auto& a, const auto& b) { return a->topology == b->topology; });
-}
-
-void DeviceMeshes::rebuild(const MeshList& meshes) {
-  std::unordered_map<const MeshTopology*, const Mesh*> shapes_before;
-  for (const auto& mesh : meshes_) shapes_before.emplace(mesh->topology.get(), mesh.get());
-  const MeshList before = std::exchange(meshes_, {});  // keeps them until they are appended
-  ranges_.clear();
-  owner_triangles_.clear();
+void DeviceMeshes::place(const MeshList& meshes) {
+  std::unordered_multimap<const MeshTopology*, Placed> known;
+  for (Placed& placed : placed_) known.emplace(placed.mesh->topology.get(), std::move(placed));
+  placed_.clear();  // where this fails there are none
+  std::vector<Placed> places(meshes.size());
+  MeshCounts in_use, more;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const auto found = known.find(meshes[i]->topology.get());
+    if (found == known.end()) {
+      places[i].mesh = meshes[i];
+      more.add(*meshes[i]);
+    } else {
+      places[i] = std::move(found->second);
+      known.erase(found);
+      in_use.add(*meshes[i]);
+    }
+  }
+  const std::size_t out_of_use = end_.triangles - in_use.triangles;
+  if (in_use.triangles == 0 || out_of_use > in_use.triangles + more.triangles ||
+      !try_to_append(more, places))
+    place_anew(meshes, places);
   host_records_.clear();
-  host_topologies_.clear();
-  deformables_.clear();
-  MeshRecords parts(parts_, meshes);
-  if (!device_.is_idle()) device_.finish();
-  for (const auto& mesh : meshes) {
-    const auto known = shapes_before.find(mesh->topology.get());
-    append(parts, *mesh, known == shapes_before.end() ? nullptr : known->second);
-  }
-  parts.close();
+  for (const Placed& placed : places) host_records_.push_back(placed.record);
   mesh_records_.upload(host_records_);
-  topologies_.upload(host_topologies_);
+  placed_ = std::move(places);
 }
 
-// `before`: the shape it had until now, if it was here.
-void DeviceMeshes::append(MeshRecords& parts, const Mesh& mesh, const Mesh* before) {
-  ranges_.push_back(parts.next());
-  if (mesh.deformable) {
-    Deformable& deformable = deformables_[static_cast<std::uint32_t>(host_records_.size())];
-    deformable.topology = append_topology(*mesh.topology, host_topologies_);
-    deformable.moving = before != nullptr && before != &mesh;
+// False: what is there and what it grows to had no room at once, or some other call failed.
+bool DeviceMeshes::try_to_append(const MeshCounts& more, std::vector<Placed>& places) {
+  try {
+    append(more, places);
+    return true;
+  } catch (const DeviceError&) {
+    return false;
   }
-  host_records_.push_back(
-      parts.append(mesh, mesh.deformable && before != nullptr ? *before : mesh));
-  append_owners(*mesh.topology);
+}
+
+void DeviceMeshes::place_anew(const MeshList& meshes, std::vector<Placed>& places) {
+  MeshCounts all;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    all.add(*meshes[i]);
+    places[i].is_new = true;
+    places[i].moving = places[i].mesh != meshes[i];
+  }
+  end_ = {};
+  append(all, places);
+}
+
+// The meshes that are new, with their vertices where they were until now.
+void DeviceMeshes::append(const MeshCounts& more, std::vector<Placed>& places) {
+  MeshRecords parts(parts_, end_, more);
+  if (!device_.is_idle()) device_.finish();
+  owner_triangles_.resize(end_.vertices);
+  for (Placed& placed : places) {
+    if (!placed.is_new) continue;
+    placed.range = parts.next();
+    placed.record = parts.append(*placed.mesh);
+    append_owners(*placed.mesh->topology);
+  }
+  end_ = parts.close();
 }
 
 void DeviceMeshes::append_owners(const MeshTopology& mesh) {
@@ -96,17 +121,17 @@ void DeviceMeshes::append_owners(const MeshTopology& mesh) {
 }
 
 void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
-  const Deformable& deformable = deformables_.at(mesh);
+  Placed& placed = placed_[mesh];
+  measure(shape, placed.record);
   MeshMove move;
-  // Not host_records_[mesh] itself: what was uploaded just now may still be read from there.
-  move.record.shape = host_records_[mesh];
-  measure(shape, move.record.shape);
+  move.record.shape = placed.record;
   move.record.mesh = mesh;
-  move.record.vertex_first = ranges_[mesh].vertex_first;
+  move.record.vertex_first = placed.range.vertex_first;
   move.record.vertex_count = static_cast<ox_u32>(shape.vertices.size());
   move.record.position_first = static_cast<ox_u32>(positions_.size());
-  move.record.corner_first = deformable.topology.corner_first;
-  move.record.incident_first = deformable.topology.incident_first;
+  move.record.corner_first = placed.range.word_first;
+  move.record.incident_first =
+      placed.range.word_first + static_cast<ox_u32>(incident_words(*shape.topology));
   move.record.scale = scale_for(move.record.shape.extent);
   move.record.thickness = thickness_of(shape);
   // A vertex may lie on a face that is not its own (mesh/exit_distance.cpp); rounding, here of

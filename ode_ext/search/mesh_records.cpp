@@ -8,6 +8,7 @@
 #include "mesh/both.h"
 #include "mesh/ray_cast.h"
 #include "mesh/rings.h"
+#include "search/deform_topology.h"
 
 namespace ode_ext {
 namespace {
@@ -138,44 +139,39 @@ MeshBuffers::MeshBuffers(Device& device)
       rings(device, Memory::kShared),
       meshlets(device, Memory::kShared),
       meshlet_nodes(device, Memory::kShared),
-      facets(device, Memory::kShared) {}
+      facets(device, Memory::kShared),
+      words(device, Memory::kShared) {}
 
-// Of all meshes together.
-struct MeshRecords::Counts {
-  explicit Counts(const MeshList& meshes) {
-    for (const auto& mesh : meshes) {
-      const MeshTopology& built = *mesh->topology;
-      chunks += built.chunks.size();
-      vertices += built.vertex_count;
-      triangles += built.triangles.size();
-      edges += built.edges.size() + built.flat_edges.size();
-      meshlets += built.meshlets.meshlets.size();
-      meshlet_nodes += built.meshlets.tree.size();
-    }
-  }
-  std::size_t chunks = 0, vertices = 0, triangles = 0, edges = 0, meshlets = 0, meshlet_nodes = 0;
-};
+void MeshCounts::add(const Mesh& mesh) {
+  const MeshTopology& built = *mesh.topology;
+  chunks += built.chunks.size();
+  vertices += built.vertex_count;
+  triangles += built.triangles.size();
+  edges += built.edges.size() + built.flat_edges.size();
+  meshlets += built.meshlets.meshlets.size();
+  meshlet_nodes += built.meshlets.tree.size();
+  if (mesh.deformable) words += topology_words(built);
+}
 
-MeshRecords::MeshRecords(MeshBuffers& buffers, const MeshList& meshes)
-    : MeshRecords(buffers, Counts(meshes)) {}
-
-MeshRecords::MeshRecords(MeshBuffers& buffers, const Counts& counts)
-    : chunks_(buffers.chunks, counts.chunks),
-      vertices_(buffers.vertices, counts.vertices),
-      triangles_(buffers.triangles, counts.triangles),
-      edges_(buffers.edges, counts.edges),
-      ring_starts_(buffers.ring_starts, counts.vertices + 1),
-      rings_(buffers.rings, 2 * counts.edges),
-      meshlets_(buffers.meshlets, counts.meshlets),
-      meshlet_nodes_(buffers.meshlet_nodes, counts.meshlet_nodes),
-      facets_(buffers.facets, counts.triangles) {}
+MeshRecords::MeshRecords(MeshBuffers& buffers, const MeshCounts& kept, const MeshCounts& more)
+    : chunks_(buffers.chunks, kept.chunks, more.chunks),
+      vertices_(buffers.vertices, kept.vertices, more.vertices),
+      triangles_(buffers.triangles, kept.triangles, more.triangles),
+      edges_(buffers.edges, kept.edges, more.edges),
+      ring_starts_(buffers.ring_starts, kept.vertices, more.vertices + 1),
+      rings_(buffers.rings, 2 * kept.edges, 2 * more.edges),
+      meshlets_(buffers.meshlets, kept.meshlets, more.meshlets),
+      meshlet_nodes_(buffers.meshlet_nodes, kept.meshlet_nodes, more.meshlet_nodes),
+      facets_(buffers.facets, kept.triangles, more.triangles),
+      words_(buffers.words, kept.words, more.words) {}
 
 MeshRange MeshRecords::next() const {
   return {static_cast<std::uint32_t>(vertices_.size()),
-          static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(edges_.size())};
+          static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(edges_.size()),
+          static_cast<std::uint32_t>(words_.size())};
 }
 
-ox_mesh MeshRecords::append(const Mesh& mesh, const Mesh& placed) {
+ox_mesh MeshRecords::append(const Mesh& mesh) {
   const MeshTopology& built = *mesh.topology;
   const MeshRange first = next();
   ox_mesh record{};
@@ -194,6 +190,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh, const Mesh& placed) {
                  (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u);
   measure(mesh, record);
 
+  if (mesh.deformable) append_topology(built, words_);
   for (const MeshletNode& node : built.meshlets.tree)
     meshlet_nodes_.push_back(to_record(node, record.extent));
   do_both(
@@ -201,7 +198,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh, const Mesh& placed) {
       [&] {
         append_edges(built, first);
         append_rings(built, first);
-        append_vertices(mesh, placed);
+        append_vertices(mesh);
       },
       [&] {
         append_meshlets(mesh, first, meshlets_);
@@ -210,12 +207,11 @@ ox_mesh MeshRecords::append(const Mesh& mesh, const Mesh& placed) {
   return record;
 }
 
-void MeshRecords::append_vertices(const Mesh& mesh, const Mesh& placed) {
+void MeshRecords::append_vertices(const Mesh& mesh) {
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   for (const VertexChunk& chunk : mesh.topology->chunks)
     chunks_.push_back(to_record(mesh, chunk, first));
-  for (std::size_t i = 0; i < placed.vertices.size(); ++i)
-    vertices_.push_back(to_record(placed, i));
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) vertices_.push_back(to_record(mesh, i));
 }
 
 void MeshRecords::append_triangles(const Mesh& mesh, const MeshRange& first) {
@@ -251,7 +247,7 @@ void MeshRecords::append_rings(const MeshTopology& mesh, const MeshRange& first)
     rings_.push_back({first.vertex_first + neighbour.vertex, first.edge_first + neighbour.edge});
 }
 
-void MeshRecords::close() {
+MeshCounts MeshRecords::close() {
   ring_starts_.push_back(static_cast<ox_u32>(rings_.size()));
   chunks_.close();
   vertices_.close();
@@ -262,6 +258,9 @@ void MeshRecords::close() {
   meshlets_.close();
   meshlet_nodes_.close();
   facets_.close();
+  words_.close();
+  return {chunks_.size(),   vertices_.size(),      triangles_.size(), edges_.size(),
+          meshlets_.size(), meshlet_nodes_.size(), words_.size()};
 }
 
 }  // namespace ode_ext

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of meshes, one mesh after the other, written into device memory in place.
+// The records of meshes, one mesh after the other, written into device memory in place. All indices
+// in them count over all meshes, so a mesh stays where it is.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,13 @@ namespace ode_ext {
 
 using MeshList = std::vector<std::shared_ptr<const Mesh>>;
 
+// How many records meshes have, of each kind.
+struct MeshCounts {
+  std::size_t chunks = 0, vertices = 0, triangles = 0, edges = 0, meshlets = 0, meshlet_nodes = 0;
+  std::size_t words = 0;  // search/deform_topology.h
+  void add(const Mesh& mesh);
+};
+
 struct MeshBuffers {
   explicit MeshBuffers(Device& device);
 
@@ -25,26 +33,25 @@ struct MeshBuffers {
   Buffer meshlets, meshlet_nodes;
   // Of each triangle, over all triangles: the number of its facet within its mesh.
   Buffer facets;
+  Buffer words;  // of deformable meshes: search/deform_topology.h
 };
 
 class MeshRecords {
  public:
-  // For all of `meshes`. They can be appended once the device is idle.
-  MeshRecords(MeshBuffers& buffers, const MeshList& meshes);
+  // Room for `more` after the `kept` first ones, which stay. Meshes can be appended once the device
+  // is idle.
+  MeshRecords(MeshBuffers& buffers, const MeshCounts& kept, const MeshCounts& more);
 
   // Where the parts of the next mesh begin.
   MeshRange next() const;
-  // Appends a mesh and returns what there is of itself; `placed`: with its vertices where this
-  // shape of it has them. The deform step makes the rest of the records of deformable meshes.
-  ox_mesh append(const Mesh& mesh, const Mesh& placed);
-  // After the last. Throws DeviceError.
-  void close();
+  // Appends a mesh and returns what there is of itself. The deform step makes of deformable ones
+  // what depends on where their vertices are.
+  ox_mesh append(const Mesh& mesh);
+  // After the last; returns how many there are with those kept. Throws DeviceError.
+  MeshCounts close();
 
  private:
-  struct Counts;
-  MeshRecords(MeshBuffers& buffers, const Counts& counts);
-
-  void append_vertices(const Mesh& mesh, const Mesh& placed);
+  void append_vertices(const Mesh& mesh);
   void append_triangles(const Mesh& mesh, const MeshRange& first);
   void append_edges(const MeshTopology& mesh, const MeshRange& first);
   void append_rings(const MeshTopology& mesh, const MeshRange& first);
@@ -58,6 +65,7 @@ class MeshRecords {
   MappedRecords<ox_meshlet> meshlets_;
   MappedRecords<ox_meshlet_node> meshlet_nodes_;
   MappedRecords<ox_u32> facets_;
+  MappedRecords<ox_u32> words_;
 };
 
 // What a mesh and each of its shapes have of their own.

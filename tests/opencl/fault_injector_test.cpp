@@ -215,7 +215,7 @@ std::vector<std::uint32_t> scenario() {
     view.reserve(target, 4 * out.size());
     for (const Memory memory : {Memory::kDevice, Memory::kShared}) {
       Buffer written(device, memory), dropped(device, memory);
-      MappedRecords<std::uint32_t> records(written, in.size()), unused(dropped, 1);
+      MappedRecords<std::uint32_t> records(written, 0, in.size()), unused(dropped, 0, 1);
       device.finish();
       for (const std::uint32_t number : in) records.push_back(number);
       records.close();
