@@ -20,7 +20,8 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   Batch batch{scene, memory, report_,
               Workload(options_, device_, data_.lists, scene, memory, report_)};
   try {
-    upload(batch);
+    upload(scene);
+    if (paper_) paper_->begin_batch(batch);
     while (batch.workload.next()) collide_tile(batch);
   } catch (...) {
     drop(batch);
@@ -34,10 +35,9 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
 }
 
 // What all tiles have in common.
-void Collider::upload(Batch& batch) {
-  data_.meshes.set(batch.scene.meshes);  // the deform step
-  data_.pairs.upload_objects(batch.scene);
-  if (paper_) paper_->begin_batch(batch);
+void Collider::upload(const Scene& scene) {
+  data_.meshes.set(scene.meshes);  // the deform step
+  data_.pairs.upload_objects(scene);
 }
 
 void Collider::collide_tile(Batch& batch) {
@@ -50,8 +50,10 @@ void Collider::collide_tile(Batch& batch) {
     read_back_.read_rest(data_);
   } catch (const DeviceError& error) {
     report_.work = work;
-    forget_uploads();  // some may not have been made
+    forget_uploads();
     if (!batch.workload.try_smaller(error.code())) throw;
+    if (batch.remembers()) batch.memory->temporal.reset();  // how far what moved is forgotten, too
+    upload(batch.scene);
     return;
   }
   deliver(batch);
@@ -112,7 +114,9 @@ void Collider::deliver(Batch& batch) {
                   read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
 }
 
-void Collider::forget_uploads() {  // of what is uploaded only where it changed
+// Of what is uploaded only where it changed: some may not have been made.
+void Collider::forget_uploads() {
+  data_.meshes.forget();
   data_.lists.forget();
   if (paper_) paper_->forget();
 }
@@ -121,32 +125,10 @@ void Collider::forget_uploads() {  // of what is uploaded only where it changed
 void Collider::drop(Batch& batch) {
   device_.settle();     // what is still in flight must not write into what the next batch reuses
   take_milliseconds();  // of what ran; the next batch starts afresh
-  data_.meshes.forget();
   forget_uploads();
   if (batch.memory == nullptr) return;
   batch.memory->temporal.reset();
   batch.memory->tile_pairs = batch.tile_pairs;  // no size failed: that tells nothing
-}
-
-StageTimes Collider::take_milliseconds() {
-  StageTimes ms{};
-  add_time(ms, Stage::kDeformStep, data_.meshes);
-  search_.take_milliseconds(ms);
-  assembly_.take_milliseconds(ms);
-  if (whole_step_) whole_step_->take_milliseconds(ms);
-  if (paper_) paper_->take_milliseconds(ms);
-  return ms;
-}
-
-void Collider::finish(Batch& batch) {
-  report_.capacity = data_.lists.capacities();
-  report_.temporal_pairs = batch.remembers() ? batch.memory->temporal->pairs() : 0;
-  report_.ms = take_milliseconds();
-  data_.lists.note_use(report_.actual, batch.memory != nullptr);
-  if (batch.memory == nullptr) return;
-  batch.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
-  // A little more each time: what did not fit once may have been short of memory for a moment.
-  if (batch.memory->tile_pairs != 0) batch.memory->tile_pairs += batch.memory->tile_pairs / 16 + 1;
 }
 
 }  // namespace ode_ext

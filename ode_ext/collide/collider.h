@@ -35,7 +35,7 @@ class Collider {
   const DeviceInfo& device_info() const { return device_.info(); }
 
  private:
-  void upload(Batch& batch);
+  void upload(const Scene& scene);
   void collide_tile(Batch& batch);
   void attempt(Batch& batch);
   void launch_steps(Batch& batch);

@@ -87,14 +87,23 @@ bool Buffer::grow(std::size_t bytes, std::size_t kept) {
   create(grown_capacity(*device_, bytes, old_capacity));
   if (kept == 0) return true;
   try {
-    device_->check_call(clEnqueueCopyBuffer(device_->queue(), old.get(), memory_.get(), 0, 0, kept,
-                                            0, nullptr, nullptr),
-                        "clEnqueueCopyBuffer");
+    copy_from(old_shared.get(), old.get(), kept);
   } catch (const DeviceError&) {
     release();
     throw;
   }
   return true;
+}
+
+void Buffer::copy_from(const void* old_shared, cl_mem old, std::size_t bytes) {
+  unsigned char* target = within_reach(bytes, 0);
+  if (target != nullptr && old_shared != nullptr) {
+    std::memcpy(target, old_shared, bytes);
+    return;
+  }
+  device_->check_call(
+      clEnqueueCopyBuffer(device_->queue(), old, memory_.get(), 0, 0, bytes, 0, nullptr, nullptr),
+      "clEnqueueCopyBuffer");
 }
 
 void Buffer::reserve(std::size_t bytes) { grow(bytes, 0); }
@@ -139,7 +148,8 @@ void* Buffer::map_after(std::size_t kept, std::size_t bytes) {
   const std::size_t end = kept + bytes;
   if (end > capacity_ || capacity_ == 0) {
     const std::size_t largest = static_cast<std::size_t>(device_->info().largest_buffer);
-    grow(std::max(end, std::min(end + end / 8, largest)), kept);
+    const std::size_t spare = is_shared_ ? end / 8 : 0;
+    grow(std::max(end, std::min(end + spare, largest)), kept);
   }
   if (bytes == 0) return nullptr;
   if (shared_) return static_cast<unsigned char*>(shared_.get()) + kept;

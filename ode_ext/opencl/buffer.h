@@ -68,9 +68,9 @@ class Buffer {
     write(records.data(), records.size() * sizeof(T));
   }
   // Room for `bytes` after the first `kept`, which stay, to be written in place
-  // (opencl/mapped_records.h) once the device is idle. Where it grows it takes an eighth more than
-  // that, if nothing else an eighth of memory that nobody touches: the next to come need no copy of
-  // what is kept. Null for no bytes.
+  // (opencl/mapped_records.h) once the device is idle. Of memory that is shared, which counts once
+  // it is touched, it takes an eighth more, so that what comes next needs no copy of what is kept.
+  // Null for no bytes.
   void* map_after(std::size_t kept, std::size_t bytes);
   // Enqueued: the end of that. Null is let pass. The first never throws. Where it fails the buffer
   // is empty then.
@@ -84,6 +84,7 @@ class Buffer {
   // As reserve(), but the first `kept` bytes stay. Returns whether it grew.
   bool grow(std::size_t bytes, std::size_t kept);
   void create(std::size_t size);
+  void copy_from(const void* old_shared, cl_mem old, std::size_t bytes);
   int enqueue_unmap(void* mapped);
   // Where the host may write at once; null: it has to enqueue.
   unsigned char* within_reach(std::size_t bytes, std::size_t offset) const;

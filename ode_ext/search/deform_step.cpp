@@ -105,15 +105,15 @@ void DeformStep::launch(const Work& work, const DeviceMeshes& meshes, const Laun
     kernel.launch(launch.groups, launch.local, moves_, count, arguments...);
   };
   run(triangles_, work.triangles.count, starts_, work.triangles.starts_first, positions_,
-      meshes.words(), meshes.triangles(), measures_);
+      meshes.topologies(), meshes.triangles(), measures_);
   run(vertices_, work.vertices.count, starts_, work.vertices.starts_first, positions_,
-      meshes.words(), meshes.triangles(), measures_, meshes.vertices());
+      meshes.topologies(), meshes.triangles(), measures_, meshes.vertices());
   run(meshlets_, work.meshlets.count, starts_, work.meshlets.starts_first, meshes.vertices(),
       meshes.triangles(), meshes.meshlets());
   run(meshlet_nodes_, work.meshlet_nodes.count, starts_, work.meshlet_nodes.starts_first,
       meshes.meshlets(), meshes.meshlet_nodes());
-  run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.words(), meshes.meshlets(),
-      meshes.meshlet_nodes(), meshes.vertices());
+  run(exits_, work.exits.count, starts_, work.exits.starts_first, meshes.topologies(),
+      meshes.meshlets(), meshes.meshlet_nodes(), meshes.vertices());
   run(rest_, work.rest.count, starts_, work.rest.starts_first, meshes.vertices(), meshes.chunks());
   run(chunks_, work.chunks.count, starts_, work.chunks.starts_first, meshes.vertices(),
       meshes.chunks());

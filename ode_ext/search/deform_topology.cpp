@@ -7,13 +7,15 @@ namespace ode_ext {
 
 std::size_t incident_words(const MeshTopology& mesh) { return 3 * mesh.triangles.size(); }
 
-std::size_t topology_words(const MeshTopology& mesh) {
+std::size_t count_topology_words(const MeshTopology& mesh) {
+  if (mesh.triangles.empty()) return 0;
   return incident_words(mesh) + mesh.vertex_count + 1 + 3 * mesh.triangles.size();
 }
 
 // The triangles are in the program's order, and so are the corners at a vertex: sums over them do
 // not depend on how the mesh was built.
 void append_topology(const MeshTopology& mesh, MappedRecords<ox_u32>& words) {
+  if (mesh.triangles.empty()) return;
   std::vector<ox_u32> starts(mesh.vertex_count + 1);
   for (const Triangle& triangle : mesh.triangles)
     for (const std::uint32_t vertex : triangle) {

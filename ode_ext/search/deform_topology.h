@@ -11,8 +11,8 @@
 namespace ode_ext {
 
 // How many words that takes of a deformable mesh: the vertices of each triangle, and from
-// `incident_words` on the corners at each vertex; see ox_move.
-std::size_t topology_words(const MeshTopology& mesh);
+// `incident_words` on the corners at each vertex; see ox_move. None of one without triangles.
+std::size_t count_topology_words(const MeshTopology& mesh);
 std::size_t incident_words(const MeshTopology& mesh);
 
 void append_topology(const MeshTopology& mesh, MappedRecords<ox_u32>& words);

@@ -12,6 +12,9 @@
 namespace ode_ext {
 namespace {
 
+// Kernels put two bits more beside the index of an edge (lib/flood_table.h, OX_OF_SHIFT).
+constexpr std::size_t kMostEdges = std::size_t{1} << 30;
+
 // A power of two, so that scaling rounds nothing.
 float scale_for(float extent) {
   if (extent == 0) return 1;
@@ -29,16 +32,23 @@ void DeviceMeshes::set(const MeshList& meshes) {
   moves_.clear();
   positions_.clear();
   for (std::uint32_t i = 0; i < meshes.size(); ++i) {
-    Placed& placed = placed_[i];
-    if (meshes[i]->deformable) {
-      const bool changed = placed.is_new || meshes[i] != placed.mesh;
-      if (changed || placed.moving) add_move(i, *meshes[i], !changed);
-      if (!placed.is_new) placed.moving = changed;
-    }
-    placed.is_new = false;
-    if (placed.mesh != meshes[i]) placed.mesh = meshes[i];
+    const Placed& placed = placed_[i];
+    const bool changed = placed.is_new || meshes[i] != placed.mesh;
+    if (meshes[i]->deformable && (changed || placed.moving)) add_move(i, *meshes[i], !changed);
   }
   if (!moves_.empty()) deform_.run(moves_, positions_, *this);
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    Placed& placed = placed_[i];
+    const bool changed = meshes[i] != placed.mesh;
+    if (!placed.is_new) placed.moving = changed;
+    placed.is_new = false;
+    if (changed) placed.mesh = meshes[i];
+  }
+}
+
+void DeviceMeshes::forget() {
+  placed_.clear();
+  parts_.release();
 }
 
 bool DeviceMeshes::are_placed(const MeshList& meshes) const {
@@ -49,9 +59,9 @@ bool DeviceMeshes::are_placed(const MeshList& meshes) const {
 }
 
 void DeviceMeshes::place(const MeshList& meshes) {
-  std::unordered_multimap<const MeshTopology*, Placed> known;
-  for (Placed& placed : placed_) known.emplace(placed.mesh->topology.get(), std::move(placed));
-  placed_.clear();  // where this fails there are none
+  std::vector<Placed> before = std::exchange(placed_, {});  // where this fails there are none
+  std::unordered_multimap<const MeshTopology*, Placed*> known;
+  for (Placed& placed : before) known.emplace(placed.mesh->topology.get(), &placed);
   std::vector<Placed> places(meshes.size());
   MeshCounts in_use, more;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -60,15 +70,15 @@ void DeviceMeshes::place(const MeshList& meshes) {
       places[i].mesh = meshes[i];
       more.add(*meshes[i]);
     } else {
-      places[i] = std::move(found->second);
+      places[i] = std::move(*found->second);
       known.erase(found);
       in_use.add(*meshes[i]);
     }
   }
   const std::size_t out_of_use = end_.triangles - in_use.triangles;
-  if (in_use.triangles == 0 || out_of_use > in_use.triangles + more.triangles ||
-      !try_to_append(more, places))
-    place_anew(meshes, places);
+  const bool has_room = in_use.triangles != 0 && out_of_use <= in_use.triangles + more.triangles &&
+                        end_.edges + more.edges <= kMostEdges;
+  if (!has_room || !try_to_append(more, places)) place_anew(meshes, places);
   host_records_.clear();
   for (const Placed& placed : places) host_records_.push_back(placed.record);
   mesh_records_.upload(host_records_);
@@ -93,6 +103,7 @@ void DeviceMeshes::place_anew(const MeshList& meshes, std::vector<Placed>& place
     places[i].moving = places[i].mesh != meshes[i];
   }
   end_ = {};
+  parts_.release();  // of what grew already none is needed
   append(all, places);
 }
 
@@ -129,9 +140,9 @@ void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
   move.record.vertex_first = placed.range.vertex_first;
   move.record.vertex_count = static_cast<ox_u32>(shape.vertices.size());
   move.record.position_first = static_cast<ox_u32>(positions_.size());
-  move.record.corner_first = placed.range.word_first;
+  move.record.corner_first = placed.range.topology_first;
   move.record.incident_first =
-      placed.range.word_first + static_cast<ox_u32>(incident_words(*shape.topology));
+      placed.range.topology_first + static_cast<ox_u32>(incident_words(*shape.topology));
   move.record.scale = scale_for(move.record.shape.extent);
   move.record.thickness = thickness_of(shape);
   // A vertex may lie on a face that is not its own (mesh/exit_distance.cpp); rounding, here of

@@ -22,10 +22,10 @@ class DeviceMeshes {
   // a list in which only shapes of deformable meshes changed the positions of those, and any other
   // the meshes that were not there: what stays, stays where it is. All of them go up anew where
   // more would be out of use than in use. Sources of what is enqueued live in this object. Another
-  // list waits once where memory is not shared.
+  // list waits once where memory is not shared. After a DeviceError: forget().
   void set(const MeshList& meshes);
-  // The device lost its contents: the next set() uploads again.
-  void forget() { placed_.clear(); }
+  // The device lost its contents: the next set() uploads again. Gives their memory back.
+  void forget();
 
   void warm_up(Launch wide) { deform_.warm_up(wide, *this); }
   // Device time of the deform step since the last call [ms].
@@ -47,7 +47,7 @@ class DeviceMeshes {
   const Buffer& meshlets() const { return parts_.meshlets; }
   const Buffer& meshlet_nodes() const { return parts_.meshlet_nodes; }
   const Buffer& facets() const { return parts_.facets; }
-  const Buffer& words() const { return parts_.words; }
+  const Buffer& topologies() const { return parts_.topologies; }
 
  private:
   // A mesh and where it is.
@@ -56,7 +56,7 @@ class DeviceMeshes {
     MeshRange range{};
     ox_mesh record{};
     bool moving = false;  // its vertices moved at the last set()
-    bool is_new = true;   // of this set()
+    bool is_new = true;   // in this set()
   };
 
   bool are_placed(const MeshList& meshes) const;

@@ -140,7 +140,13 @@ MeshBuffers::MeshBuffers(Device& device)
       meshlets(device, Memory::kShared),
       meshlet_nodes(device, Memory::kShared),
       facets(device, Memory::kShared),
-      words(device, Memory::kShared) {}
+      topologies(device, Memory::kShared) {}
+
+void MeshBuffers::release() {
+  for (Buffer* buffer : {&chunks, &vertices, &triangles, &edges, &ring_starts, &rings, &meshlets,
+                         &meshlet_nodes, &facets, &topologies})
+    buffer->release();
+}
 
 void MeshCounts::add(const Mesh& mesh) {
   const MeshTopology& built = *mesh.topology;
@@ -150,7 +156,7 @@ void MeshCounts::add(const Mesh& mesh) {
   edges += built.edges.size() + built.flat_edges.size();
   meshlets += built.meshlets.meshlets.size();
   meshlet_nodes += built.meshlets.tree.size();
-  if (mesh.deformable) words += topology_words(built);
+  if (mesh.deformable) topology_words += count_topology_words(built);
 }
 
 MeshRecords::MeshRecords(MeshBuffers& buffers, const MeshCounts& kept, const MeshCounts& more)
@@ -163,12 +169,12 @@ MeshRecords::MeshRecords(MeshBuffers& buffers, const MeshCounts& kept, const Mes
       meshlets_(buffers.meshlets, kept.meshlets, more.meshlets),
       meshlet_nodes_(buffers.meshlet_nodes, kept.meshlet_nodes, more.meshlet_nodes),
       facets_(buffers.facets, kept.triangles, more.triangles),
-      words_(buffers.words, kept.words, more.words) {}
+      topologies_(buffers.topologies, kept.topology_words, more.topology_words) {}
 
 MeshRange MeshRecords::next() const {
   return {static_cast<std::uint32_t>(vertices_.size()),
           static_cast<std::uint32_t>(triangles_.size()), static_cast<std::uint32_t>(edges_.size()),
-          static_cast<std::uint32_t>(words_.size())};
+          static_cast<std::uint32_t>(topologies_.size())};
 }
 
 ox_mesh MeshRecords::append(const Mesh& mesh) {
@@ -190,7 +196,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
                  (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u);
   measure(mesh, record);
 
-  if (mesh.deformable) append_topology(built, words_);
+  if (mesh.deformable) append_topology(built, topologies_);
   for (const MeshletNode& node : built.meshlets.tree)
     meshlet_nodes_.push_back(to_record(node, record.extent));
   do_both(
@@ -258,9 +264,9 @@ MeshCounts MeshRecords::close() {
   meshlets_.close();
   meshlet_nodes_.close();
   facets_.close();
-  words_.close();
+  topologies_.close();
   return {chunks_.size(),   vertices_.size(),      triangles_.size(), edges_.size(),
-          meshlets_.size(), meshlet_nodes_.size(), words_.size()};
+          meshlets_.size(), meshlet_nodes_.size(), topologies_.size()};
 }
 
 }  // namespace ode_ext

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The records of meshes, one mesh after the other, written into device memory in place. All indices
-// in them count over all meshes, so a mesh stays where it is.
+// The records of meshes, one mesh after the other, written into device memory in place. Vertices,
+// triangles and edges are named by where they are among those of all meshes, so a mesh stays where
+// it is.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,13 @@ using MeshList = std::vector<std::shared_ptr<const Mesh>>;
 // How many records meshes have, of each kind.
 struct MeshCounts {
   std::size_t chunks = 0, vertices = 0, triangles = 0, edges = 0, meshlets = 0, meshlet_nodes = 0;
-  std::size_t words = 0;  // search/deform_topology.h
+  std::size_t topology_words = 0;  // search/deform_topology.h
   void add(const Mesh& mesh);
 };
 
 struct MeshBuffers {
   explicit MeshBuffers(Device& device);
+  void release();
 
   Buffer chunks, vertices, triangles, edges;
   // Of vertex v: rings[ring_starts[v]] to before ring_starts[v + 1].
@@ -33,7 +35,7 @@ struct MeshBuffers {
   Buffer meshlets, meshlet_nodes;
   // Of each triangle, over all triangles: the number of its facet within its mesh.
   Buffer facets;
-  Buffer words;  // of deformable meshes: search/deform_topology.h
+  Buffer topologies;  // of deformable meshes: search/deform_topology.h
 };
 
 class MeshRecords {
@@ -65,7 +67,7 @@ class MeshRecords {
   MappedRecords<ox_meshlet> meshlets_;
   MappedRecords<ox_meshlet_node> meshlet_nodes_;
   MappedRecords<ox_u32> facets_;
-  MappedRecords<ox_u32> words_;
+  MappedRecords<ox_u32> topologies_;
 };
 
 // What a mesh and each of its shapes have of their own.

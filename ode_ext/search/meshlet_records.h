@@ -13,7 +13,7 @@ namespace ode_ext {
 // Where the parts of a mesh start among those of all meshes.
 struct MeshRange {
   std::uint32_t vertex_first, triangle_first, edge_first;
-  std::uint32_t word_first;  // of what the deform step needs to know of it
+  std::uint32_t topology_first;  // of what the deform step needs to know of it
 };
 
 // Appends those of a mesh. The deform step makes of a deformable one's what depends on where its

@@ -77,7 +77,8 @@ Cost measure(const TestMesh& made) {
   // How long the next pass takes beyond one after it, of new poses both: else answers are kept.
   const auto beyond_another = [&](dGeomID moved) {
     const double first = milliseconds([&] { collider.pass(space); });
-    dGeomSetPosition(moved, 0, 0, 1e-3);
+    const dReal* at = dGeomGetPosition(moved);
+    dGeomSetPosition(moved, at[0], at[1], at[2] + 1e-3);
     return first - milliseconds([&] { collider.pass(space); });
   };
   Cost cost{};

@@ -108,12 +108,66 @@ TEST(MeshletTree, OfADegenerateTreeOfTwoChildrenIsShallow) {
   EXPECT_LE(depth(tree, 0), (kTreeStack - 1) / (kTreeWidth - 1) + 1);  // all but one wait at each
 }
 
-// A fine mesh is divided by its boxes, whatever one branch of it would take.
+// Leaves side by side, as many as 2^levels, and half as many on either side at each level.
+std::vector<BvhNode> even_tree(std::uint32_t levels) {
+  std::vector<BvhNode> top;
+  const auto add = [&](const auto& self, float lo, float size, std::uint32_t depth) -> void {
+    const std::size_t place = top.size();
+    top.push_back({{lo, 0, 0}, 0, {lo + size, 1, 1}, 0});
+    if (depth == levels) {
+      const auto leaves =
+          std::count_if(top.begin(), top.end(), [](auto& n) { return n.leaf != 0; });
+      top[place].leaf = static_cast<std::uint32_t>(leaves) << 3 | 1u;
+    } else {
+      self(self, lo, size / 2, depth + 1);
+      self(self, lo + size / 2, size / 2, depth + 1);
+    }
+    top[place].skip = static_cast<std::uint32_t>(top.size());
+  };
+  add(add, 0, 1, 0);
+  return top;
+}
+
+// One tree beside another, under one root.
+std::vector<BvhNode> joined(const std::vector<BvhNode>& left, const std::vector<BvhNode>& right) {
+  std::vector<BvhNode> top{{{0, 0, 0}, 0, {10000, 10000, 10000}, 0}};
+  std::uint32_t leaves = 0;
+  for (const auto* part : {&left, &right}) {
+    const auto first = static_cast<std::uint32_t>(top.size());
+    for (BvhNode node : *part) {
+      node.skip += first;
+      if (node.leaf != 0) node.leaf = leaves++ << 3 | 1u;
+      top.push_back(node);
+    }
+  }
+  top[0].skip = static_cast<std::uint32_t>(top.size());
+  return top;
+}
+
+// The sum of the areas of the boxes of all nodes that hold meshlets from `first` up to `end`.
+double areas(const std::vector<MeshletNode>& tree, std::uint32_t first, std::uint32_t end) {
+  double sum = 0;
+  for (const MeshletNode& node : tree)
+    for (std::uint32_t k = 0; k < node.count; ++k)
+      if (node.nodes[k] != kNone && node.first[k] >= first && node.first[k + 1] <= end)
+        sum += half_area(node.boxes[k]);
+  return sum;
+}
+
+// In this one, and in one beside it.
 TEST(MeshletTree, DividesEvenlyOnlyWhereABranchTakesMorePlacesThanThereAre) {
   const std::vector<MeshletNode> tree = build_meshlet_tree(degenerate_tree(5000));
-  const MeshletNode& root = tree[0];
-  EXPECT_EQ(root.count, kTreeWidth);
-  EXPECT_EQ(std::count(root.nodes.begin(), root.nodes.end(), kNone), kTreeWidth - 1);
+  std::uint32_t levels = 0;  // at which one leaf after the other is parted from the rest
+  for (const MeshletNode* node = &tree[0];; node = &tree[node->nodes[kTreeWidth - 1]], ++levels) {
+    const auto alone = std::count(node->nodes.begin(), node->nodes.end(), kNone);
+    if (node->count != kTreeWidth || alone != kTreeWidth - 1) break;
+  }
+  EXPECT_EQ(levels, 3u);  // each takes 15 of 96 places, and 4955 meshlets take 47
+
+  const std::vector<BvhNode> even = even_tree(10);
+  const double without = areas(build_meshlet_tree(even), 0, 1024);
+  const double beside = areas(build_meshlet_tree(joined(even, degenerate_tree(5000))), 0, 1024);
+  EXPECT_LE(beside, without + half_area({{0, 0, 0}, {1, 1, 1}}));  // its root may be a child now
 }
 
 TEST(MeshletTree, OfAFineMeshIsAsShallowAsItCanBeAlmost) {

@@ -74,7 +74,7 @@ TEST(Meshlets, OwnEachEdgeOnceWithItsEnds) {
   }
 }
 
-// Sixteen lanes are for sixteen triangles: where vertices are shared, more than half are in use.
+// Sixteen lanes are for sixteen triangles: where vertices are shared, three quarters are in use.
 TEST(Meshlets, AreThreeQuartersFull) {
   for (const TriangleSoup& soup : {test::soup_of(test::make_icosphere(1, 4)),
                                    test::soup_of(test::make_torus(1, 0.3, 64, 32))}) {

@@ -205,6 +205,7 @@ class Rig {
 
   void upload(const Scene& scene, std::uint32_t max_contacts, bool with_edges) {
     auto& [meshes, pairs, lists, settings] = data_;
+    meshes.forget();  // so that they lie side by side
     meshes.set(scene.meshes);
     edge_count_ = meshlet_count_ = 0;
     for (const auto& mesh : scene.meshes) {
