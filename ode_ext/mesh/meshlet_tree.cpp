@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesh/box.h"
 #include "mesh/collapse.h"
 
 namespace ode_ext {
@@ -35,23 +36,32 @@ class TreeBuilder {
     }
   }
 
-  // Parents before their children.
   std::vector<MeshletNode> build() {
     if (top_.empty()) return {};
+    std::vector<MeshletNode> tree = divide(parts_[0]);
+    // Where most of it could not follow the boxes, one that is even all through is shallower.
+    if (2 * evenly_ > boxes_.size()) tree = divide({parts_[0].first, parts_[0].end, kNone});
+    return tree;
+  }
+
+ private:
+  // Parents before their children.
+  std::vector<MeshletNode> divide(const Part& whole) {
+    std::vector<MeshletNode> tree;
     struct Pending {
       Part part;
       std::uint32_t parent, child;
       std::uint32_t places;  // for children that wait, its own included
     };
-    std::vector<Pending> pending{{parts_[0], kNone, 0, kTreeStack}};
+    std::vector<Pending> pending{{whole, kNone, 0, kTreeStack}};
     while (!pending.empty()) {
       const Pending next = pending.back();
       pending.pop_back();
-      const auto place = static_cast<std::uint32_t>(tree_.size());
-      if (next.parent != kNone) tree_[next.parent].nodes[next.child] = place;
+      const auto place = static_cast<std::uint32_t>(tree.size());
+      if (next.parent != kNone) tree[next.parent].nodes[next.child] = place;
       const std::vector<Part> parts = divided(next.part, next.places);
       const std::uint32_t places = places_below(parts, next.places);
-      MeshletNode& node = tree_.emplace_back();
+      MeshletNode& node = tree.emplace_back();
       node.count = static_cast<std::uint32_t>(parts.size());
       node.boxes.fill(empty_box());
       node.nodes.fill(kNone);
@@ -63,13 +73,12 @@ class TreeBuilder {
         if (parts[k].end - parts[k].first > 1) pending.push_back({parts[k], place, k, places});
       }
     }
-    return std::move(tree_);
+    return tree;
   }
 
- private:
   // Where each triangle is ten times as large as the one before, a tree is as deep as it has
   // leaves: what is left of a branch is divided evenly while there are places enough for that.
-  std::vector<Part> divided(const Part& part, std::uint32_t places) const {
+  std::vector<Part> divided(const Part& part, std::uint32_t places) {
     if (part.node == kNone) return divided_evenly(part);
     std::vector<Part> parts;
     for (const std::uint32_t node : collapse_.children_of(part.node)) parts.push_back(parts_[node]);
@@ -77,7 +86,9 @@ class TreeBuilder {
     const bool fits = std::all_of(parts.begin(), parts.end(), [&](const Part& child) {
       return places_of_even(child.end - child.first) <= left;
     });
-    return fits ? parts : divided_evenly(part);
+    if (fits) return parts;
+    evenly_ += part.end - part.first;
+    return divided_evenly(part);
   }
 
   // While the children of a node are gone through, those not yet begun wait.
@@ -107,7 +118,7 @@ class TreeBuilder {
   Collapse collapse_;
   std::vector<Part> parts_;  // of its nodes
   std::vector<Box> boxes_;   // of the meshlets
-  std::vector<MeshletNode> tree_;
+  std::size_t evenly_ = 0;   // meshlets of parts that do not follow the boxes
 };
 
 }  // namespace
