@@ -21,12 +21,16 @@ static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair
     const uint side = (uint)(i / OX_BLOCKS) % 2u;
     const uint block = (uint)(i % OX_BLOCKS);
     const ox_block_range blocks = {block, block + 1u};
-    ox_cross_sides(scene, crossings, &both, side, side + 1u, blocks);
+    ox_placed_meshlets placed;
+    placed.pair = OX_NONE;
+    ox_cross_sides(scene, crossings, &both, side, side + 1u, blocks, &placed);
   }
 #else
+  ox_placed_meshlets placed;
+  placed.pair = OX_NONE;
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_meshlet_pair both = meshlet_pairs[i];
-    ox_cross_meshlets(scene, crossings, &both);
+    ox_cross_meshlets(scene, crossings, &both, &placed);
   }
 #endif
 }

@@ -18,6 +18,8 @@ static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, o
                            __global ox_meshlet_pair* meshlet_pairs,
                            __global ox_edge_crossing* crossings) {
   const uint side = task->pair_side & 1u;
+  ox_placed_meshlets placed;
+  placed.pair = OX_NONE;
   uint stored;
   const uint first = ox_append_many(scene, OX_LIST_MESHLET_PAIRS, met->count, &stored);
   for (uint i = 0u; i < met->count; ++i) {
@@ -29,7 +31,7 @@ static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, o
     if (i < stored)
       meshlet_pairs[first + i] = both;
     else
-      ox_cross_meshlets(scene, crossings, &both);
+      ox_cross_meshlets(scene, crossings, &both, &placed);
   }
   met->count = 0u;
 }

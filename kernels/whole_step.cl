@@ -120,6 +120,7 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
   scene.lists = lists + OX_LIST_COUNT;
   scene.item = 0u;
   scene.item_count = 1u;
+  scene.alone = true;
   __global const ox_list* each = scene.lists;
   const ulong n = (ulong)each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity;
   const ox_share share = {meshlet_tasks + item * each[OX_LIST_MESHLETS].capacity,

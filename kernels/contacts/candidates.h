@@ -31,7 +31,7 @@ static inline ox_touch ox_touch_of(__global const ox_feature* f, uint triangle) 
 static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice* choice, uint side,
                                     float3 position, float depth, uint kind, uint source,
                                     uint target, ox_touch touch) {
-  const uint i = atomic_inc(m->count);
+  const uint i = ox_fetch_add(m->region->scene, m->count, 1u);
   const ox_fields* list = &m->candidates;
   ox_set_vector(list, OX_CANDIDATE_POSITION, i, position);
   ox_set_vector(list, OX_CANDIDATE_NORMAL, i, choice->plane.normal);

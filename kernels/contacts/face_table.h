@@ -22,10 +22,10 @@ static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* 
        place = place + 1u < count ? place + 1u : 0u) {
     __global volatile ox_face* face = faces + place;
     uint there = face->key;
-    if (there == OX_NONE) there = atomic_cmpxchg(&face->key, OX_NONE, key);
+    if (there == OX_NONE) there = ox_compare_exchange(scene, &face->key, OX_NONE, key);
     if (there != OX_NONE && there != key) continue;
-    if (face->triangle > triangle) atomic_min(&face->triangle, triangle);
-    if ((face->owner & owner) != owner) atomic_or(&face->owner, owner);
+    if (face->triangle > triangle) ox_fetch_min(scene, &face->triangle, triangle);
+    if ((face->owner & owner) != owner) ox_fetch_or(scene, &face->owner, owner);
     return place;
   }
 }

@@ -93,7 +93,8 @@ static inline uint ox_add_feature(const ox_scene* scene, __global const ox_featu
   for (uint slot = mul_hi(ox_hash_of(key), of.count);;
        slot = slot + 1u < of.count ? slot + 1u : 0u) {
     uint there = slots[of.first + slot];
-    if (there == OX_NONE) there = atomic_cmpxchg(slots + of.first + slot, OX_NONE, entry);
+    if (there == OX_NONE)
+      there = ox_compare_exchange(scene, slots + of.first + slot, OX_NONE, entry);
     if (there == OX_NONE || ox_is_key(scene, features, there, key)) return there;
   }
 }

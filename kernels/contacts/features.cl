@@ -68,7 +68,7 @@ static void ox_gather_features(const ox_scene* scene, __global const ox_edge_cro
       slots[k] = OX_NONE;
     for (uint k = OX_FACES_PER_FEATURE * i; k < OX_FACES_PER_FEATURE * (i + 1u); ++k)
       faces[k] = ox_no_face();
-    atomic_inc(&scene->found[f.pair].features);
+    ox_fetch_add(scene, &scene->found[f.pair].features, 1u);
   }
 }
 
@@ -93,25 +93,25 @@ __kernel void feature_place(OX_SCENE_PARAMETERS) {
 }
 
 // The root of a tree of features. Others may hang trees on meanwhile; halves the way for the next.
-static uint ox_root_of(__global volatile uint* parents, uint i) {
+static uint ox_root_of(const ox_scene* scene, __global volatile uint* parents, uint i) {
   for (;;) {
     const uint parent = parents[i];
     if (parent == i) return i;
     const uint above = parents[parent];
-    if (above != parent) atomic_cmpxchg(parents + i, parent, above);
+    if (above != parent) ox_compare_exchange(scene, parents + i, parent, above);
     i = above;
   }
 }
 
 // Trees hang on the lesser root: which that is in the end does not depend on the order.
-static void ox_unite(__global volatile uint* parents, uint a, uint b) {
+static void ox_unite(const ox_scene* scene, __global volatile uint* parents, uint a, uint b) {
   for (;;) {
-    a = ox_root_of(parents, a);
-    b = ox_root_of(parents, b);
+    a = ox_root_of(scene, parents, a);
+    b = ox_root_of(scene, parents, b);
     if (a == b) return;
     const uint above = min(a, b);
     const uint below = max(a, b);
-    if (atomic_cmpxchg(parents + below, below, above) == below) return;
+    if (ox_compare_exchange(scene, parents + below, below, above) == below) return;
   }
 }
 
@@ -126,12 +126,13 @@ static void ox_link_features(const ox_scene* scene, __global ox_feature* feature
       continue;
     }
     const uint of_edge = ox_add_feature(scene, features, slots, i << 2 | OX_ENTRY_EDGE);
-    if (of_edge != OX_NONE) f->next = atomic_xchg(&features[of_edge >> 2].next, i);
+    if (of_edge != OX_NONE) f->next = ox_exchange(scene, &features[of_edge >> 2].next, i);
     for (uint k = 0u; k < 2u && (f->flags & OX_FEATURE_FLAT) == 0u; ++k) {
       if (f->at[k] == OX_NONE) continue;
       const uint other = ox_add_feature(scene, features, slots, i << 2 | k);
       if (other == OX_NONE) continue;
-      f->mate[k] = atomic_xchg(&features[other >> 2].mate[other & 3u], i << 1 | k);
+      f->mate[k] =
+          ox_exchange(scene, &features[other >> 2].mate[other & 3u], i << 1 | k);
     }
   }
 }
@@ -156,7 +157,7 @@ static void ox_join_neighbours(const ox_scene* scene, __global const ox_feature*
       continue;
     const uint entry =
         ox_find_feature(scene, features, slots, ox_inside_key(f->pair, side, neighbour.vertex));
-    if (entry != OX_NONE) ox_unite(parents, i, entry >> 2);
+    if (entry != OX_NONE) ox_unite(scene, parents, i, entry >> 2);
   }
 }
 
@@ -169,7 +170,7 @@ static void ox_join_stretches(const ox_scene* scene, __global const ox_feature* 
     const uint mate = features[i].mate[k];
     if (mate == OX_NONE || mate == entry) continue;
     const uint end = ox_find_other_end(scene, features, entry);
-    ox_unite(parents, i, (end == OX_NONE ? mate : end) >> 1);
+    ox_unite(scene, parents, i, (end == OX_NONE ? mate : end) >> 1);
   }
 }
 
@@ -179,7 +180,7 @@ static void ox_join_chords(const ox_scene* scene, __global const ox_edge_crossin
                            __global const uint* slots, uint head) {
   uint n = ox_find_partners(scene, features, slots, crossings, head);
   for (; n != OX_NONE; n = features[n].next)
-    if (features[n].partner != OX_NONE) ox_unite(parents, n, features[n].partner);
+    if (features[n].partner != OX_NONE) ox_unite(scene, parents, n, features[n].partner);
 }
 
 // out: partners; what follows one another along the curve or along an edge is united. Edges within
@@ -202,7 +203,7 @@ static void ox_join_features(const ox_scene* scene, __global const ox_edge_cross
     } else if (f->next != f->source) {
       const uint entry = ox_find_feature(scene, features, slots,
                                          ox_inside_key(f->pair, ox_side_of(f->flags), f->next));
-      if (entry != OX_NONE) ox_unite(parents, i, entry >> 2);
+      if (entry != OX_NONE) ox_unite(scene, parents, i, entry >> 2);
     }
   }
 }
@@ -254,14 +255,14 @@ static void ox_count_members(const ox_scene* scene, __global ox_feature* feature
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const uint flags = features[i].flags;
     if ((flags & OX_FEATURE_FLAT) != 0u) continue;
-    const uint region = features[ox_root_of(parents, i)].region;
+    const uint region = features[ox_root_of(scene, parents, i)].region;
     features[i].region = region;
-    atomic_inc(&regions[region].count);
+    ox_fetch_add(scene, &regions[region].count, 1u);
     const uint known = regions[region].flags;
     uint says = OX_REGION_OF(ox_side_of(flags)) | (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED);
     if ((known & OX_REGION_VALLEY) == 0u && ox_is_in_valley(scene, features + i))
       says |= OX_REGION_VALLEY;
-    if ((known & says) != says) atomic_or(&regions[region].flags, says);
+    if ((known & says) != says) ox_fetch_or(scene, &regions[region].flags, says);
   }
 }
 
@@ -276,7 +277,8 @@ static void ox_place_regions(const ox_scene* scene, __global ox_region* regions)
   const uint count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
   for (uint r = scene->item; r < count; r += scene->item_count) {
     __global ox_found* of_pair = scene->found + regions[r].pair;
-    regions[r].first = of_pair->first + atomic_add(&of_pair->placed, regions[r].count);
+    regions[r].first =
+        of_pair->first + ox_fetch_add(scene, &of_pair->placed, regions[r].count);
   }
 }
 
@@ -308,7 +310,7 @@ static void ox_fill_regions(const ox_scene* scene, __global ox_feature* features
           scene, f->pair, side,
           scene->edges[f->source].vertex[(f->flags & OX_FEATURE_LEAVES) != 0u ? 0 : 1]);
     const ox_fields list = ox_members_of(region, members);
-    const uint place = atomic_inc(&region->placed);
+    const uint place = ox_fetch_add(scene, &region->placed, 1u);
     ox_set_vector(&list, OX_MEMBER_POSITION, place, vload3(0, f->position));
     ox_set_vector(&list, OX_MEMBER_END, place, end);
     ox_words_of(&list, OX_MEMBER_FLAGS)[place] = f->flags | (begins ? OX_MEMBER_BEGINS : 0u);
@@ -331,11 +333,11 @@ __kernel void region_fill(OX_SCENE_PARAMETERS, __global ox_feature* features,
 }
 
 // Puts a plane among those of a region, and says where; OX_NONE: it is none.
-static uint ox_add_plane(__global ox_region* region, __global float* planes, const ox_plane* plane,
-                         uint flags) {
+static uint ox_add_plane(const ox_scene* scene, __global ox_region* region, __global float* planes,
+                         const ox_plane* plane, uint flags) {
   if (plane->kind == OX_PLANE_NONE) return OX_NONE;
   const ox_fields list = ox_planes_of(region, planes);
-  const uint place = atomic_inc(&region->planes);
+  const uint place = ox_fetch_add(scene, &region->planes, 1u);
   ox_store_plane(&list, place, plane, flags);
   return place;
 }
@@ -354,7 +356,8 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
     if (!ox_parts_by_faces_of(scene, region->pair, region->flags, side)) continue;
     const ox_plane plane = ox_plane_of_face(scene, region->pair, side, face->triangle);
     face->plane =
-        ox_add_plane(region, planes, &plane, (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
+        ox_add_plane(scene, region, planes, &plane,
+                     (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global const ox_feature* f = features + i;
@@ -367,7 +370,7 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
         const ox_plane plane =
             ox_plane_of_edges(scene, f->pair, f->source, features[mate >> 1].source);
         edge_planes[2u * i + k] = edge_planes[mate] =
-            ox_add_plane(regions + f->region, planes, &plane, 0u);
+            ox_add_plane(scene, regions + f->region, planes, &plane, 0u);
       }
     }
   }

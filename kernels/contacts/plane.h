@@ -34,6 +34,10 @@ static inline ox_plane ox_no_plane(void) {
   return plane;
 }
 
+static inline bool ox_is_same_plane(const ox_plane* a, const ox_plane* b) {
+  return a->kind == b->kind && a->id[0] == b->id[0] && a->id[1] == b->id[1];
+}
+
 static inline float3 ox_corner(__global const ox_triangle* t, uint k) {
   return vload3(0, k == 0u ? t->a : k == 1u ? t->b : t->c);
 }
@@ -75,8 +79,9 @@ static inline float ox_plane_depth(const ox_plane* plane, uint side, float3 p) {
 typedef struct {
   uint edge;
   float3 from, to;
-  float3 along;  // unit; not finite where the edge has no length
-  uint face[2];  // the second is OX_NONE at a border
+  float3 along;   // unit; not finite where the edge has no length
+  float3 normal;  // the sum of those of the faces
+  uint face[2];   // the second is OX_NONE at a border
 } ox_ridge;
 
 static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, uint edge) {
@@ -90,15 +95,9 @@ static inline ox_ridge ox_ridge_of(const ox_scene* scene, uint pair, uint side, 
   ridge.along = d / sqrt(ox_dot(d, d));
   ridge.face[0] = e->triangle[0];
   ridge.face[1] = e->triangle[1];
+  ridge.normal = ox_normal_of(scene, pair, side, ridge.face[0]);
+  if (ridge.face[1] != OX_NONE) ridge.normal += ox_normal_of(scene, pair, side, ridge.face[1]);
   return ridge;
-}
-
-// The sum of the normals of the faces at an edge.
-static inline float3 ox_ridge_normal(const ox_scene* scene, uint pair, uint side,
-                                     const ox_ridge* ridge) {
-  const float3 first = ox_normal_of(scene, pair, side, ridge->face[0]);
-  return ridge->face[1] == OX_NONE ? first
-                                   : first + ox_normal_of(scene, pair, side, ridge->face[1]);
 }
 
 static inline uint ox_side_of_triangle(__global const ox_triangle* t, uint k) {
@@ -172,24 +171,24 @@ static inline bool ox_edge_supports(const ox_scene* scene, const ox_support* sup
 // Edges that differ less than this have no common normal that floats could tell [radians].
 #define OX_PARALLEL 0.01f
 
-// Of an edge of A and one of B; OX_PLANE_NONE: they do not support it.
+// Of an edge of A and one of B; OX_PLANE_NONE: they do not support it, or lie by more than `limit`
+// one below the other [m].
 static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, const ox_ridge* a,
-                                          const ox_ridge* b) {
+                                          const ox_ridge* b, float limit) {
   ox_plane plane = ox_no_plane();
   const float3 n = ox_plain_cross(a->along, b->along);
   const float sine2 = ox_dot(n, n);
   if (!(sine2 > OX_PARALLEL * OX_PARALLEL)) return plane;  // or an edge has no length
   // Away from B, and towards A: at the rim of an open mesh one of the two alone may tell.
-  const float3 outward = ox_ridge_normal(scene, pair, 1u, b) - ox_ridge_normal(scene, pair, 0u, a);
+  const float3 outward = b->normal - a->normal;
   plane.normal = (ox_dot(n, outward) >= 0.0f ? n : -n) / sqrt(sine2);
   plane.top = ox_dot(plane.normal, b->from);
   plane.bottom = ox_dot(plane.normal, a->from);
+  if (plane.top < plane.bottom || plane.top - plane.bottom > limit) return plane;
   const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;
   const ox_support of_b = {pair, 1u, plane.normal, plane.top + tolerance};
   const ox_support of_a = {pair, 0u, -plane.normal, -plane.bottom + tolerance};
-  if (plane.top < plane.bottom || !ox_edge_supports(scene, &of_b, b) ||
-      !ox_edge_supports(scene, &of_a, a))
-    return plane;
+  if (!ox_edge_supports(scene, &of_b, b) || !ox_edge_supports(scene, &of_a, a)) return plane;
   plane.kind = OX_PLANE_EDGES;
   plane.id[0] = a->edge;
   plane.id[1] = b->edge;
@@ -200,7 +199,7 @@ static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint 
                                          uint edge_b) {
   const ox_ridge a = ox_ridge_of(scene, pair, 0u, edge_a);
   const ox_ridge b = ox_ridge_of(scene, pair, 1u, edge_b);
-  return ox_plane_of_ridges(scene, pair, &a, &b);
+  return ox_plane_of_ridges(scene, pair, &a, &b, INFINITY);
 }
 
 // The farthest that mesh `side` reaches along a direction of the frame of B [m]; or something

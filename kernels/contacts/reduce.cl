@@ -10,10 +10,12 @@
 #include "contacts/candidate_list.h"
 #include "lib/lanes.h"
 
-// What of a candidate is taken already.
-#define OX_TAKEN_ITSELF 1
-#define OX_TAKEN_MANIFOLD 2
-#define OX_TAKEN_REGION 4
+// What one is taken for, one after the other: as the deepest of its region, or of its manifold, or
+// for its distance. The first two are bits too, of candidates of whose region or manifold one is
+// taken.
+#define OX_FOR_REGION 0u
+#define OX_FOR_MANIFOLD 1u
+#define OX_FOR_DISTANCE 2u
 
 // Of candidates that are as good: a total order by what does not depend on the order in which they
 // came.
@@ -40,105 +42,80 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
   return false;
 }
 
-// A block of candidates.
-typedef struct {
-  ox_ints taken;
-  ox_floats depth, distance2;
-} ox_candidate_block;
-
-// How far those of a block are from one that is taken; of those that face its way, within acos 0.9
-// = 26 degrees, across their normal: one above the other holds no more.
-static void ox_note_taken(const ox_fields* list, uint count, uint block, uint taken,
-                          ox_candidate_block* b) {
+// What a block of candidates are from one that is taken: how far, of those that face its way, within
+// acos 0.9 = 26 degrees, across their normal, since one above the other holds no more; of its
+// region; of its manifold.
+static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
   const float3 p = ox_vector_of(list, OX_CANDIDATE_POSITION, taken);
-  ox_floats x = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION, block) - p.x;
-  ox_floats y = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION + 1u, block) - p.y;
-  ox_floats z = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION + 2u, block) - p.z;
-  ox_floats cosine;
-  ox_dot_fields(list, OX_CANDIDATE_NORMAL, block, n, &cosine);
-  const ox_floats along = x * n.x + y * n.y + z * n.z;
-  const ox_floats drop = cosine > 0.9f ? along : (ox_floats)(0.0f);
-  x -= drop * n.x;
-  y -= drop * n.y;
-  z -= drop * n.z;
-  const ox_floats off2 = x * x + y * y + z * z;
-  b->distance2 = OX_LESSER(off2, b->distance2);
   const int region = (int)ox_words_of(list, OX_CANDIDATE_REGION)[taken];
   const int manifold = (int)ox_words_of(list, OX_CANDIDATE_MANIFOLD)[taken];
   const ox_ints none = (ox_ints)(0);
-  const ox_ints of_region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block) == region;
-  const ox_ints of_manifold =
-      of_region & (OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == manifold);
-  b->taken |= of_region ? (ox_ints)(OX_TAKEN_REGION) : none;
-  b->taken |= of_manifold ? (ox_ints)(OX_TAKEN_MANIFOLD) : none;
-  float distance2[OX_VECTOR_WIDTH];
-  int flags[OX_VECTOR_WIDTH];
-  ox_store(b->distance2, 0, distance2);
-  ox_store_ints(b->taken, 0, flags);
-  const uint present = min(count - OX_VECTOR_WIDTH * block, (uint)OX_VECTOR_WIDTH);
-  for (uint k = 0u; k < present; ++k) {
-    ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[OX_VECTOR_WIDTH * block + k] = distance2[k];
-    ox_words_of(list, OX_CANDIDATE_TAKEN)[OX_VECTOR_WIDTH * block + k] = (uint)flags[k];
-  }
-}
-
-// What one is taken for: as the deepest of its region, or of its manifold, or for its distance.
-#define OX_FOR_REGION 0u
-#define OX_FOR_MANIFOLD 1u
-#define OX_FOR_DISTANCE 2u
-
-// How good each of a block is for that; less than nothing: it does not come into question.
-static void ox_rate(const ox_candidate_block* b, uint what, float merge2, ox_floats* rating) {
-  const int flags =
-      OX_TAKEN_ITSELF | OX_TAKEN_REGION | (what == OX_FOR_MANIFOLD ? OX_TAKEN_MANIFOLD : 0);
-  const int wanted = what == OX_FOR_REGION ? 0 : OX_TAKEN_REGION;
-  const ox_floats value = what == OX_FOR_DISTANCE ? b->distance2 : b->depth;
-  const ox_floats none = (ox_floats)(-1.0f);
-  *rating = (b->taken & flags) == wanted ? value : none;
-  if (what != OX_FOR_REGION) *rating = b->distance2 > merge2 ? *rating : none;
-}
-
-// The next to be taken, after `last`: OX_NONE: there is none.
-static uint ox_next_candidate(const ox_fields* list, uint count, uint last, float merge2) {
-  ox_floats best[3];
-  for (uint what = 0u; what < 3u; ++what) best[what] = (ox_floats)(-1.0f);
-  if (last != OX_NONE) ox_words_of(list, OX_CANDIDATE_TAKEN)[last] |= OX_TAKEN_ITSELF;
   for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
-    ox_candidate_block b;
-    b.taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
-    b.depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
-    b.distance2 = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
-    if (last != OX_NONE) ox_note_taken(list, count, block, last, &b);
-    const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-    for (uint what = 0u; what < 3u; ++what) {
-      ox_floats rating;
-      ox_rate(&b, what, merge2, &rating);
-      rating = left > 0 ? rating : (ox_floats)(-1.0f);
-      best[what] = OX_GREATER(rating, best[what]);
+    ox_floats x = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION, block) - p.x;
+    ox_floats y = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION + 1u, block) - p.y;
+    ox_floats z = OX_LOAD_FLOATS(list, OX_CANDIDATE_POSITION + 2u, block) - p.z;
+    ox_floats cosine;
+    ox_dot_fields(list, OX_CANDIDATE_NORMAL, block, n, &cosine);
+    const ox_floats along = x * n.x + y * n.y + z * n.z;
+    const ox_floats drop = cosine > 0.9f ? along : (ox_floats)(0.0f);
+    x -= drop * n.x;
+    y -= drop * n.y;
+    z -= drop * n.z;
+    const ox_floats off2 = x * x + y * y + z * z;
+    const ox_floats so_far = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
+    const ox_ints of_region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block) == region;
+    const ox_ints of_manifold =
+        of_region & (OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == manifold);
+    ox_ints flags = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
+    flags |= of_region ? none + (1 << OX_FOR_REGION) : none;
+    flags |= of_manifold ? none + (1 << OX_FOR_MANIFOLD) : none;
+    float distance2[OX_VECTOR_WIDTH];
+    int taken_of[OX_VECTOR_WIDTH];
+    ox_store(OX_LESSER(off2, so_far), 0, distance2);
+    ox_store_ints(flags, 0, taken_of);
+    const uint present = min(count - OX_VECTOR_WIDTH * block, (uint)OX_VECTOR_WIDTH);
+    for (uint k = 0u; k < present; ++k) {
+      ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[OX_VECTOR_WIDTH * block + k] = distance2[k];
+      ox_words_of(list, OX_CANDIDATE_TAKEN)[OX_VECTOR_WIDTH * block + k] = (uint)taken_of[k];
     }
   }
-  for (uint what = 0u; what < 3u; ++what) {
-    const float most = ox_greatest_of(best + what);
-    if (most < 0.0f) continue;
-    uint first = OX_NONE;
-    for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
-      ox_candidate_block b;
-      b.taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
-      b.depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
-      b.distance2 = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
-      ox_floats rating;
-      ox_rate(&b, what, merge2, &rating);
-      const ox_ints is = rating == most;
-      uint equal = ox_mask_of(&is) & ox_present_lanes(count, block);
-      for (; equal != 0u; equal &= equal - 1u) {
-        const uint i = OX_VECTOR_WIDTH * block + ox_lowest(equal);
-        if (first == OX_NONE || ox_comes_first(list, i, first)) first = i;
-      }
-    }
-    return first;
+}
+
+// How good each of a block is for something; less than nothing: it does not come into question, as
+// what is taken never does, since of its own region and manifold it is one, and at no distance.
+static void ox_rate(const ox_fields* list, uint count, uint block, uint what, float merge2,
+                    ox_floats* rating) {
+  const ox_floats none = (ox_floats)(-1.0f);
+  const ox_floats distance2 = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
+  const ox_floats depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
+  const ox_ints taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
+  const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
+  *rating = left > 0 ? (what == OX_FOR_DISTANCE ? distance2 : depth) : none;
+  if (what != OX_FOR_DISTANCE) *rating = (taken & 1 << what) == 0 ? *rating : none;
+  if (what != OX_FOR_REGION) *rating = distance2 > merge2 ? *rating : none;
+}
+
+// The best for something; OX_NONE: there is none.
+static uint ox_best_for(const ox_fields* list, uint count, uint what, float merge2) {
+  ox_floats best = (ox_floats)(-1.0f);
+  ox_floats rating;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
+    ox_rate(list, count, block, what, merge2, &rating);
+    best = OX_GREATER(rating, best);
   }
-  return OX_NONE;
+  const float most = ox_greatest_of(&best);
+  if (most < 0.0f) return OX_NONE;
+  uint first = OX_NONE;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
+    ox_rate(list, count, block, what, merge2, &rating);
+    const ox_ints is = rating == most;
+    for (uint equal = ox_mask_of(&is); equal != 0u; equal &= equal - 1u) {
+      const uint i = OX_VECTOR_WIDTH * block + ox_lowest(equal);
+      if (first == OX_NONE || ox_comes_first(list, i, first)) first = i;
+    }
+  }
+  return first;
 }
 
 static void ox_reduce_candidates(const ox_scene* scene, __global float* candidates,
@@ -164,9 +141,15 @@ static void ox_reduce_candidates(const ox_scene* scene, __global float* candidat
     const uint most = deformable ? max_deformable : max_contacts;
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;
-    for (uint last = OX_NONE; n < most; taken[n++] = last) {
-      last = ox_next_candidate(&mine, count, last, merge * merge);
-      if (last == OX_NONE) break;
+    // Where none comes into question for something, none ever will: distances only fall.
+    for (uint what = OX_FOR_REGION; what <= OX_FOR_DISTANCE && n < most;) {
+      const uint next = ox_best_for(&mine, count, what, merge * merge);
+      if (next == OX_NONE) {
+        ++what;
+        continue;
+      }
+      taken[n++] = next;
+      if (n < most) ox_note_taken(&mine, count, next);
     }
     const uint room = ox_place_contacts(scene, n, pair_ranges + p);
     for (uint k = 0u; k < room; ++k)

@@ -123,12 +123,16 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
     else
       ox_add_rim(r, 1u - side, from.id[0], &own);
     ox_add_farthest(r, side, from.normal, &past);
+    ox_ridge others[OX_MOST_EDGES];
+    for (uint k = 0u; k < past.count; ++k)
+      others[k] = ox_ridge_of(r->scene, r->pair, side, past.edge[k]);
     for (uint i = 0u; i < own.count; ++i) {
       const ox_ridge ridge = ox_ridge_of(r->scene, r->pair, 1u - side, own.edge[i]);
       for (uint k = 0u; k < past.count; ++k) {
-        const ox_ridge other = ox_ridge_of(r->scene, r->pair, side, past.edge[k]);
-        const ox_plane plane = side == 0u ? ox_plane_of_ridges(r->scene, r->pair, &other, &ridge)
-                                          : ox_plane_of_ridges(r->scene, r->pair, &ridge, &other);
+        const float limit = best->judged;  // that it is compared by is no less
+        const ox_plane plane =
+            side == 0u ? ox_plane_of_ridges(r->scene, r->pair, &others[k], &ridge, limit)
+                       : ox_plane_of_ridges(r->scene, r->pair, &ridge, &others[k], limit);
         ox_try_whole(r, &plane, search, best);
       }
       if (!ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side)) continue;
@@ -142,8 +146,7 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
       }
     }
   }
-  return best->plane.kind != from.kind || best->plane.id[0] != from.id[0] ||
-         best->plane.id[1] != from.id[1];
+  return !ox_is_same_plane(&best->plane, &from);
 }
 
 // What a plane costs is least in several directions at once, as a box is thin in three: from the
@@ -162,7 +165,12 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   const float worth = OX_WORTH * least.judged;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) {
     if (best[i].plane.kind == OX_PLANE_NONE || !(best[i].judged <= worth)) continue;
-    while (ox_walk_on(r, search, best + i)) {
+    bool goes_on = true;
+    while (goes_on) {
+      // Where it meets one that another walk ended at, it is there already.
+      for (uint k = 0u; k < i && goes_on; ++k)
+        goes_on = !ox_is_same_plane(&best[k].plane, &best[i].plane);
+      goes_on = goes_on && ox_walk_on(r, search, best + i);
     }
     if (ox_is_better_choice(best + i, &least)) least = best[i];
   }

@@ -3,12 +3,12 @@
 #ifndef ODE_EXT_KERNELS_LIB_APPEND_H
 #define ODE_EXT_KERNELS_LIB_APPEND_H
 
-#include "lib/scene.h"
+#include "lib/atomics.h"
 
 // Where the next record of a list goes; OX_NONE: it is full, and the counter says by how much.
 static inline uint ox_append(const ox_scene* scene, uint list) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
-  const uint index = atomic_inc(counter);
+  const uint index = ox_fetch_add(scene, counter, 1u);
   if (index >= OX_MOST_COUNTED) atomic_dec(counter);
   return index < scene->lists[list].capacity ? scene->lists[list].first + index : OX_NONE;
 }
@@ -18,7 +18,7 @@ static inline uint ox_append(const ox_scene* scene, uint list) {
 #define OX_MOST_AT_ONCE 16u
 static inline uint ox_append_many(const ox_scene* scene, uint list, uint count, uint* stored) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
-  const uint first = atomic_add(counter, count);
+  const uint first = ox_fetch_add(scene, counter, count);
   if (first >= OX_MOST_COUNTED) atomic_sub(counter, count);
   const uint capacity = scene->lists[list].capacity;
   *stored = first < capacity ? min(count, capacity - first) : 0u;
@@ -30,19 +30,19 @@ static inline uint ox_length(const ox_scene* scene, uint list) {
 }
 
 static inline void ox_count(const ox_scene* scene, uint counter) {
-  atomic_inc(scene->counters + counter * OX_COUNTER_STRIDE);
+  ox_fetch_add(scene, scene->counters + counter * OX_COUNTER_STRIDE, 1u);
 }
 
 // Room for so many in one go: the first of their places.
 static inline uint ox_take_room(const ox_scene* scene, uint counter, uint count) {
-  return atomic_add(scene->counters + counter * OX_COUNTER_STRIDE, count);
+  return ox_fetch_add(scene, scene->counters + counter * OX_COUNTER_STRIDE, count);
 }
 
 // The next of the items that no work-item has taken. For work of which one item may be a thousand
 // times the next: on a processor a work-group is one thread's, whatever is in it, and the others
 // would have nothing left to do.
 static inline uint ox_next_item(const ox_scene* scene, uint queue) {
-  return atomic_inc(scene->counters + queue * OX_COUNTER_STRIDE);
+  return ox_fetch_add(scene, scene->counters + queue * OX_COUNTER_STRIDE, 1u);
 }
 
 #endif

@@ -48,7 +48,8 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
   }
   for (uint side = 0u; side < 2u; ++side)
     if (head[side] != OX_NONE)
-      fresh->crossings[tail[side]].before = atomic_xchg(&found->head[side], head[side]);
+      fresh->crossings[tail[side]].before =
+          ox_exchange(fresh->scene, &found->head[side], head[side]);
   fresh->count = 0u;
 }
 
@@ -125,33 +126,88 @@ static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source
   return near;
 }
 
-// Where the edges of the source cross the triangles of the target, those of some blocks of its
-// lanes; both in general position.
-static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
-                                     __global const ox_pair* pair,
-                                     __global const ox_meshlet* source,
-                                     const ox_general_points* points,
-                                     __global const ox_meshlet* target,
-                                     const ox_general_points* target_points,
-                                     ox_block_range blocks) {
+// A meshlet of a pair in general position, and its triangles once they are asked about.
+typedef struct {
+  uint meshlet;  // over all meshes; OX_NONE: none is placed
+  ox_general_points points;
+  ox_box box;
+  ox_slab slab;
+  bool has_triangles;
+  ox_general_triangles triangles;
+  ox_general_planes planes;
+  ox_general_boxes boxes;
+} ox_placed_meshlet;
+
+// Two of a pair. Of the pairs of meshlets that come one after the other most have one in common,
+// which stays.
+typedef struct {
+  uint pair;  // OX_NONE: none yet
+  ox_placed_meshlet of[2];
+} ox_placed_meshlets;
+
+static inline void ox_place_meshlet(const ox_scene* scene, uint p, uint side, uint meshlet,
+                                    ox_placed_meshlet* placed) {
+  __global const ox_pair* pair = scene->pairs + p;
+  __global const ox_meshlet* m = scene->surfaces.meshlets + meshlet;
+  placed->meshlet = meshlet;
+  placed->has_triangles = false;
+  ox_place_generally(pair, side, m, &placed->points);
+  if (side == 0u) {
+    placed->box = ox_box_of_points(&placed->points);
+    placed->slab = ox_slab_there(pair, 0u, m, pair->margin);
+  } else {
+    placed->box.lo = vload3(0, m->lo) - pair->epsilon;  // the grid moves them by less
+    placed->box.hi = vload3(0, m->hi) + pair->epsilon;
+    placed->slab.normal = vload3(0, m->slab_normal);
+    placed->slab.lo = m->slab_lo - 2.0f * pair->epsilon;
+    placed->slab.hi = m->slab_hi + 2.0f * pair->epsilon;
+  }
+}
+
+// False: they lie apart.
+static inline bool ox_place_meshlets(const ox_scene* scene, const ox_meshlet_pair* both,
+                                     ox_placed_meshlets* placed) {
+  for (uint side = 0u; side < 2u; ++side)
+    if (placed->pair != both->pair || placed->of[side].meshlet != both->meshlet[side])
+      ox_place_meshlet(scene, both->pair, side, both->meshlet[side], &placed->of[side]);
+  placed->pair = both->pair;
+  ox_placed_meshlet* a = &placed->of[0];
+  ox_placed_meshlet* b = &placed->of[1];
+  return ox_note_beyond(&a->points, &b->box, &b->slab) &&
+         ox_note_beyond(&b->points, &a->box, &a->slab);
+}
+
+static inline void ox_place_triangles(__global const ox_meshlet* meshlet, ox_block_range blocks,
+                                      ox_placed_meshlet* placed) {
+  if (placed->has_triangles) return;
+  placed->has_triangles = true;
+  ox_gather_triangles(meshlet, &placed->points, blocks, &placed->triangles);
+  ox_make_planes(&placed->triangles, blocks, &placed->planes);
+  ox_make_boxes(&placed->triangles, blocks, &placed->boxes);
+}
+
+// Where the edges of the meshlet of one side cross the triangles of the other, those of some blocks
+// of its lanes. `reach`: as in ox_heights_over.
+static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_placed_meshlets* placed,
+                                     float reach, ox_block_range blocks) {
+  const ox_scene* scene = fresh->scene;
+  __global const ox_pair* pair = scene->pairs + fresh->pair;
+  __global const ox_meshlet* source = scene->surfaces.meshlets + placed->of[side].meshlet;
+  __global const ox_meshlet* target = scene->surfaces.meshlets + placed->of[1u - side].meshlet;
+  const ox_general_points* points = &placed->of[side].points;
   const ox_near_edges near = ox_find_near_edges(source, points);
   if ((near.edges[0] | near.edges[1]) == 0u) return;
-  __global const ox_mesh* meshes = fresh->scene->meshes;
-  const uint flags =
-      ox_is_flooded(fresh->scene, meshes + pair->mesh[side], meshes + pair->mesh[1u - side])
-          ? OX_NEW_FLOODED
-          : 0u;
-  ox_general_triangles triangles;
-  ox_gather_triangles(target, target_points, blocks, &triangles);
-  const ox_general_triangles* t = &triangles;
-  ox_general_planes planes;
-  ox_make_planes(t, blocks, &planes);
-  ox_general_boxes boxes;
-  ox_make_boxes(t, blocks, &boxes);
+  const uint flags = ox_is_flooded(scene, scene->meshes + pair->mesh[side],
+                                   scene->meshes + pair->mesh[1u - side])
+                         ? OX_NEW_FLOODED
+                         : 0u;
+  ox_placed_meshlet* faces = &placed->of[1u - side];
+  ox_place_triangles(target, blocks, faces);
+  const ox_general_triangles* t = &faces->triangles;
   ox_heights heights[OX_LANES];
   for (uint asked = near.ends; asked != 0u; asked &= asked - 1u) {
     const uint v = ox_lowest(asked);
-    heights[v] = ox_heights_over(t, &planes, blocks, ox_general_point(points, v));
+    heights[v] = ox_heights_over(t, &faces->planes, blocks, reach, ox_general_point(points, v));
   }
   const uint present = (1u << target->triangle_count) - 1u;
   uint left[2] = {near.edges[0], near.edges[1]};
@@ -166,9 +222,9 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
     if (asked_of == 0u) continue;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);
-    asked_of &= ox_boxes_met(&boxes, blocks, from, to);
+    asked_of &= ox_boxes_met(&faces->boxes, blocks, from, to);
     if (asked_of == 0u) continue;
-    const ox_passes passes = ox_passes_of(t, blocks, from, to - from);
+    const ox_passes passes = ox_passes_of(t, blocks, reach, from, to - from);
     const uint out = heights[q].above;  // where that is sure
     const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));
     uint met = asked_of &
@@ -189,60 +245,27 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side,
   }
 }
 
-// Two meshlets of a pair, in general position.
-typedef struct {
-  __global const ox_pair* pair;
-  __global const ox_meshlet* meshlet[2];
-  ox_general_points points[2];
-} ox_placed_meshlets;
-
-// False: they lie apart.
-static inline bool ox_place_meshlets(const ox_scene* scene, const ox_meshlet_pair* both,
-                                     ox_placed_meshlets* placed) {
-  __global const ox_pair* pair = scene->pairs + both->pair;
-  __global const ox_meshlet* a = scene->surfaces.meshlets + both->meshlet[0];
-  __global const ox_meshlet* b = scene->surfaces.meshlets + both->meshlet[1];
-  placed->pair = pair;
-  placed->meshlet[0] = a;
-  placed->meshlet[1] = b;
-  ox_general_points* points = placed->points;
-  ox_place_generally(pair, 0u, a, &points[0]);
-  ox_box box;
-  box.lo = vload3(0, b->lo) - pair->epsilon;  // the grid moves them by less
-  box.hi = vload3(0, b->hi) + pair->epsilon;
-  ox_slab slab;
-  slab.normal = vload3(0, b->slab_normal);
-  slab.lo = b->slab_lo - 2.0f * pair->epsilon;
-  slab.hi = b->slab_hi + 2.0f * pair->epsilon;
-  if (!ox_note_beyond(&points[0], &box, &slab)) return false;
-  ox_place_generally(pair, 1u, b, &points[1]);
-  box = ox_box_of_points(&points[0]);
-  slab = ox_slab_there(pair, 0u, a, pair->margin);
-  return ox_note_beyond(&points[1], &box, &slab);
-}
-
 // The edges of the meshlets of `sides` of two against the triangles of the other one, those of some
-// blocks of its lanes.
+// blocks of its lanes, the same in every call with `placed`.
 static inline void ox_cross_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
                                   const ox_meshlet_pair* both, uint first_side, uint end_side,
-                                  ox_block_range blocks) {
-  ox_placed_meshlets placed;
-  if (!ox_place_meshlets(scene, both, &placed)) return;
+                                  ox_block_range blocks, ox_placed_meshlets* placed) {
+  if (!ox_place_meshlets(scene, both, placed)) return;
+  const float reach = ox_reach_of(&placed->of[0].box, &placed->of[1].box);
   ox_new_crossings fresh;
   fresh.scene = scene;
   fresh.crossings = crossings;
   fresh.pair = both->pair;
   fresh.count = 0u;
   for (uint side = first_side; side < end_side; ++side)
-    ox_intersect_side(&fresh, side, placed.pair, placed.meshlet[side], &placed.points[side],
-                      placed.meshlet[1u - side], &placed.points[1u - side], blocks);
+    ox_intersect_side(&fresh, side, placed, reach, blocks);
   ox_store_crossings(&fresh);
 }
 
 // The edges of either meshlet against the triangles of the other, by one work-item.
 static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                     const ox_meshlet_pair* both) {
-  ox_cross_sides(scene, crossings, both, 0u, 2u, OX_ALL_BLOCKS);
+                                     const ox_meshlet_pair* both, ox_placed_meshlets* placed) {
+  ox_cross_sides(scene, crossings, both, 0u, 2u, OX_ALL_BLOCKS, placed);
 }
 
 #endif

@@ -35,7 +35,7 @@ static inline uint ox_take_words(const ox_scene* scene, uint count) {
   uint first = *counter;
   for (;;) {
     const uint end = count < OX_MOST_COUNTED - first ? first + count : OX_MOST_COUNTED;
-    const uint seen = atomic_cmpxchg(counter, first, end);
+    const uint seen = ox_compare_exchange(scene, counter, first, end);
     if (seen == first) break;
     first = seen;
   }

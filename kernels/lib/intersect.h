@@ -161,7 +161,7 @@ typedef struct {
 #define OX_LARGEST_OF(x, y, z) OX_GREATER(OX_GREATER(fabs(x), fabs(y)), fabs(z))
 
 // Normals of the triangles, and what the heights of points over them are in doubt by, in parts of
-// the largest coordinate of the point from a.
+// how far a coordinate of a point is from that of a.
 typedef struct {
   float normal[3][OX_LANES];
   float doubt[OX_LANES];
@@ -187,9 +187,18 @@ static inline void ox_make_planes(const ox_general_triangles* t, ox_block_range 
   }
 }
 
+// No coordinate of a point in one box differs by more from that of one in the other [m].
+static inline float ox_reach_of(const ox_box* a, const ox_box* b) {
+  const float3 reach = OX_GREATER(a->hi - b->lo, b->hi - a->lo);
+  return ox_max(ox_max(reach.x, reach.y), reach.z);
+}
+
+// `reach` [m]: no coordinate of the point differs by more from that of a corner. A bound of all of
+// both meshlets takes the place of one for each point and triangle: the few more signs that are in
+// doubt by it cost less than to find the largest of three coordinates lane by lane.
 static inline ox_heights ox_heights_over(const ox_general_triangles* t,
                                          const ox_general_planes* planes, ox_block_range blocks,
-                                         float3 p) {
+                                         float reach, float3 p) {
   ox_heights heights = {0u, 0u};
   for (uint block = blocks.first; block < blocks.end; ++block) {
     const ox_floats x = p.x - ox_load_own(block, t->corner[0][0]);
@@ -198,9 +207,8 @@ static inline ox_heights ox_heights_over(const ox_general_triangles* t,
     const ox_floats height = ox_load_own(block, planes->normal[0]) * x +
                              ox_load_own(block, planes->normal[1]) * y +
                              ox_load_own(block, planes->normal[2]) * z;
-    const ox_floats doubt = ox_load_own(block, planes->doubt) * OX_LARGEST_OF(x, y, z);
     const ox_ints above = height > 0.0f;
-    const ox_ints doubtful = fabs(height) <= doubt;
+    const ox_ints doubtful = fabs(height) <= reach * ox_load_own(block, planes->doubt);
     heights.above |= ox_mask_of(&above) << (OX_VECTOR_WIDTH * block);
     heights.doubt |= ox_mask_of(&doubtful) << (OX_VECTOR_WIDTH * block);
   }
@@ -208,15 +216,15 @@ static inline ox_heights ox_heights_over(const ox_general_triangles* t,
 }
 
 // How the line from p along d passes triangles of the blocks, a bit for each: with all edges on its
-// left, or on its right, surely, or perhaps.
+// left, or on its right, surely, or perhaps. `reach`: as in ox_heights_over.
 typedef struct {
   uint left, right, perhaps_left, perhaps_right;
 } ox_passes;
 
-static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_range blocks, float3 p,
-                                     float3 d) {
+static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_range blocks,
+                                     float reach, float3 p, float3 d) {
   ox_passes passes = {0u, 0u, 0u, 0u};
-  const float size = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z);
+  const float doubt = OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(d.x, d.y, d.z) * reach * reach;
   for (uint block = blocks.first; block < blocks.end; ++block) {
     const ox_floats ax = ox_load_own(block, t->corner[0][0]) - p.x;
     const ox_floats ay = ox_load_own(block, t->corner[0][1]) - p.y;
@@ -227,17 +235,16 @@ static inline ox_passes ox_passes_of(const ox_general_triangles* t, ox_block_ran
     const ox_floats cx = ox_load_own(block, t->corner[2][0]) - p.x;
     const ox_floats cy = ox_load_own(block, t->corner[2][1]) - p.y;
     const ox_floats cz = ox_load_own(block, t->corner[2][2]) - p.z;
-    const ox_floats u =
-        d.x * (by * cz - bz * cy) + d.y * (bz * cx - bx * cz) + d.z * (bx * cy - by * cx);
-    const ox_floats v =
-        d.x * (cy * az - cz * ay) + d.y * (cz * ax - cx * az) + d.z * (cx * ay - cy * ax);
-    const ox_floats w =
-        d.x * (ay * bz - az * by) + d.y * (az * bx - ax * bz) + d.z * (ax * by - ay * bx);
-    const ox_floats of_a = OX_LARGEST_OF(ax, ay, az);
-    const ox_floats of_b = OX_LARGEST_OF(bx, by, bz);
-    const ox_floats of_c = OX_LARGEST_OF(cx, cy, cz);
-    const ox_floats largest = OX_GREATER(OX_GREATER(of_a, of_b), of_c);
-    const ox_floats doubt = size * largest * largest;
+    // d x a and d x b: d . (b x c) is c . (d x b), and so on.
+    const ox_floats dax = d.y * az - d.z * ay;
+    const ox_floats day = d.z * ax - d.x * az;
+    const ox_floats daz = d.x * ay - d.y * ax;
+    const ox_floats dbx = d.y * bz - d.z * by;
+    const ox_floats dby = d.z * bx - d.x * bz;
+    const ox_floats dbz = d.x * by - d.y * bx;
+    const ox_floats u = cx * dbx + cy * dby + cz * dbz;
+    const ox_floats v = -(cx * dax + cy * day + cz * daz);
+    const ox_floats w = bx * dax + by * day + bz * daz;
     const ox_floats least = OX_LESSER(OX_LESSER(u, v), w);
     const ox_floats greatest = OX_GREATER(OX_GREATER(u, v), w);
     const ox_ints left = least > doubt;

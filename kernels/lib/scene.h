@@ -20,6 +20,7 @@ typedef struct {
   uint modes;                 // OX_MODE_...
   uint pair_first, pair_end;  // of the pairs that are looked at
   uint item, item_count;      // of the work-items that do
+  bool alone;                 // there is one, and what it changes is no other's (lib/atomics.h)
   __global volatile uint* contact_count;
   __global ox_pair* pairs;
   __global ox_found* found;  // of each pair
@@ -47,8 +48,8 @@ typedef struct {
 #define OX_SCENE                                                                                \
   {                                                                                             \
     counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0),   \
-        counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks, vertices, \
-        edges, ring_starts, rings, facets, {                                                    \
+        false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks,    \
+        vertices, edges, ring_starts, rings, facets, {                                          \
       triangles, meshlets, meshlet_nodes                                                        \
     }                                                                                           \
   }
