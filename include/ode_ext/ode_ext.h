@@ -440,7 +440,8 @@ ODE_EXT_API int dBatchDeviceChoose(const char *selection);
 /**
  * Describes every OpenCL device in words, one a line, and marks the one that `selection` (as
  * ODE_EXT_DEVICE; NULL: the environment, else the default) chooses, and why. Needs no collider.
- * @return the length of the whole text without its terminator; at most size - 1 bytes are written
+ * @return the length of the whole text without its terminator, at most size - 1 bytes of which are
+ *         written; -1 and an empty text: see dBatchColliderGetLastErrorMessage
  */
 ODE_EXT_API int dBatchColliderDescribeDevices(const char *selection, char *text, size_t size);
 

@@ -6,6 +6,7 @@
 
 #include "api/guarded.h"
 #include "api/params.h"
+#include "ode/thread_state.h"
 #include "opencl/choice.h"
 #include "opencl/device.h"
 
@@ -20,8 +21,7 @@ struct Device {
 
 // What the last dBatchDeviceCount of this thread found.
 std::vector<Device>& devices_of_this_thread() {
-  thread_local std::vector<Device> devices;
-  return devices;
+  return ode_ext::of_this_thread<std::vector<Device>>();
 }
 
 Device& device_numbered(int index) {
@@ -95,7 +95,8 @@ int dBatchDeviceChoose(const char* selection) {
 }
 
 int dBatchColliderDescribeDevices(const char* selection, char* text, size_t size) {
-  return guarded("dBatchColliderDescribeDevices", 0, [&] {
+  if (text != nullptr && size > 0) *text = '\0';
+  return guarded("dBatchColliderDescribeDevices", -1, [&] {
     refuse_in_a_fork();
     const std::string description = ode_ext::describe_devices(selection_or_environment(selection));
     if (text != nullptr && size > 0) {

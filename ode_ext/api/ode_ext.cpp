@@ -185,7 +185,7 @@ int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, 
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");
     if ((flags & 0xffff) == 0) refuse("the low 16 bits of flags, contacts per pair, are 0");
     check_skip(skip);
-    for (int i = 0; i < 2 * pair_count; ++i) {
+    for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(pair_count); ++i) {
       if (pairs[i] == nullptr) refuse("geom " + std::to_string(i) + " of pairs is NULL");
       if (dGeomGetClass(pairs[i]) != dTriMeshClass)
         refuse("geom " + std::to_string(i) + " of pairs is not a trimesh");

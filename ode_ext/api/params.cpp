@@ -2,7 +2,7 @@
 #include "api/params.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cfloat>
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
@@ -24,8 +24,12 @@ void check(const dBatchColliderParams& p) {
   if (p.max_contacts_deformable < 0 || p.max_contacts_deformable > static_cast<int>(kMaxContacts))
     refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
            ", expected 0 (all) to " + std::to_string(kMaxContacts));
-  if (!(p.open_thickness >= 0) || !std::isfinite(p.open_thickness))
-    refuse("open_thickness is " + std::to_string(p.open_thickness) + " m, expected 0 or more");
+  // What is not 0 is to be a number that a float tells from it.
+  const bool is_float = p.open_thickness == 0 ||
+                        (p.open_thickness >= dReal{FLT_MIN} && p.open_thickness <= dReal{FLT_MAX});
+  if (!is_float)
+    refuse("open_thickness is " + std::to_string(p.open_thickness) +
+           " m, expected 0 or more, and what a float can hold");
 }
 
 // Field `text` of a setting, or null past the last.

@@ -22,7 +22,8 @@ void Collider::finish(Batch& batch) {
   if (batch.memory == nullptr) return;
   batch.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
   // A little more each time: what did not fit once may have been short of memory for a moment.
-  if (batch.memory->tile_pairs != 0) batch.memory->tile_pairs += batch.memory->tile_pairs / 16 + 1;
+  std::size_t& tile_pairs = batch.memory->tile_pairs;
+  if (tile_pairs != 0 && tile_pairs < report_.pairs) tile_pairs += tile_pairs / 16 + 1;
 }
 
 }  // namespace ode_ext

@@ -10,12 +10,6 @@ namespace {
 
 std::uint64_t& at(ListCounts& counts, List list) { return counts[static_cast<std::size_t>(list)]; }
 
-// Codes that say "too large", of which a smaller tile may be the cure.
-bool is_out_of_memory(int code) {
-  return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
-         code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
-}
-
 }  // namespace
 
 bool may_run_whole(const ColliderOptions& options, const DeviceInfo& device) {

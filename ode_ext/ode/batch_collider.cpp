@@ -182,9 +182,9 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   const auto holds_now = [&] {
     return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
   };
-  if (holds_now()) return known;
-  if (is_within_a_pass() && failed_) return nullptr;
   try {
+    if (holds_now()) return known;
+    if (is_within_a_pass() && failed_) return nullptr;
     if (was_unasked && unasked_.wakes_by_question()) {
       unasked_.compute(known_);
       stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs));
@@ -257,6 +257,7 @@ void BatchCollider::set_deformable(dTriMeshDataID data, bool deformable) {
 void BatchCollider::forget(dTriMeshDataID data) {
   const std::lock_guard lock(mutex_);
   known_.meshes().forget(data);
+  known_.members().forget(data);
 }
 
 PassStats BatchCollider::stats() {

@@ -36,7 +36,7 @@ const PairMember* KnownPairs::current_member(Answer& answer, dGeomID geom, dGeom
                                              bool within_a_pass) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
   const std::shared_ptr<const Mesh> mesh =
-      within_a_pass ? meshes_.refresh(data, look_, pass_)
+      within_a_pass ? meshes_.refresh(data, dGeomTriMeshGetTriangleCount(geom), look_, pass_)
                     : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
   return Members::find_same(seen(answer, geom, other), data, mesh.get(), pose_of(geom), pass_);
@@ -64,7 +64,7 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
   seen.now.last_pass = pass_;
   if (seen.now.stamp != 0 && seen.now.scene == scene_.number()) return seen.now;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-  const auto& mesh = meshes_.refresh(data, look_, pass_);
+  const auto& mesh = meshes_.refresh(data, dGeomTriMeshGetTriangleCount(placed.geom), look_, pass_);
   PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), pass_);
   member.scene = scene_.number();
   if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;

@@ -71,6 +71,12 @@ const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
   return now.stamp == stamp ? now : before;
 }
 
+void Members::forget(dTriMeshDataID data) {
+  for (auto& [geom, seen] : map_)
+    for (PairMember* member : {&seen.now, &seen.before})
+      if (member->data == data) *member = {};
+}
+
 void Members::prune(std::uint64_t pass) {
   if (pass < pruned_pass_ + kPassesRemembered) return;
   pruned_pass_ = pass;

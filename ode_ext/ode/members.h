@@ -49,6 +49,8 @@ class Members {
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
   // Forgets those that nobody asked for of late. Looks every so many passes.
   void prune(std::uint64_t pass);
+  // Forgets what geoms had of a mesh.
+  void forget(dTriMeshDataID data);
   void clear() {
     map_.clear();
     ++generation_;

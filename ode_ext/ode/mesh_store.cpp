@@ -19,14 +19,14 @@ constexpr std::uint64_t kPassesKept = 600;
 
 }  // namespace
 
-const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::uint64_t look,
-                                                      std::uint64_t pass) {
+const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, int triangle_count,
+                                                      std::uint64_t look, std::uint64_t pass) {
   const auto [place, is_new] = entries_.try_emplace(data);
   Entry& entry = place->second;
   if (is_new) entry.order = next_order_++;
   const bool looked = entry.last_look == look;
   entry.last_pass = pass;
-  if (entry.mesh != nullptr && !entry.changed && (looked || trust_)) {
+  if (has_triangles(entry, triangle_count) && !entry.changed && (looked || trust_)) {
     entry.last_look = look;
     return entry.mesh;
   }
@@ -34,8 +34,8 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
   const MeshReader reader(data);
   if (entry.mesh == nullptr || !reader.still_gives(entry.mesh->source)) {
     reader.read(source_);
+    resident_is_stale_ = true;  // whatever of this is done when memory runs out
     update(entry);
-    resident_is_stale_ = true;
   }
   entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(entry.mesh->box);
   entry.last_look =
@@ -45,6 +45,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, std::
 }
 
 void MeshStore::update(Entry& entry) {
+  const std::string reason = why_refused(source_);  // before anything is another than it was
   if (!entry.deformable) {
     entry.mesh = build();
   } else {
@@ -59,12 +60,10 @@ void MeshStore::update(Entry& entry) {
     }
     entry.mesh = std::move(shape);
   }
-  const SourceTriangles& source = entry.mesh->source;
-  const std::string reason = why_refused(source);
-  if (!reason.empty() && !entry.refused)  // once for a mesh that goes on changing
-    log(LogLevel::kWarning, "a mesh of " + std::to_string(source.size() / 3) + " triangles " +
-                                reason + "; its pairs get no contacts");
-  entry.refused = !reason.empty();
+  const bool was_refused = std::exchange(entry.refused, !reason.empty());
+  if (entry.refused && !was_refused)  // once for a mesh that goes on changing
+    log(LogLevel::kWarning, "a mesh of " + std::to_string(entry.mesh->source.size() / 3) +
+                                " triangles " + reason + "; its pairs get no contacts");
 }
 
 std::shared_ptr<const Mesh> MeshStore::build() {
@@ -82,10 +81,11 @@ std::shared_ptr<const Mesh> MeshStore::build() {
 std::shared_ptr<const Mesh> MeshStore::known(dTriMeshDataID data, int triangle_count) const {
   const auto found = entries_.find(data);
   if (found == entries_.end() || found->second.changed) return nullptr;
-  const std::shared_ptr<const Mesh>& mesh = found->second.mesh;
-  const bool fits =
-      mesh != nullptr && mesh->source.size() == 3 * static_cast<std::size_t>(triangle_count);
-  return fits ? mesh : nullptr;
+  return has_triangles(found->second, triangle_count) ? found->second.mesh : nullptr;
+}
+
+bool MeshStore::has_triangles(const Entry& entry, int count) {
+  return entry.mesh != nullptr && entry.mesh->source.size() == 3 * static_cast<std::size_t>(count);
 }
 
 std::shared_ptr<const Mesh> MeshStore::keep(dTriMeshDataID data, std::uint64_t pass) {
@@ -129,6 +129,22 @@ void MeshStore::clear() {
   std::erase_if(entries_, [](const auto& item) { return !item.second.deformable; });
   for (auto& [data, entry] : entries_) drop(entry);
   resident_is_stale_ = true;
+}
+
+bool MeshStore::keep_only(const std::unordered_set<const Mesh*>& used) {
+  bool any = false;
+  for (auto item = entries_.begin(); item != entries_.end();) {
+    Entry& entry = item->second;
+    const auto next = std::next(item);
+    if (entry.mesh != nullptr && !used.contains(entry.mesh.get())) {
+      any = true;
+      drop(entry);
+      if (!entry.deformable) entries_.erase(item);  // else it is to be known as such again
+    }
+    item = next;
+  }
+  if (any) resident_is_stale_ = true;
+  return any;
 }
 
 void MeshStore::prune(std::uint64_t pass) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,10 @@ class MeshStore {
 
   // The mesh as it is now: its triangles are compared with those it was made of, and if they are
   // others it is rebuilt, or followed where it is deformable and only its vertices moved. Looks
-  // once per mesh and value of `look`; `pass` is what prune goes by.
-  const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, std::uint64_t look,
-                                             std::uint64_t pass);
+  // once per mesh and value of `look`, and where it has not as many triangles as a geom says;
+  // `pass` is what prune goes by.
+  const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, int triangle_count,
+                                             std::uint64_t look, std::uint64_t pass);
 
   // The mesh as of the last refresh; null if it is not known, was announced to have changed, or has
   // another number of triangles than `triangle_count`.
@@ -50,6 +52,8 @@ class MeshStore {
   void clear();  // forgets all, but for which are deformable
   // Forgets meshes that no pass has met for a long time.
   void prune(std::uint64_t pass);
+  // Forgets all meshes but these, which are built again when they are met; whether any was.
+  bool keep_only(const std::unordered_set<const Mesh*>& used);
 
   // All meshes in an order that does not change while only deformable ones move, which keep their
   // places; rigid ones of equal content are there once. And a place of one in it.
@@ -74,6 +78,7 @@ class MeshStore {
   void update(Entry& entry);  // from source_, which a mesh that is built keeps
   std::shared_ptr<const Mesh> build();
   static void drop(Entry& entry);
+  static bool has_triangles(const Entry& entry, int count);
 
   MeshOptions options_;
   bool trust_;

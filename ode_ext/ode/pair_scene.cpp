@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/pair_scene.h"
 
+#include <unordered_set>
+
 #include "ode/capture.h"
+#include "opencl/error.h"
 
 namespace ode_ext {
 
@@ -43,14 +46,33 @@ std::uint32_t PairScene::object_of(PairMember& member) {
 }
 
 const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, PassMemory* memory) {
+  const auto captured = capture_pass(&collider, members_, scene_.pairs);
+  const PairContacts& found = collide_with_room(collider, meshes, memory);
+  capture_contacts(captured, found);
+  return found;
+}
+
+// All meshes that are known stay on the device, those of this scene or not, as long as it has room.
+const PairContacts& PairScene::collide_with_room(Collider& collider, MeshStore& meshes,
+                                                 PassMemory* memory) {
+  set_objects(meshes);
+  try {
+    return collider.collide(scene_, memory);
+  } catch (const DeviceError& error) {
+    std::unordered_set<const Mesh*> used;
+    for (const PairMember* member : members_) used.insert(member->mesh.get());
+    if (!is_out_of_memory(error.code()) || !meshes.keep_only(used)) throw;
+  }
+  set_objects(meshes);
+  return collider.collide(scene_, memory);
+}
+
+void PairScene::set_objects(MeshStore& meshes) {
   scene_.meshes = meshes.resident();
+  scene_.objects.clear();
   for (const PairMember* member : members_)
     scene_.objects.push_back({member->pose, meshes.index_of(member->mesh.get()),
                               reinterpret_cast<std::uintptr_t>(member->geom)});
-  const auto captured = capture_pass(&collider, members_, scene_.pairs);
-  const PairContacts& found = collider.collide(scene_, memory);
-  capture_contacts(captured, found);
-  return found;
 }
 
 void PairScene::store(const PairContacts& found) {

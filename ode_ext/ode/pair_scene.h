@@ -31,6 +31,8 @@ class PairScene {
 
  private:
   std::uint32_t object_of(PairMember& member);
+  const PairContacts& collide_with_room(Collider& collider, MeshStore& meshes, PassMemory* memory);
+  void set_objects(MeshStore& meshes);
 
   Scene scene_;
   std::uint64_t number_ = 0;

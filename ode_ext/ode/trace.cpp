@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 
+#include "ode/messages.h"
 #include "opencl/fork_guard.h"
 
 namespace ode_ext {
@@ -89,7 +90,12 @@ void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& st
     write_event(stage.name, 2, device, 1e3 * stage.milliseconds(stats), "");
     device += 1e3 * stage.milliseconds(stats);
   }
-  std::fflush(trace);  // nothing waits in memory that a forked child would write once more
+  // Nothing waits in memory that a forked child would write once more.
+  if (std::fflush(trace) == 0 && std::ferror(trace) == 0) return;
+  std::fclose(trace);
+  trace = nullptr;
+  is_first = true;
+  log(LogLevel::kError, "the trace cannot be written any more; it ends before this pass");
 }
 
 }  // namespace ode_ext

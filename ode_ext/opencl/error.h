@@ -18,6 +18,9 @@ class DeviceError : public std::runtime_error {
   int code_;
 };
 
+// Codes that say "too large", of which less at a time may be the cure.
+bool is_out_of_memory(int code);
+
 const char* opencl_error_name(int code);  // "CL_OUT_OF_RESOURCES"; never null
 
 // Every OpenCL call of this room that can fail goes through here, but for those of destructors, so

@@ -2,6 +2,7 @@
 /* Stands in front of a program's ODE (LD_PRELOAD): passes with meshes go to the library, which is
    loaded for the first of them, in the precision of that ODE. All else goes straight on. */
 #include <dlfcn.h>
+#include <limits.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -240,7 +241,7 @@ __attribute__((constructor)) static void redirect_program(void) {
     return;
   }
   ode_of_program->dSpaceCollide = &collide_interior;
-  mesh_geoms = 2; /* they are not seen */
+  mesh_geoms = LONG_MAX / 2; /* they are not seen, nor do those that are destroyed count */
 }
 
 /* --- the end -------------------------------------------------------------------------------- */

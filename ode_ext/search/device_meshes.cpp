@@ -102,6 +102,9 @@ void DeviceMeshes::place_anew(const MeshList& meshes, std::vector<Placed>& place
     places[i].is_new = true;
     places[i].moving = places[i].mesh != meshes[i];
   }
+  if (all.edges > kMostEdges)
+    throw DeviceError(CL_INVALID_BUFFER_SIZE,
+                      "Meshes have more than 2^30 edges together. Make the scene smaller.");
   end_ = {};
   parts_.release();  // of what grew already none is needed
   append(all, places);

@@ -79,6 +79,29 @@ TEST_F(ApiDeviceFailure, AtAnyCallOfAPassIsAnsweredByOdesOwnColliderAndThenForgo
   EXPECT_GT(failures, 10);
 }
 
+// All meshes that are known stay on the device, be they of this pass or not.
+TEST_F(ApiDeviceFailure, ForMemoryIsCuredByForgettingMeshesThatAreOutOfUse) {
+  const dSpaceID elsewhere = world_.space(SpaceKind::Simple);
+  const OdeMesh& other = world_.mesh(make_icosphere(1, 2));
+  world_.geom(other, {}, elsewhere);
+  world_.geom(other, {.position = {1, 0, 0}}, elsewhere);
+  const BatchCollider collider;
+  const Collected batch = collider.pass(space_);
+  int fired = 0;
+  for (long long nth = 1; fired + 1 == nth; ++nth) {
+    const BatchCollider fresh;
+    ASSERT_GT(fresh.pass(elsewhere).total(), 0);
+    fault_injector::arm(nth, CL_MEM_OBJECT_ALLOCATION_FAILURE);
+    const Collected cured = fresh.pass(space_);
+    fired += fault_injector::calls_checked() >= nth ? 1 : 0;
+    fault_injector::disarm();
+    EXPECT_EQ(fresh.stats().status & dBatchStatusDeviceFailed, 0u) << "call " << nth;
+    ASSERT_EQ(difference_with_geoms(cured, batch), "") << "call " << nth;
+    ASSERT_EQ(fresh.pass(elsewhere).total(), collider.pass(elsewhere).total()) << "call " << nth;
+  }
+  EXPECT_GT(fired, 10);
+}
+
 TEST_F(ApiDeviceFailure, IsSaidOnceForARunOfFailures) {
   const BatchCollider collider;
   const CountMessages counting;

@@ -78,6 +78,15 @@ TEST_F(ApiFork, IsSaidOnceInTheChild) {
   EXPECT_EQ(result, 0);
 }
 
+TEST_F(ApiFork, LeavesTheChildWithoutDevicesToDescribe) {
+  const int result = in_child([&] {
+    char text[] = "never written";
+    if (dBatchColliderDescribeDevices(nullptr, text, sizeof text) != -1) return 1;
+    return text[0] == '\0' ? 0 : 2;
+  });
+  EXPECT_EQ(result, 0);
+}
+
 TEST_F(ApiFork, LeavesTheChildAbleToDestroyAndToExit) {
   const int result = in_child([&] {
     collider.destroy();

@@ -15,13 +15,15 @@
 namespace ode_ext::test {
 namespace {
 
+int triangles_of(const OdeMesh& mesh) { return mesh.mesh().triangle_count(); }
+
 class MeshStoreTest : public ::testing::Test {
  protected:
   // The mesh in the next pass, after vertex 0 was moved by so much.
   const Mesh& pass(float by = 0) {
     mesh_.edit().vertices[0] += by;
     ++pass_;
-    return *store_.refresh(mesh_.id(), pass_, pass_);
+    return *store_.refresh(mesh_.id(), triangles_of(mesh_), pass_, pass_);
   }
 
   OdeWorld world_;
@@ -40,16 +42,18 @@ TEST_F(MeshStoreTest, BuildsEqualContentOnceWhoeverHoldsIt) {
   const OdeMesh& copy = world_.mesh(mesh_.mesh());
   const OdeMesh& other = world_.mesh(make_icosphere(1.5, 2));
   pass();
-  EXPECT_EQ(store_.refresh(copy.id(), 1, 1).get(), &pass());
-  EXPECT_NE(store_.refresh(other.id(), 1, 1).get(), &pass());
+  EXPECT_EQ(store_.refresh(copy.id(), triangles_of(copy), 1, 1).get(), &pass());
+  EXPECT_NE(store_.refresh(other.id(), triangles_of(other), 1, 1).get(), &pass());
   EXPECT_EQ(store_.resident().size(), 2u);
 }
 
 TEST_F(MeshStoreTest, DoesNotTakeMeshesOfOneHashForOne) {
   const auto forged = cube_and_plate_of_one_hash();
   for (int i = 0; i < 2; ++i) {
-    const Mesh* cube = store_.refresh(world_.mesh(forged[0]).id(), 1, 1).get();
-    const Mesh* plate = store_.refresh(world_.mesh(forged[1]).id(), 1, 1).get();
+    const OdeMesh& first = world_.mesh(forged[0]);
+    const OdeMesh& second = world_.mesh(forged[1]);
+    const Mesh* cube = store_.refresh(first.id(), triangles_of(first), 1, 1).get();
+    const Mesh* plate = store_.refresh(second.id(), triangles_of(second), 1, 1).get();
     EXPECT_NE(cube, plate);
     EXPECT_EQ(cube->content_hash, plate->content_hash) << "nothing was shown";
   }
@@ -61,6 +65,29 @@ TEST_F(MeshStoreTest, KeepsAMeshOfWhichACornerIsNotANumber) {
   const Mesh* before = &pass(NAN);
   EXPECT_FALSE(before->finite);
   EXPECT_EQ(&pass(), before);
+}
+
+TEST_F(MeshStoreTest, ReadsAMeshOnceMoreInAPassInWhichAGeomHasOtherTriangles) {
+  const Mesh* before = &pass();
+  mesh_.rebuild(make_icosphere(1, 1));
+  const Mesh* after = store_.refresh(mesh_.id(), triangles_of(mesh_), pass_, pass_).get();
+  EXPECT_NE(after, before);
+  EXPECT_EQ(after->source.size(), mesh_.mesh().indices.size());
+}
+
+TEST_F(MeshStoreTest, KeepsOnlyTheMeshesThatAreInUseWhereItIsAsked) {
+  const OdeMesh& other = world_.mesh(make_icosphere(1.5, 2));
+  const OdeMesh& moving = world_.mesh(make_icosphere(2, 2));
+  store_.set_deformable(moving.id(), true);
+  store_.refresh(other.id(), triangles_of(other), 1, 1);
+  store_.refresh(moving.id(), triangles_of(moving), 1, 1);
+  const Mesh* used = &pass();
+  EXPECT_TRUE(store_.keep_only({used}));
+  ASSERT_EQ(store_.resident().size(), 1u);
+  EXPECT_EQ(store_.resident()[0].get(), used);
+  EXPECT_FALSE(store_.keep_only({used}));
+  const Mesh* again = store_.refresh(moving.id(), triangles_of(moving), 2, 2).get();
+  EXPECT_TRUE(again->deformable) << "it was forgotten that it deforms";
 }
 
 TEST_F(MeshStoreTest, SeesAnEditOfAnyCorner) {

@@ -92,6 +92,10 @@ const BadParameter kBadParameters[] = {
     {"max_contacts_deformable", "TooMany", [](P& p) { p.max_contacts_deformable = 65; }},
     {"open_thickness", "Negative", [](P& p) { p.open_thickness = -1; }},
     {"open_thickness", "Nan", [](P& p) { p.open_thickness = kNoNumber; }},
+#ifdef dDOUBLE
+    {"open_thickness", "BeyondAFloat", [](P& p) { p.open_thickness = 1e300; }},
+    {"open_thickness", "BelowAFloat", [](P& p) { p.open_thickness = 1e-60; }},
+#endif
     {"rays", "Unknown", with("rays=fast")},
     {"edges", "Empty", with("edges=")},
     {"workload", "InCapitals", with("workload=Exact")},

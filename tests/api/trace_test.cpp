@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdarg>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -88,6 +90,18 @@ TEST_F(ApiTraceDeathTest, ThatCannotBeWrittenIsAMessageAndNoCollider) {
         std::exit(0);
       },
       testing::ExitedWithCode(0), "ODE_EXT_TRACE names '/dev/null/trace.json'");
+}
+
+// /dev/full takes nothing, as a full disk does.
+TEST_F(ApiTraceDeathTest, IsGivenUpWithOneMessageWhereItCannotBeWritten) {
+  const auto run = [] {
+    dSetMessageHandler([](int, const char* format, va_list values) {
+      std::vfprintf(stderr, format, values);
+      std::fputs("\n", stderr);
+    });
+    trace_two_passes("/dev/full");
+  };
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "^[^\n]*trace cannot be written[^\n]*\n$");
 }
 
 }  // namespace
