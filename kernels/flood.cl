@@ -261,7 +261,7 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   // larger by so much. Rays of vertices start as far out of their own mesh.
   const float out = OX_INFLATION * s->pair->epsilon;
   if (side == 0u) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
-  return ox_winds_about(p, s->pair->epsilon, s->target, &s->scene.surfaces) ||
+  return ox_winds_about(p, (float3)(0.0f), s->pair->epsilon, s->target, &s->scene.surfaces) ||
          (side != 0u &&
           ox_closest_triangle(&s->scene.surfaces, s->target, p, out, 0.0f) != OX_NONE);
 }

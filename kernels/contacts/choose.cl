@@ -16,30 +16,30 @@
 // The units that are to be cleared are the first of the members, ever fewer.
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
-  ox_parting_move move;
-  move.count = 0u;
+  ox_moves moves;
+  moves.count = 0u;
   uint waiting = 0u;
   for (uint k = 0u; k < r->count; ++k)
     if ((ox_flags_of(r, k) & OX_MEMBER_BEGINS) != 0u) ox_swap_members(r, k, waiting++);
   ox_measure_units(r, waiting);
-  while (waiting != 0u && move.count < OX_MOST_PLANES) {
+  while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);
-    const ox_plane_choice choice = ox_choose_for(r, seed, &move);
+    const ox_plane_choice choice = ox_choose_for(r, seed, &moves);
     __global const ox_feature* of_seed = ox_feature_of(r, seed);
     ox_swap_members(r, seed, --waiting);
     if (choice.plane.kind == OX_PLANE_NONE) continue;
-    ox_set_move(r, &choice, &move);
+    ox_add_move(r, &choice, &moves);
     if (choice.plane.kind == OX_PLANE_EDGES)
       ox_add_edge_contact(m, &choice);
     else if (ox_add_cleared(m, &choice, of_seed) == 0u)  // all on the rim
       ox_add_feature_contact(m, &choice, of_seed);
     // From the last on: what is cleared changes places with the last that waits.
     for (uint block = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH; block-- != 0u;)
-      for (uint cleared = ox_cleared_units(r, block, waiting, &move); cleared != 0u;) {
+      for (uint cleared = ox_cleared_units(r, block, waiting, &moves); cleared != 0u;) {
         const uint lane = 31u - clz(cleared);
         cleared ^= 1u << lane;
         const uint k = OX_VECTOR_WIDTH * block + lane;
-        const ox_plane_choice by = ox_clearing_plane(r, k, &move);
+        const ox_plane_choice by = ox_clearing_plane(r, k, &moves);
         if (by.plane.kind == OX_PLANE_NONE) continue;
         if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
         ox_swap_members(r, k, --waiting);

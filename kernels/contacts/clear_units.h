@@ -5,35 +5,31 @@
 
 #include "contacts/units.h"
 
-#define OX_MOST_PLANES 16u
-
-// A move along the normal of a plane by its depth, and how far it goes along those chosen so far.
+// The planes chosen so far, and the moves along their normals.
 typedef struct {
-  ox_plane plane;
-  float far;  // [m]
   uint count;
   ox_plane chosen[OX_MOST_PLANES];
-  float along[OX_MOST_PLANES];  // [m]
-} ox_parting_move;
+  float far[OX_MOST_PLANES];    // [m] how far each goes
+  float along[OX_MOST_PLANES];  // [m] how far the last goes along each
+} ox_moves;
 
-static inline void ox_set_move(const ox_region_view* r, const ox_plane_choice* choice,
-                               ox_parting_move* move) {
-  move->plane = choice->plane;
-  move->far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
-  move->chosen[move->count++] = choice->plane;
-  for (uint i = 0u; i < move->count; ++i)
-    move->along[i] = move->far * ox_dot(move->plane.normal, move->chosen[i].normal);
+static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* choice,
+                               ox_moves* moves) {
+  const uint last = moves->count++;
+  const float far = choice->depth + OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  moves->chosen[last] = choice->plane;
+  moves->far[last] = moves->along[last] = far;
+  for (uint i = 0u; i < last; ++i)
+    moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
 }
 
-// A plane that faces back from one that is chosen costs twice as much: two that oppose one another
-// jam the body between them.
-#define OX_OPPOSES -0.5f
-#define OX_DETOUR 2.0f
-
-static inline float ox_detour(const ox_parting_move* move, const ox_plane* plane) {
-  for (uint i = 0u; i < move->count; ++i)
-    if (ox_dot(move->chosen[i].normal, plane->normal) < OX_OPPOSES) return OX_DETOUR;
-  return 1.0f;
+// How far a way takes back the moves before it, at most [m]. That is added to what a plane costs:
+// two that oppose one another jam the body between them.
+static inline float ox_taken_back(const ox_moves* moves, float3 normal) {
+  float most = 0.0f;
+  for (uint i = 0u; i < moves->count; ++i)
+    most = ox_max(most, -moves->far[i] * ox_dot(moves->chosen[i].normal, normal));
+  return most;
 }
 
 // A unit that a plane is looked for.
@@ -42,12 +38,11 @@ typedef struct {
   uint side;
   float3 through[2];  // the normals of the faces that it goes through, turned where they are of A
   uint count;         // of those
-  const ox_parting_move* before;  // the planes chosen already
+  const ox_moves* before;
   ox_refused refused;
 } ox_seed;
 
-static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit,
-                                 const ox_parting_move* before) {
+static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_moves* before) {
   ox_seed seed;
   seed.before = before;
   seed.unit = unit;
@@ -71,15 +66,14 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   choice.plane = *plane;
   choice.depth = ox_unit_depth(r, seed->unit, plane);
   if (choice.depth == INFINITY) return;
-  const float tie = ox_edge_tie(r, plane);
-  const float detour = ox_detour(seed->before, plane);
-  choice.judged = detour * (choice.depth + tie);
+  const float more = ox_edge_tie(r, plane) + ox_taken_back(seed->before, plane->normal);
+  choice.judged = choice.depth + more;
   if (!ox_is_better_choice(&choice, best)) return;
   // Where it goes on through a face that looks back, all of the body has to pass the plane.
   for (uint i = 0u; i < seed->count; ++i)
     if (ox_dot(plane->normal, seed->through[i]) < OX_LOOKS_BACK) {
-      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged / detour - tie);
-      choice.judged = detour * (ox_max(choice.depth, of_body) + tie);
+      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged - more);
+      choice.judged = ox_max(choice.depth, of_body) + more;
       break;
     }
   if (ox_is_better_choice(&choice, best)) *best = choice;
@@ -128,44 +122,35 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
 // The best plane for a unit. Where one does not separate it, the way along its normal is past all
 // of both bodies.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
-                                            const ox_parting_move* before) {
+                                            const ox_moves* before) {
   ox_seed seed = ox_seed_of(r, unit, before);
   ox_plane_choice of_body = ox_no_choice();
-  while (seed.refused.count < OX_MOST_TRIES) {
+  while (seed.refused.count < OX_FEW) {
     ox_plane_choice choice = ox_search_for(r, &seed);
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
     if (!ox_unit_stays(r, &seed, &choice)) return choice;
     ox_refuse(&seed.refused, &choice.plane);
-    const float depth = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
-    choice.judged = ox_detour(before, &choice.plane) * (depth + ox_edge_tie(r, &choice.plane));
+    choice.judged = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal)) +
+                    ox_edge_tie(r, &choice.plane) + ox_taken_back(before, choice.plane.normal);
     if (ox_is_better_choice(&choice, &of_body)) of_body = choice;
   }
   return of_body;
 }
 
-// Takes a plane for a unit if a move goes so far along it, and it is the least so far.
-static inline void ox_try_clearing(const ox_region_view* r, uint k, const ox_plane* plane,
-                                   float along, ox_plane_choice* by) {
-  ox_plane_choice choice = ox_no_choice();
-  choice.plane = *plane;
-  choice.depth = choice.judged = ox_unit_depth(r, k, plane);
-  if (choice.depth <= along && ox_is_better_choice(&choice, by)) *by = choice;
-}
-
-// The plane by which a move clears a unit: that of the move, or else the least of its own best and
-// of those chosen that the move takes it past; OX_PLANE_NONE: there is none.
+// The plane by which the last move clears a unit: its own, or else the least of the unit's best and
+// of those before that the move takes it past; OX_PLANE_NONE: there is none.
 static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
-                                                const ox_parting_move* move) {
+                                                const ox_moves* moves) {
+  const uint last = moves->count - 1u;
   ox_plane_choice by = ox_no_choice();
-  ox_try_clearing(r, k, &move->plane, move->far, &by);
-  if (by.plane.kind != OX_PLANE_NONE) return by;
-  for (uint i = 0u; i < move->count; ++i)
-    if (move->along[i] >= 0.0f) ox_try_clearing(r, k, move->chosen + i, move->along[i], &by);
+  if (ox_take_better(r, k, moves->chosen + last, moves->far[last], &by)) return by;
+  for (uint i = 0u; i < last; ++i)
+    if (moves->along[i] >= 0.0f) ox_take_better(r, k, moves->chosen + i, moves->along[i], &by);
   const float3 normal = ox_vector_of(&r->members, OX_MEMBER_NORMAL, k);
   if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <=
-      move->far * ox_dot(move->plane.normal, normal)) {
+      moves->far[last] * ox_dot(moves->chosen[last].normal, normal)) {
     const ox_plane plane = ox_own_plane(r, k);
-    ox_try_clearing(r, k, &plane, INFINITY, &by);
+    ox_take_better(r, k, &plane, INFINITY, &by);
   }
   return by;
 }
@@ -196,17 +181,18 @@ static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_p
   return cleared;
 }
 
-// A bit for each waiting unit of a block that a move clears.
+// A bit for each waiting unit of a block that the last move clears.
 static inline uint ox_cleared_units(const ox_region_view* r, uint block, uint waiting,
-                                    const ox_parting_move* move) {
-  uint cleared = ox_cleared_by(r, block, &move->plane, move->far);
-  for (uint i = 0u; i < move->count; ++i)
-    if (move->along[i] >= 0.0f)
-      cleared |= ox_cleared_by(r, block, move->chosen + i, move->along[i]);
+                                    const ox_moves* moves) {
+  const uint last = moves->count - 1u;
+  uint cleared = 0u;
+  for (uint i = 0u; i <= last; ++i)
+    if (moves->along[i] >= 0.0f)
+      cleared |= ox_cleared_by(r, block, moves->chosen + i, moves->along[i]);
   ox_floats cosine;
-  ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, move->plane.normal, &cosine);
+  ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, moves->chosen[last].normal, &cosine);
   const ox_ints past_own =
-      OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= move->far * cosine;
+      OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= moves->far[last] * cosine;
   return (cleared | ox_mask_of(&past_own)) & ox_present_lanes(waiting, block);
 }
 

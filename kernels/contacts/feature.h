@@ -4,6 +4,7 @@
 #define ODE_EXT_KERNELS_CONTACTS_FEATURE_H
 
 #include "abi/contacts.h"
+#include "contacts/constants.h"
 #include "lib/append.h"
 #include "lib/flat.h"
 #include "lib/general_position.h"
@@ -48,7 +49,7 @@ static inline bool ox_is_valley(const ox_scene* scene, uint pair, uint edge) {
   const uint first = scene->edges[edge].triangle[0];
   const uint second = scene->edges[edge].triangle[1];
   if (second == OX_NONE) return false;
-  const float flat = 2.0f * scene->pairs[pair].epsilon;
+  const float flat = OX_INFLATION * scene->pairs[pair].epsilon;
   return ox_rise(scene, first, second) > flat && ox_rise(scene, second, first) > flat;
 }
 

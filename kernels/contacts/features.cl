@@ -131,8 +131,7 @@ static void ox_link_features(const ox_scene* scene, __global ox_feature* feature
       if (f->at[k] == OX_NONE) continue;
       const uint other = ox_add_feature(scene, features, slots, i << 2 | k);
       if (other == OX_NONE) continue;
-      f->mate[k] =
-          ox_exchange(scene, &features[other >> 2].mate[other & 3u], i << 1 | k);
+      f->mate[k] = ox_exchange(scene, &features[other >> 2].mate[other & 3u], i << 1 | k);
     }
   }
 }
@@ -277,8 +276,7 @@ static void ox_place_regions(const ox_scene* scene, __global ox_region* regions)
   const uint count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
   for (uint r = scene->item; r < count; r += scene->item_count) {
     __global ox_found* of_pair = scene->found + regions[r].pair;
-    regions[r].first =
-        of_pair->first + ox_fetch_add(scene, &of_pair->placed, regions[r].count);
+    regions[r].first = of_pair->first + ox_fetch_add(scene, &of_pair->placed, regions[r].count);
   }
 }
 
@@ -355,9 +353,8 @@ static void ox_propose_planes(const ox_scene* scene, __global const ox_feature* 
     const uint side = face->key & 1u;
     if (!ox_parts_by_faces_of(scene, region->pair, region->flags, side)) continue;
     const ox_plane plane = ox_plane_of_face(scene, region->pair, side, face->triangle);
-    face->plane =
-        ox_add_plane(scene, region, planes, &plane,
-                     (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
+    face->plane = ox_add_plane(scene, region, planes, &plane,
+                               (face->owner & 1u) != 0u ? OX_PLANE_CROSSED : 0u);
   }
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global const ox_feature* f = features + i;

@@ -9,9 +9,6 @@
 
 #include "contacts/feature.h"
 
-// Of more on a line none has a mate: finding it looks at all for each.
-#define OX_MOST_ON_LINE 64u
-
 // How far along a line; of those at one place the first comes first.
 typedef struct {
   uint entry;  // feature << 1 | which of the facets at its edge; OX_NONE: there is none
@@ -43,7 +40,7 @@ static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_fe
   uint before = 0u;
   uint count = 0u;
   for (uint n = second; n != entry; n = features[n >> 1].mate[n & 1u]) {
-    if (++count == OX_MOST_ON_LINE) return OX_NONE;
+    if (++count == OX_MANY) return OX_NONE;  // each looks at all
     const ox_on_line other = {n, ox_dot(line, vload3(0, features[n >> 1].position))};
     if (ox_is_before_on_line(features, &other, &self)) {
       ++before;
@@ -52,7 +49,9 @@ static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_fe
       next = other;
     }
   }
-  return before % 2u == 0u ? next.entry : last.entry;  // a stretch begins with every other
+  // A stretch begins with every other. Of an odd number, as at the border of an open mesh, the last
+  // goes with the one before it.
+  return before % 2u == 0u && next.entry != OX_NONE ? next.entry : last.entry;
 }
 
 // The mate of a crossing, of an edge of the other mesh; OX_NONE: it has none. Where facets are not

@@ -127,13 +127,10 @@ static inline bool ox_is_behind_support(const ox_scene* scene, const ox_support*
   return true;
 }
 
-// Faces of no area that lie side by side and are gone over, so many at most.
-#define OX_MOST_WITHOUT_AREA 4u
-
-// The same of what is across faces of no area that begin at an edge, as lie between one long edge
-// and several short ones.
+// The same of what is across faces of no area, few of them, that begin at an edge, as lie between
+// one long edge and several short ones.
 static inline bool ox_is_all_behind(const ox_scene* scene, const ox_support* support, uint face) {
-  uint faces[OX_MOST_WITHOUT_AREA];
+  uint faces[OX_FEW];
   faces[0] = face;
   uint count = 1u;
   for (uint i = 0u; i < count; ++i)
@@ -149,7 +146,7 @@ static inline bool ox_is_all_behind(const ox_scene* scene, const ox_support* sup
       }
       uint known = 0u;
       while (known < count && faces[known] != across) ++known;
-      if (known == OX_MOST_WITHOUT_AREA) return false;
+      if (known == OX_FEW) return false;
       if (known == count) faces[count++] = across;
     }
   return true;
@@ -167,9 +164,6 @@ static inline bool ox_edge_supports(const ox_scene* scene, const ox_support* sup
   }
   return true;
 }
-
-// Edges that differ less than this have no common normal that floats could tell [radians].
-#define OX_PARALLEL 0.01f
 
 // Of an edge of A and one of B; OX_PLANE_NONE: they do not support it, or lie by more than `limit`
 // one below the other [m].

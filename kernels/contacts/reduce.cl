@@ -8,6 +8,7 @@
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS
 #include "contacts/candidate_list.h"
+#include "contacts/constants.h"
 #include "lib/lanes.h"
 
 // What one is taken for, one after the other: as the deepest of its region, or of its manifold, or
@@ -42,9 +43,8 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
   return false;
 }
 
-// What a block of candidates are from one that is taken: how far, of those that face its way, within
-// acos 0.9 = 26 degrees, across their normal, since one above the other holds no more; of its
-// region; of its manifold.
+// What candidates are to one that is taken: how far from it, those that face the same way across
+// their normal, since one above the other holds no more; of its region; of its manifold.
 static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
   const float3 p = ox_vector_of(list, OX_CANDIDATE_POSITION, taken);
@@ -58,7 +58,7 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
     ox_floats cosine;
     ox_dot_fields(list, OX_CANDIDATE_NORMAL, block, n, &cosine);
     const ox_floats along = x * n.x + y * n.y + z * n.z;
-    const ox_floats drop = cosine > 0.9f ? along : (ox_floats)(0.0f);
+    const ox_floats drop = cosine > OX_SAME_WAY ? along : (ox_floats)(0.0f);
     x -= drop * n.x;
     y -= drop * n.y;
     z -= drop * n.z;
@@ -136,8 +136,7 @@ static void ox_reduce_candidates(const ox_scene* scene, __global float* candidat
         ox_store_contact(&mine, i, contacts + pair_ranges[p].first + i);
       continue;
     }
-    // Contacts closer than 2 % of the smaller mesh's radius hold it up no better than one.
-    const float merge = 0.02f * ox_min(a->radius, b->radius);
+    const float merge = OX_MERGE * ox_min(a->radius, b->radius);
     const uint most = deformable ? max_deformable : max_contacts;
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;

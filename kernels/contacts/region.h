@@ -19,14 +19,6 @@ typedef struct {
   ox_fields planes;
 } ox_region_view;
 
-// A face that looks back from a plane by more than this is one through which the body goes on.
-#define OX_LOOKS_BACK -0.1f
-// Two depths are the same where they differ by no more, in epsilons: twice what the growth of A
-// and rounding may make of either. It is not for rounding to say which of two units is the first,
-// nor to choose a pair of edges where a face is as deep, as where a box rests on a box: a pair
-// holds a body at one point, a face at more, so the pair has to be better by as much.
-#define OX_DEPTH_TIE (4.0f * OX_INFLATION)
-
 static inline float3 ox_position_of(const ox_region_view* r, uint k) {
   return ox_vector_of(&r->members, OX_MEMBER_POSITION, k);
 }
@@ -85,7 +77,7 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
 
 // Of two planes that are as deep the one that the body does not go on through is better [m].
 static inline float ox_body_tie(const ox_region_view* r) {
-  return 4.0f * r->scene->pairs[r->pair].epsilon;
+  return OX_MARGIN * r->scene->pairs[r->pair].epsilon;
 }
 
 // How deep all of mesh `side` is below a plane, and the tie [m]; or something beyond `limit`.

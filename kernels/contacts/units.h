@@ -21,16 +21,26 @@ static inline float ox_unit_depth(const ox_region_view* r, uint k, const ox_plan
   return ox_max(ox_max(one, other), 0.0f);
 }
 
-// Takes a plane as the best of those that a unit proposes, if it is.
+// Takes a plane that clears a unit by a move of `limit` at most, if it is better. False: it is not.
+static inline bool ox_take_better(const ox_region_view* r, uint k, const ox_plane* plane,
+                                  float limit, ox_plane_choice* best) {
+  ox_plane_choice choice = ox_no_choice();
+  choice.plane = *plane;
+  choice.depth = ox_unit_depth(r, k, plane);
+  choice.judged = choice.depth + ox_edge_tie(r, plane);
+  if (choice.depth == INFINITY || !(choice.depth <= limit) || !ox_is_better_choice(&choice, best))
+    return false;
+  *best = choice;
+  return true;
+}
+
+// Takes a plane of the region as the best of those that a unit proposes, if it is.
 static inline void ox_propose_for(const ox_region_view* r, uint k, uint index,
                                   ox_plane_choice* best) {
   if (index == OX_NONE) return;
-  ox_plane_choice choice = ox_no_choice();
-  choice.plane = ox_load_plane(&r->planes, index);
-  choice.depth = choice.judged = ox_unit_depth(r, k, &choice.plane);
-  if (choice.depth == INFINITY || !ox_is_better_choice(&choice, best)) return;
-  *best = choice;
-  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = index;
+  const ox_plane plane = ox_load_plane(&r->planes, index);
+  if (ox_take_better(r, k, &plane, INFINITY, best))
+    ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = index;
 }
 
 // A face that is nearest to a unit need not be one that the region meets: it is not listed, and
@@ -62,13 +72,12 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
   ox_plane_choice own = ox_no_choice();
   own.plane = ox_own_plane(r, k);
-  own.depth = own.judged = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
-  ox_plane_choice nearest = ox_no_choice();
-  nearest.plane = ox_nearest_face(r, side, ox_middle_of(r, k), own.depth);
-  nearest.depth = nearest.judged = ox_unit_depth(r, k, &nearest.plane);
-  if (nearest.depth == INFINITY || !ox_is_better_choice(&nearest, &own)) return;
-  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.plane.id[0] | OX_OWN_NEAREST;
-  ox_set_own(r, k, &nearest);
+  own.depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
+  own.judged = own.depth + ox_edge_tie(r, &own.plane);
+  const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.depth);
+  if (!ox_take_better(r, k, &nearest, INFINITY, &own)) return;
+  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.id[0] | OX_OWN_NEAREST;
+  ox_set_own(r, k, &own);
 }
 
 // Of the waiting units, the first of the members, the best of the planes that their features
@@ -105,7 +114,7 @@ static inline void ox_swap_members(const ox_region_view* r, uint a, uint b) {
 }
 
 // Of the waiting units the deepest below what it has proposed so far; there is one. Of several that
-// are as deep (OX_DEPTH_TIE) the first.
+// are as deep, to within the clearance, the first: it is not for rounding to say which that is.
 static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
   const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats most = (ox_floats)(-INFINITY);
@@ -114,7 +123,7 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
     const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
     most = left > 0 && least > most ? least : most;
   }
-  const float deepest = ox_greatest_of(&most) - OX_DEPTH_TIE * r->scene->pairs[r->pair].epsilon;
+  const float deepest = ox_greatest_of(&most) - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   uint best = OX_NONE;
   for (uint block = 0u; block < blocks; ++block) {
     const ox_ints is_deepest = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) >= deepest;

@@ -8,16 +8,12 @@
 #include "lib/closest.h"
 #include "lib/full_ray.h"
 
-// Planes that are tried where the one before does not separate, so many at most.
-#define OX_MOST_TRIES 4u
-
-// Normals of planes that do not separate: what faces their way does not either. Of a whole region
-// that is within acos 0.9 = 26 degrees. Of a unit it is only what may be of the same facet: beside
-// the thread of a bolt the face next to one that does not separate may do so.
-#define OX_WAY_OF_WHOLE 0.9f
-#define OX_WAY_OF_UNIT 0.9999985f  // 0.1 degrees
+// Normals of planes that do not separate, few at most: what faces their way does not either. Of a
+// whole region that is what faces the same way. Of a unit it is only what may be of the same facet:
+// beside the thread of a bolt the face next to one that does not separate may do so.
+#define OX_WAY_OF_UNIT (1.0f - 0.5f * OX_FACET_ANGLE * OX_FACET_ANGLE)  // the cosine
 typedef struct {
-  float3 normal[OX_MOST_TRIES];
+  float3 normal[OX_FEW];
   uint count;
 } ox_refused;
 
@@ -47,9 +43,11 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
   __global const ox_mesh* target = ox_target_of(r, side);
   if ((target->flags & OX_MESH_CLOSED) == 0u) return false;
   const float epsilon = r->scene->pairs[r->pair].epsilon;
-  const float way = depth + OX_MARGIN * epsilon;
-  const float3 there = p + (side == 0u ? way : -way) * plane->normal;
-  return ox_winds_about(ox_in_target(r, side, there), epsilon, target, &r->scene->surfaces);
+  const float3 away = side == 0u ? plane->normal : -plane->normal;
+  const float3 there = p + (depth + OX_MARGIN * epsilon) * away;
+  return ox_winds_about(ox_in_target(r, side, there),
+                        side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away), epsilon,
+                        target, &r->scene->surfaces);
 }
 
 // The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a

@@ -6,24 +6,18 @@
 
 #include "contacts/whole_depth.h"
 
-// Directions that cost so much more than the best are not looked around. At 4 every figure of the
-// table of docs/contacts.md is the same, and convex bodies deep in one another take twice as long;
-// at 1 the least is missed now and then.
-#define OX_WORTH 2.0f
-
-// Edges of one mesh, so many at most.
-#define OX_MOST_EDGES 64u
+// Edges of one mesh.
 typedef struct {
   uint count;
-  uint edge[OX_MOST_EDGES];
+  uint edge[OX_MANY];
 } ox_edge_set;
 
 // In ascending order, so that of too many the first are kept, in whatever order they come.
 static inline void ox_add_edge(ox_edge_set* set, uint edge) {
   uint place = set->count;
   while (place != 0u && set->edge[place - 1u] > edge) --place;
-  if (place == OX_MOST_EDGES || (place != 0u && set->edge[place - 1u] == edge)) return;
-  if (set->count < OX_MOST_EDGES) ++set->count;
+  if (place == OX_MANY || (place != 0u && set->edge[place - 1u] == edge)) return;
+  if (set->count < OX_MANY) ++set->count;
   for (uint i = set->count - 1u; i > place; --i) set->edge[i] = set->edge[i - 1u];
   set->edge[place] = edge;
 }
@@ -66,13 +60,11 @@ static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint secon
   return scene->facets[first] == facet || (second != OX_NONE && scene->facets[second] == facet);
 }
 
-// Triangles of a facet that are walked over, so many at most. A quad has two. With 64 of them the
-// bowl of a thousand objects took a quarter longer, and no contact that is measured was truer.
-#define OX_MOST_OF_FACET 4u
-
-// The edges of the facet of a triangle, as far as a walk over it from there finds them.
+// The edges of the facet of a triangle, as far as a walk over few of its triangles finds them: a
+// quad has two. With many the bowl of a thousand objects took a quarter longer, and no contact that
+// is measured was truer.
 static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_edge_set* set) {
-  uint walked[OX_MOST_OF_FACET];
+  uint walked[OX_FEW];
   walked[0] = triangle;
   uint count = 1u;
   for (uint i = 0u; i < count; ++i)
@@ -83,7 +75,7 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_ed
       const uint next = at & ~OX_WITHIN_FACET;
       uint known = 0u;
       while (known < count && walked[known] != next) ++known;
-      if (known == count && count < OX_MOST_OF_FACET) walked[count++] = next;
+      if (known == count && count < OX_FEW) walked[count++] = next;
     }
 }
 
@@ -123,7 +115,7 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
     else
       ox_add_rim(r, 1u - side, from.id[0], &own);
     ox_add_farthest(r, side, from.normal, &past);
-    ox_ridge others[OX_MOST_EDGES];
+    ox_ridge others[OX_MANY];
     for (uint k = 0u; k < past.count; ++k)
       others[k] = ox_ridge_of(r->scene, r->pair, side, past.edge[k]);
     for (uint i = 0u; i < own.count; ++i) {
@@ -235,10 +227,6 @@ static inline float ox_size_of(const ox_region_view* r) {
   return sqrt(ox_dot(size, size));
 }
 
-// Triangles are of one facet that are turned by as much against each other (mesh/facets.h), and one
-// stands for all.
-#define OX_FACET_ANGLE 0.00175f  // 0.1 degrees
-
 // [m] how far a region of this size may lie past the plane of a face of a mesh that is convex in
 // it: what a plane clears may be above it, a facet is not quite flat, and rounding turns a sliver.
 static inline float ox_flat_of(const ox_region_view* r, const ox_plane* plane, float size) {
@@ -264,10 +252,9 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
     if ((ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] & OX_PLANE_PASSED) == 0u) continue;
     if (size < 0.0f) size = ox_size_of(r);
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
+    uint* farthest = search->farthest + ox_direction_of(plane.normal);
     ox_extent extent = ox_begin_extent(&plane);
-    if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
-        ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
+    if (ox_whole_depth(r, &limits, farthest, &extent) != INFINITY &&
         extent.past > ox_flat_of(r, &plane, size) &&
         ox_depth_beyond(r, &plane, least->judged) <= least->judged)
       return true;
@@ -279,10 +266,10 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
 // both. OX_PLANE_NONE: there is none, or a valley.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
-  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.farthest[i] = 0u;
   ox_plane_choice of_body = ox_no_choice();
   search.refused.count = 0u;
-  while (search.refused.count < OX_MOST_TRIES) {
+  while (search.refused.count < OX_FEW) {
     ox_plane_choice best = ox_search_whole(r, &search);
     // Before the nearest faces, which take a walk for each member.
     if (search.refused.count == 0u && (r->flags & OX_REGION_CROSSED) != 0u &&

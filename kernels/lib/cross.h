@@ -197,10 +197,10 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
   const ox_general_points* points = &placed->of[side].points;
   const ox_near_edges near = ox_find_near_edges(source, points);
   if ((near.edges[0] | near.edges[1]) == 0u) return;
-  const uint flags = ox_is_flooded(scene, scene->meshes + pair->mesh[side],
-                                   scene->meshes + pair->mesh[1u - side])
-                         ? OX_NEW_FLOODED
-                         : 0u;
+  const uint flags =
+      ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side])
+          ? OX_NEW_FLOODED
+          : 0u;
   ox_placed_meshlet* faces = &placed->of[1u - side];
   ox_place_triangles(target, blocks, faces);
   const ox_general_triangles* t = &faces->triangles;

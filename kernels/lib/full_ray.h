@@ -71,13 +71,14 @@ static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global co
 }
 
 // A ray that tells whether its origin is inside: in any direction, but two of which graze by a
-// coincidence only. k below OX_ASKING_RAYS.
+// coincidence only, or the other way if that is rather that of `away`. k below OX_ASKING_RAYS.
 #define OX_ASKING_RAYS 3u
-static inline ox_query ox_asking_query(uint k, float3 origin, float epsilon) {
+static inline ox_query ox_asking_query(uint k, float3 origin, float3 away, float epsilon) {
   ox_query query;
   query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
                     : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
                               : (float3)(0.3319f, -0.6203f, -0.7107f);
+  if (ox_dot(query.direction, away) < 0.0f) query.direction = -query.direction;
   query.cast = ox_cast_from(origin, query.direction);
   query.epsilon = epsilon;
   query.t_max = INFINITY;
@@ -91,7 +92,8 @@ static inline ox_query ox_asking_query(uint k, float3 origin, float epsilon) {
 static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global const ox_mesh* mesh,
                                 const ox_surfaces* surfaces, uint* work) {
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
-    const ox_query query = ox_asking_query(k, grazing->cast.origin, grazing->epsilon);
+    const ox_query query =
+        ox_asking_query(k, grazing->cast.origin, (float3)(0.0f), grazing->epsilon);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, OX_NONE, work);
     if (!ox_grazes(&nearest, query.epsilon)) return nearest.back_t < nearest.front_t;
   }
@@ -126,12 +128,13 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
 
 // Whether a point that is not near the surface is inside a closed mesh, which may cut itself: the
 // surface winds about it. What is met first tells if that is a back face; behind a front face there
-// may be the wall of another part that the point is in.
-static inline bool ox_winds_about(float3 point, float epsilon, __global const ox_mesh* mesh,
-                                  const ox_surfaces* surfaces) {
+// may be the wall of another part that the point is in. Rays go the way of `away`, to where less is
+// to be met; 0: any way.
+static inline bool ox_winds_about(float3 point, float3 away, float epsilon,
+                                  __global const ox_mesh* mesh, const ox_surfaces* surfaces) {
   uint work = 0u;
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
-    const ox_query query = ox_asking_query(k, point, epsilon);
+    const ox_query query = ox_asking_query(k, point, away, epsilon);
     const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
     if (ox_grazes(&nearest, epsilon)) continue;
     if (nearest.back_t < nearest.front_t) return true;

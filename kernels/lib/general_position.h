@@ -16,10 +16,11 @@
 // bound of 16 of them (pair_step.cl) is hardly ever neared.
 #define OX_INFLATION 2.0f  // epsilons
 // What is farther apart than this does not meet: A's growth, and what is not known.
-#define OX_MARGIN 4.0f  // epsilons
-// What a plane clears may be so far above it. Where two faces meet features of the one come up to
-// the margin above the other: at the margin itself rounding would choose.
-#define OX_CLEARANCE 8.0f  // epsilons
+#define OX_MARGIN (2.0f * OX_INFLATION)
+// What a plane clears may be so far above it, and depths that differ by no more are the same. Where
+// two faces meet features of the one come up to the margin above the other: at the margin itself
+// rounding would choose.
+#define OX_CLEARANCE (2.0f * OX_MARGIN)
 
 // What a pair's coordinates are rounded by: x + snap - snap. With a power of two P of twice the
 // largest of them at least, snap is 1.5 P; sums with it lie between P and 2 P, where floats are

@@ -45,13 +45,13 @@ typedef struct {
       __global const ox_triangle *triangles, __global const ox_meshlet *meshlets,               \
       __global const ox_meshlet_node *meshlet_nodes
 
-#define OX_SCENE                                                                                \
-  {                                                                                             \
-    counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0),   \
-        false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks,    \
-        vertices, edges, ring_starts, rings, facets, {                                          \
-      triangles, meshlets, meshlet_nodes                                                        \
-    }                                                                                           \
+#define OX_SCENE                                                                              \
+  {                                                                                           \
+    counters, lists, modes, 0u, pair_count, (uint)get_global_id(0), (uint)get_global_size(0), \
+        false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, pairs, found, meshes, chunks,  \
+        vertices, edges, ring_starts, rings, facets, {                                        \
+      triangles, meshlets, meshlet_nodes                                                      \
+    }                                                                                         \
   }
 
 #endif
