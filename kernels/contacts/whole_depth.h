@@ -23,8 +23,8 @@ static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint 
   *most = ox_greatest_of(&high);
 }
 
-// What a pair of edges costs more than a face that is as deep, as where a box rests on a box [m]: it
-// holds a body at one point, a face at more, and it is not for rounding to choose.
+// [m] what a pair of edges costs more than a face that is as deep, as where a box rests on a box: a
+// pair holds a body at one point, a face at more, and it is not for rounding to choose.
 static inline float ox_edge_tie(const ox_region_view* r, const ox_plane* plane) {
   return plane->kind == OX_PLANE_EDGES ? OX_CLEARANCE * r->scene->pairs[r->pair].epsilon : 0.0f;
 }
