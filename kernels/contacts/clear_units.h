@@ -23,13 +23,19 @@ static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* c
     moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
 }
 
-// How far a way takes back the moves before it, at most [m]. That is added to what a plane costs:
-// two that oppose one another jam the body between them.
-static inline float ox_taken_back(const ox_moves* moves, float3 normal) {
+// How much of a move before it a move of `depth` along a normal takes back, at most [m]. That is
+// added to what a plane costs: two that oppose one another jam the body between them.
+static inline float ox_taken_back(const ox_moves* moves, float3 normal, float depth) {
   float most = 0.0f;
   for (uint i = 0u; i < moves->count; ++i)
-    most = ox_max(most, -moves->far[i] * ox_dot(moves->chosen[i].normal, normal));
+    most = ox_max(most, -ox_min(moves->far[i], depth) * ox_dot(moves->chosen[i].normal, normal));
   return most;
+}
+
+// What a plane costs a unit that has to go so far.
+static inline float ox_cost_of(const ox_region_view* r, const ox_moves* moves,
+                               const ox_plane* plane, float depth) {
+  return depth + ox_edge_tie(r, plane) + ox_taken_back(moves, plane->normal, depth);
 }
 
 // A unit that a plane is looked for.
@@ -66,14 +72,13 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   choice.plane = *plane;
   choice.depth = ox_unit_depth(r, seed->unit, plane);
   if (choice.depth == INFINITY) return;
-  const float more = ox_edge_tie(r, plane) + ox_taken_back(seed->before, plane->normal);
-  choice.judged = choice.depth + more;
+  choice.judged = ox_cost_of(r, seed->before, plane, choice.depth);
   if (!ox_is_better_choice(&choice, best)) return;
   // Where it goes on through a face that looks back, all of the body has to pass the plane.
   for (uint i = 0u; i < seed->count; ++i)
     if (ox_dot(plane->normal, seed->through[i]) < OX_LOOKS_BACK) {
-      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged - more);
-      choice.judged = ox_max(choice.depth, of_body) + more;
+      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
+      choice.judged = ox_cost_of(r, seed->before, plane, ox_max(choice.depth, of_body));
       break;
     }
   if (ox_is_better_choice(&choice, best)) *best = choice;
@@ -130,8 +135,8 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
     if (!ox_unit_stays(r, &seed, &choice)) return choice;
     ox_refuse(&seed.refused, &choice.plane);
-    choice.judged = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal)) +
-                    ox_edge_tie(r, &choice.plane) + ox_taken_back(before, choice.plane.normal);
+    const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
+    choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
     if (ox_is_better_choice(&choice, &of_body)) of_body = choice;
   }
   return of_body;

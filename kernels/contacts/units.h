@@ -74,7 +74,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   own.plane = ox_own_plane(r, k);
   own.depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
   own.judged = own.depth + ox_edge_tie(r, &own.plane);
-  const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.depth);
+  const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.judged);
   if (!ox_take_better(r, k, &nearest, INFINITY, &own)) return;
   ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.id[0] | OX_OWN_NEAREST;
   ox_set_own(r, k, &own);
@@ -136,8 +136,8 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
   return best;
 }
 
-// The waiting unit that is deepest below its own best plane. The nearest face can only make it less
-// deep, so only those need it that are the deepest without.
+// The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper, but
+// for the tie, so only those need it that are the deepest without.
 static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
   uint k = ox_find_deepest(r, waiting);
   while ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) == 0u) {

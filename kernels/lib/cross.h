@@ -128,7 +128,7 @@ static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source
 
 // A meshlet of a pair in general position, and its triangles once they are asked about.
 typedef struct {
-  uint meshlet;  // over all meshes; OX_NONE: none is placed
+  uint meshlet;  // over all meshes
   ox_general_points points;
   ox_box box;
   ox_slab slab;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iterator>
+#include <sstream>
 
 #include "api/guarded.h"
 #include "ode/config.h"
@@ -24,12 +25,14 @@ void check(const dBatchColliderParams& p) {
   if (p.max_contacts_deformable < 0 || p.max_contacts_deformable > static_cast<int>(kMaxContacts))
     refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
            ", expected 0 (all) to " + std::to_string(kMaxContacts));
-  // What is not 0 is to be a number that a float tells from it.
-  const bool is_float = p.open_thickness == 0 ||
-                        (p.open_thickness >= dReal{FLT_MIN} && p.open_thickness <= dReal{FLT_MAX});
-  if (!is_float)
-    refuse("open_thickness is " + std::to_string(p.open_thickness) +
-           " m, expected 0 or more, and what a float can hold");
+  // Used as a float, which is not to make 0 or infinity of it.
+  const bool is_normal = p.open_thickness >= dReal{FLT_MIN} && p.open_thickness <= dReal{FLT_MAX};
+  if (p.open_thickness != 0 && !is_normal) {
+    std::ostringstream message;
+    message << "open_thickness is " << p.open_thickness << " m, expected 0, or " << FLT_MIN
+            << " to " << FLT_MAX;
+    refuse(message.str());
+  }
 }
 
 // Field `text` of a setting, or null past the last.

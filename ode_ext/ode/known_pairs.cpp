@@ -74,7 +74,7 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
 }
 
 void KnownPairs::compute(PassMemory* memory) {
-  const PairContacts& found = scene_.collide(collider_, meshes_, memory);
+  const PairContacts& found = scene_.collide(collider_, meshes_, pass_, memory);
   if (collider_.report().backtracked) {  // nothing to keep
     scene_.drop();
     return;

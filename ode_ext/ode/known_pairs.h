@@ -29,7 +29,10 @@ class KnownPairs {
 
   // The number of the outermost pass.
   std::uint64_t pass() const { return pass_; }
-  void begin_pass() { ++pass_; }
+  void begin_pass() {
+    ++pass_;
+    members_.let_go();
+  }
   // Meshes are read anew when this number changes.
   std::uint64_t look() const { return look_; }
   void look_again() { ++look_; }

@@ -72,9 +72,20 @@ const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
 }
 
 void Members::forget(dTriMeshDataID data) {
+  destroyed_.insert(data);
+  if (16 * destroyed_.size() > map_.size()) let_go();
+}
+
+void Members::let_go() {
+  if (destroyed_.empty()) return;
   for (auto& [geom, seen] : map_)
     for (PairMember* member : {&seen.now, &seen.before})
-      if (member->data == data) *member = {};
+      if (destroyed_.contains(member->data)) {
+        member->data = nullptr;
+        member->mesh = nullptr;
+        member->stamp = 0;
+      }
+  destroyed_.clear();
 }
 
 void Members::prune(std::uint64_t pass) {

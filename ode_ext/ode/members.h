@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "search/scene.h"
 
@@ -49,8 +50,10 @@ class Members {
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
   // Forgets those that nobody asked for of late. Looks every so many passes.
   void prune(std::uint64_t pass);
-  // Forgets what geoms had of a mesh.
+  // A mesh that is destroyed: geoms that had it let go of it, a few meshes later or when let_go is
+  // called, since that takes a look at all geoms.
   void forget(dTriMeshDataID data);
+  void let_go();
   void clear() {
     map_.clear();
     ++generation_;
@@ -58,6 +61,7 @@ class Members {
 
  private:
   std::unordered_map<dGeomID, Seen> map_;
+  std::unordered_set<dTriMeshDataID> destroyed_;  // that geoms may still have
   std::uint64_t generation_ = 1;
   std::uint64_t pruned_pass_ = 0;
   std::uint64_t stamps_ = 0;  // given so far

@@ -131,18 +131,18 @@ void MeshStore::clear() {
   resident_is_stale_ = true;
 }
 
-bool MeshStore::keep_only(const std::unordered_set<const Mesh*>& used) {
-  bool any = false;
-  for (auto item = entries_.begin(); item != entries_.end();) {
-    Entry& entry = item->second;
-    const auto next = std::next(item);
-    if (entry.mesh != nullptr && !used.contains(entry.mesh.get())) {
+bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t pass) {
+  const auto drop_where = [&](const auto& is_spare) {
+    bool any = false;
+    for (auto& [data, entry] : entries_) {
+      if (entry.mesh == nullptr || used.contains(entry.mesh.get()) || !is_spare(entry)) continue;
+      drop(entry);  // and the entry stays: that it deforms, or is refused
       any = true;
-      drop(entry);
-      if (!entry.deformable) entries_.erase(item);  // else it is to be known as such again
     }
-    item = next;
-  }
+    return any;
+  };
+  const bool any = drop_where([&](const Entry& entry) { return entry.last_pass < pass; }) ||
+                   drop_where([](const Entry&) { return true; });
   if (any) resident_is_stale_ = true;
   return any;
 }

@@ -52,8 +52,9 @@ class MeshStore {
   void clear();  // forgets all, but for which are deformable
   // Forgets meshes that no pass has met for a long time.
   void prune(std::uint64_t pass);
-  // Forgets all meshes but these, which are built again when they are met; whether any was.
-  bool keep_only(const std::unordered_set<const Mesh*>& used);
+  // Drops meshes that this pass has not met; where there are none, all but these. They are built
+  // again when they are met. False: there was none to drop.
+  bool make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t pass);
 
   // All meshes in an order that does not change while only deformable ones move, which keep their
   // places; rigid ones of equal content are there once. And a place of one in it.

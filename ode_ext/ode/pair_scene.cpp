@@ -45,26 +45,27 @@ std::uint32_t PairScene::object_of(PairMember& member) {
   return member.object;
 }
 
-const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, PassMemory* memory) {
+const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, std::uint64_t pass,
+                                       PassMemory* memory) {
   const auto captured = capture_pass(&collider, members_, scene_.pairs);
-  const PairContacts& found = collide_with_room(collider, meshes, memory);
+  const PairContacts& found = collide_with_room(collider, meshes, pass, memory);
   capture_contacts(captured, found);
   return found;
 }
 
 // All meshes that are known stay on the device, those of this scene or not, as long as it has room.
 const PairContacts& PairScene::collide_with_room(Collider& collider, MeshStore& meshes,
-                                                 PassMemory* memory) {
-  set_objects(meshes);
-  try {
-    return collider.collide(scene_, memory);
-  } catch (const DeviceError& error) {
-    std::unordered_set<const Mesh*> used;
-    for (const PairMember* member : members_) used.insert(member->mesh.get());
-    if (!is_out_of_memory(error.code()) || !meshes.keep_only(used)) throw;
+                                                 std::uint64_t pass, PassMemory* memory) {
+  for (;;) {
+    set_objects(meshes);
+    try {
+      return collider.collide(scene_, memory);
+    } catch (const DeviceError& error) {
+      std::unordered_set<const Mesh*> used;
+      for (const PairMember* member : members_) used.insert(member->mesh.get());
+      if (!is_out_of_memory(error.code()) || !meshes.make_room(used, pass)) throw;
+    }
   }
-  set_objects(meshes);
-  return collider.collide(scene_, memory);
 }
 
 void PairScene::set_objects(MeshStore& meshes) {

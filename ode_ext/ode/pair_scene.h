@@ -21,7 +21,8 @@ class PairScene {
   // Members and answer have to stay where they are until the scene is collided or dropped.
   void add(Answer& answer, PairMember& a, PairMember& b, bool can_collide);
   // Throws DeviceError; the scene is to be dropped then.
-  const PairContacts& collide(Collider& collider, MeshStore& meshes, PassMemory* memory);
+  const PairContacts& collide(Collider& collider, MeshStore& meshes, std::uint64_t pass,
+                              PassMemory* memory);
   // Stores what was found.
   void store(const PairContacts& found);
   // It will not be collided: its answers do not stand.
@@ -31,7 +32,8 @@ class PairScene {
 
  private:
   std::uint32_t object_of(PairMember& member);
-  const PairContacts& collide_with_room(Collider& collider, MeshStore& meshes, PassMemory* memory);
+  const PairContacts& collide_with_room(Collider& collider, MeshStore& meshes, std::uint64_t pass,
+                                        PassMemory* memory);
   void set_objects(MeshStore& meshes);
 
   Scene scene_;

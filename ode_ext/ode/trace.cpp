@@ -21,6 +21,7 @@ namespace {
 std::mutex trace_mutex;
 std::FILE* trace = nullptr;
 bool is_first = true;
+bool is_given_up = false;  // and what is written of it stays
 
 // At the end of the program, in which threads may still make passes. A forked child leaves the
 // parent's file alone.
@@ -58,7 +59,7 @@ void open_trace_of_environment() {
   const char* path = std::getenv("ODE_EXT_TRACE");
   if (path == nullptr || *path == '\0') return;
   const std::lock_guard lock(trace_mutex);
-  if (trace != nullptr) return;
+  if (trace != nullptr || is_given_up) return;
   trace = std::fopen(path, "w");
   if (trace == nullptr)
     throw std::runtime_error("ODE_EXT_TRACE names '" + std::string(path) +
@@ -94,8 +95,8 @@ void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& st
   if (std::fflush(trace) == 0 && std::ferror(trace) == 0) return;
   std::fclose(trace);
   trace = nullptr;
-  is_first = true;
-  log(LogLevel::kError, "the trace cannot be written any more; it ends before this pass");
+  is_given_up = true;
+  log(LogLevel::kError, "the trace cannot be written any more; it ends within this pass");
 }
 
 }  // namespace ode_ext

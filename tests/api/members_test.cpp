@@ -29,5 +29,20 @@ TEST(Members, LetGoOfAMeshThatIsDestroyedOnWhateverGeomItWas) {
   EXPECT_EQ(Members::find_same(seen, gone, mesh.get(), Pose{}, 3), nullptr);
 }
 
+TEST(Members, LetGoOfMeshesThatAreDestroyedBeforeTheNextPassAtTheLatest) {
+  OdeWorld world;
+  Members members;
+  const auto mesh = std::make_shared<const Mesh>();
+  const OdeMesh& ball = world.mesh(make_icosphere(1, 1));
+  for (int i = 0; i < 40; ++i) {
+    const dGeomID geom = world.geom(ball, {});
+    members.note(members.seen(geom), geom, ball.id(), mesh, Pose{}, 1);
+  }
+  ASSERT_EQ(mesh.use_count(), 41);
+  members.forget(ball.id());
+  members.let_go();
+  EXPECT_EQ(mesh.use_count(), 1);
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -75,18 +75,20 @@ TEST_F(MeshStoreTest, ReadsAMeshOnceMoreInAPassInWhichAGeomHasOtherTriangles) {
   EXPECT_EQ(after->source.size(), mesh_.mesh().indices.size());
 }
 
-TEST_F(MeshStoreTest, KeepsOnlyTheMeshesThatAreInUseWhereItIsAsked) {
-  const OdeMesh& other = world_.mesh(make_icosphere(1.5, 2));
+TEST_F(MeshStoreTest, MakesRoomByWhatThisPassHasNotMetAndOnlyThenByTheRest) {
+  const OdeMesh& old = world_.mesh(make_icosphere(1.5, 2));
   const OdeMesh& moving = world_.mesh(make_icosphere(2, 2));
   store_.set_deformable(moving.id(), true);
-  store_.refresh(other.id(), triangles_of(other), 1, 1);
-  store_.refresh(moving.id(), triangles_of(moving), 1, 1);
-  const Mesh* used = &pass();
-  EXPECT_TRUE(store_.keep_only({used}));
+  store_.refresh(old.id(), triangles_of(old), 1, 1);
+  store_.refresh(moving.id(), triangles_of(moving), 2, 2);
+  const Mesh* used = store_.refresh(mesh_.id(), triangles_of(mesh_), 2, 2).get();
+  ASSERT_TRUE(store_.make_room({used}, 2));
+  EXPECT_EQ(store_.resident().size(), 2u);
+  ASSERT_TRUE(store_.make_room({used}, 2));
   ASSERT_EQ(store_.resident().size(), 1u);
   EXPECT_EQ(store_.resident()[0].get(), used);
-  EXPECT_FALSE(store_.keep_only({used}));
-  const Mesh* again = store_.refresh(moving.id(), triangles_of(moving), 2, 2).get();
+  EXPECT_FALSE(store_.make_room({used}, 2));
+  const Mesh* again = store_.refresh(moving.id(), triangles_of(moving), 3, 3).get();
   EXPECT_TRUE(again->deformable) << "it was forgotten that it deforms";
 }
 

@@ -101,7 +101,8 @@ TEST_F(ApiTraceDeathTest, IsGivenUpWithOneMessageWhereItCannotBeWritten) {
     });
     trace_two_passes("/dev/full");
   };
-  EXPECT_EXIT(run(), testing::ExitedWithCode(0), "^[^\n]*trace cannot be written[^\n]*\n$");
+  EXPECT_EXIT(run(), testing::ExitedWithCode(0),
+              "^[^\n]*trace cannot be written any more[^\n]*\n$");
 }
 
 }  // namespace
