@@ -252,9 +252,10 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
     if ((ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] & OX_PLANE_PASSED) == 0u) continue;
     if (size < 0.0f) size = ox_size_of(r);
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    uint* farthest = search->farthest + ox_direction_of(plane.normal);
+    ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
     ox_extent extent = ox_begin_extent(&plane);
-    if (ox_whole_depth(r, &limits, farthest, &extent) != INFINITY &&
+    if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
+        ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
         extent.past > ox_flat_of(r, &plane, size) &&
         ox_depth_beyond(r, &plane, least->judged) <= least->judged)
       return true;
@@ -266,7 +267,7 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
 // both. OX_PLANE_NONE: there is none, or a valley.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
-  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.farthest[i] = 0u;
+  for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
   ox_plane_choice of_body = ox_no_choice();
   search.refused.count = 0u;
   while (search.refused.count < OX_FEW) {
