@@ -92,7 +92,8 @@ static void ox_rate(const ox_fields* list, uint count, uint block, uint what, fl
   const ox_ints taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
   const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
   *rating = left > 0 ? (what == OX_FOR_DISTANCE ? distance2 : depth) : none;
-  if (what != OX_FOR_DISTANCE) *rating = (taken & 1 << what) == 0 ? *rating : none;
+  const ox_ints of_one_taken = taken & (ox_ints)(1 << what);
+  if (what != OX_FOR_DISTANCE) *rating = of_one_taken == 0 ? *rating : none;
   if (what != OX_FOR_REGION) *rating = distance2 > merge2 ? *rating : none;
 }
 

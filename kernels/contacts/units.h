@@ -136,8 +136,8 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
   return best;
 }
 
-// The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper, but
-// for the tie, so only those need it that are the deepest without.
+// The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper,
+// but for the tie, so only those need it that are the deepest without.
 static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
   uint k = ox_find_deepest(r, waiting);
   while ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) == 0u) {
