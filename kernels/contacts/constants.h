@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is chosen, not derived, in making contacts: all of it, but for the direction of the shift of
-// general position (lib/exact_sign.h). docs/contacts.md says what each was chosen by. Device only.
+// All that contacts depend on and that is chosen, not derived, but for the direction of the shift
+// of general position (lib/exact_sign.h). docs/contacts.md says what each was chosen by. Device
+// only.
 #ifndef ODE_EXT_KERNELS_CONTACTS_CONSTANTS_H
 #define ODE_EXT_KERNELS_CONTACTS_CONSTANTS_H
 
