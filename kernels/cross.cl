@@ -10,33 +10,31 @@
 // may overflow: OX_LIST_CROSSINGS
 #include "lib/cross.h"
 
-static void ox_cross_pairs(const ox_scene* scene, __global const ox_meshlet_pair* meshlet_pairs,
-                           __global ox_edge_crossing* crossings) {
+static void ox_cross_pairs(const ox_scene* scene) {
   const uint count = ox_length(scene, OX_LIST_MESHLET_PAIRS);
 #ifdef OX_LANES_ARE_ITEMS
   const uint per_pair = 2u * OX_BLOCKS;
   const ulong items = (ulong)count * per_pair;
   for (ulong i = scene->item; i < items; i += scene->item_count) {
-    const ox_meshlet_pair both = meshlet_pairs[i / per_pair];
+    const ox_meshlet_pair both = scene->meshlet_pairs[i / per_pair];
     const uint side = (uint)(i / OX_BLOCKS) % 2u;
     const uint block = (uint)(i % OX_BLOCKS);
     const ox_block_range blocks = {block, block + 1u};
     ox_placed_meshlets placed;
     placed.pair = OX_NONE;
-    ox_cross_sides(scene, crossings, &both, side, side + 1u, blocks, &placed);
+    ox_cross_sides(scene, &both, side, side + 1u, blocks, &placed);
   }
 #else
   ox_placed_meshlets placed;
   placed.pair = OX_NONE;
   for (uint i = scene->item; i < count; i += scene->item_count) {
-    const ox_meshlet_pair both = meshlet_pairs[i];
-    ox_cross_meshlets(scene, crossings, &both, &placed);
+    const ox_meshlet_pair both = scene->meshlet_pairs[i];
+    ox_cross_meshlets(scene, &both, &placed);
   }
 #endif
 }
 
-__kernel void cross_meshlets(OX_SCENE_PARAMETERS, __global const ox_meshlet_pair* meshlet_pairs,
-                             __global ox_edge_crossing* crossings) {
+__kernel void cross_meshlets(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_cross_pairs(&scene, meshlet_pairs, crossings);
+  ox_cross_pairs(&scene);
 }

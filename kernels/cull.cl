@@ -3,7 +3,7 @@
 // them, so that there is work for many; the other is searched by each of them (match.cl).
 //
 // in    pairs, meshes, meshlet_nodes
-// out   tasks
+// out   meshlet_tasks
 // item  1 pair (grid-stride)
 // may overflow: OX_LIST_MESHLETS
 #include "lib/meshlet.h"
@@ -13,13 +13,12 @@ typedef struct {
   uint meshlet[OX_MOST_AT_ONCE];
 } ox_kept_meshlets;
 
-static void ox_store_meshlets(const ox_scene* scene, uint pair_side, ox_kept_meshlets* kept,
-                              __global ox_meshlet_task* tasks) {
+static void ox_store_meshlets(const ox_scene* scene, uint pair_side, ox_kept_meshlets* kept) {
   uint stored;
   const uint first = ox_append_many(scene, OX_LIST_MESHLETS, kept->count, &stored);
   for (uint i = 0u; i < stored; ++i) {
-    tasks[first + i].pair_side = pair_side;
-    tasks[first + i].meshlet = kept->meshlet[i];
+    scene->meshlet_tasks[first + i].pair_side = pair_side;
+    scene->meshlet_tasks[first + i].meshlet = kept->meshlet[i];
   }
   kept->count = 0u;
 }
@@ -63,7 +62,7 @@ static bool ox_meets_target(const ox_scene* scene, const ox_children_there* ther
   return ox_meets_meshlets(&box, target, scene->surfaces.nodes);
 }
 
-static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
+static void ox_cull(const ox_scene* scene) {
   for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count) {
     __global const ox_pair* pair = scene->pairs + p;
     if (pair->near == 0u) continue;
@@ -81,7 +80,7 @@ static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
       const uint child = walk.child[--walk.count];
       if ((child & OX_CHILD_MESHLET) != 0u) {
         kept.meshlet[kept.count++] = source->meshlet_first + (child >> 1);
-        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, p << 1 | side, &kept, tasks);
+        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, p << 1 | side, &kept);
         continue;
       }
       __global const ox_meshlet_node* node =
@@ -101,11 +100,11 @@ static void ox_cull(const ox_scene* scene, __global ox_meshlet_task* tasks) {
         }
       }
     }
-    if (kept.count != 0u) ox_store_meshlets(scene, p << 1 | side, &kept, tasks);
+    if (kept.count != 0u) ox_store_meshlets(scene, p << 1 | side, &kept);
   }
 }
 
-__kernel void cull(OX_SCENE_PARAMETERS, __global ox_meshlet_task* tasks) {
+__kernel void cull(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_cull(&scene, tasks);
+  ox_cull(&scene);
 }

@@ -2,7 +2,7 @@
 // Deform step, the part of exits: where the ray from a vertex of a closed mesh leaves that mesh, as
 // mesh/exit_distance.h.
 //
-// in    moves, starts (deform_step.cl), topology, meshlets, meshlet_nodes
+// in    moves, starts (deform_step.cl), topology, vertices, meshlets, meshlet_nodes
 // out   vertices: their exits
 // item  1 vertex (grid-stride)
 // may overflow: none

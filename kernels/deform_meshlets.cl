@@ -79,7 +79,7 @@ __kernel void deform_meshlet_nodes(__global const ox_move* moves, uint move_coun
     __global ox_meshlet_node* node =
         meshlet_nodes + shape->meshlet_node_first + (i - starts[m]) / OX_LANES;
     if (k >= node->count) continue;
-    // As on the host: what the rounding of a ray's slabs can do (device_meshes.cpp).
+    // As on the host: what the rounding of a ray's slabs can do (mesh_records.cpp).
     const float margin = 0x1p-20f * shape->extent;
     for (uint axis = 0u; axis < 3u; ++axis) {
       float lo = INFINITY;

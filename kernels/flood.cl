@@ -10,11 +10,11 @@
 // those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
-//       vertices, edges, rings, facets, triangles, meshlets, meshlet_nodes
+//       vertices, edges, rings, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (lib/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
-// room  words: a table for each side (lib/flood_table.h)
+// room  flood_words: a table for each side (lib/flood_table.h)
 // item  1 side of a pair (of a queue)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #include "lib/closest.h"
@@ -25,13 +25,11 @@
 #include "lib/vertex_ray.h"
 
 typedef struct {
-  ox_scene scene;
+  const ox_scene* scene;
   __global const ox_pair* pair;
   uint pair_side;
   __global const ox_mesh* source;
   __global const ox_mesh* target;
-  __global ox_edge_crossing* crossings;
-  __global uint* words;
   ox_flood_table table;
   bool leaks;    // the flood got round the border of an open target
   bool told;     // a crossing tells of an end of its edge
@@ -45,36 +43,38 @@ static bool ox_is_open(const ox_flood_state* s) {
 }
 
 static bool ox_has_key(const ox_flood_state* s, uint key) {
-  return s->table.places != 0u && s->words[ox_find_key(s->words, &s->table, key)] != 0u;
+  return s->table.places != 0u &&
+         s->scene->flood_words[ox_find_key(s->scene, &s->table, key)] != 0u;
 }
 
 // Of a key that is not there. False: there is no room.
 static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
-  if (!ox_grow_table(&s->scene, s->words, &s->table)) return false;
-  const uint word = ox_find_key(s->words, &s->table, key);
-  s->words[word] = key;
-  s->words[word + 1u] = value;
+  if (!ox_grow_table(s->scene, &s->table)) return false;
+  const uint word = ox_find_key(s->scene, &s->table, key);
+  s->scene->flood_words[word] = key;
+  s->scene->flood_words[word + 1u] = value;
   ++s->table.used;
   return true;
 }
 
 static bool ox_is_looked_at(const ox_flood_state* s, uint vertex) {
   if (s->table.places == 0u) return false;
-  const uint word = ox_find_key(s->words, &s->table, OX_KEY(vertex / 32u, OX_KEY_VERTICES));
-  return s->words[word] != 0u && (s->words[word + 1u] >> vertex % 32u & 1u) != 0u;
+  const uint word = ox_find_key(s->scene, &s->table, OX_KEY(vertex / 32u, OX_KEY_VERTICES));
+  return s->scene->flood_words[word] != 0u &&
+         (s->scene->flood_words[word + 1u] >> vertex % 32u & 1u) != 0u;
 }
 
 // False: there is no room.
 static bool ox_look_at(ox_flood_state* s, uint vertex) {
-  if (!ox_grow_table(&s->scene, s->words, &s->table)) return false;
+  if (!ox_grow_table(s->scene, &s->table)) return false;
   const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
-  const uint word = ox_find_key(s->words, &s->table, key);
-  if (s->words[word] == 0u) {
-    s->words[word] = key;
-    s->words[word + 1u] = 0u;
+  const uint word = ox_find_key(s->scene, &s->table, key);
+  if (s->scene->flood_words[word] == 0u) {
+    s->scene->flood_words[word] = key;
+    s->scene->flood_words[word + 1u] = 0u;
     ++s->table.used;
   }
-  s->words[word + 1u] |= 1u << vertex % 32u;
+  s->scene->flood_words[word + 1u] |= 1u << vertex % 32u;
   return true;
 }
 
@@ -91,52 +91,52 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
     return false;
   }
   if (!ox_look_at(s, vertex)) return false;
-  ox_queue(s->words, &s->table)[s->table.queued++] = vertex | begins;
+  ox_queue(s->scene, &s->table)[s->table.queued++] = vertex | begins;
   return true;
 }
 
 static uint ox_queued(const ox_flood_state* s, uint i) {
-  return ox_queue(s->words, &s->table)[i] & ~OX_QUEUE_BEGINS;
+  return ox_queue(s->scene, &s->table)[i] & ~OX_QUEUE_BEGINS;
 }
 
 // What hangs together lies in the queue one after the other; all of it names the first of it that
 // bounds anything.
-static void ox_cast_queue(const ox_flood_state* s, __global ox_ray* rays) {
+static void ox_cast_queue(const ox_flood_state* s) {
   uint first = OX_NONE;
   for (uint i = 0u; i < s->table.queued; ++i) {
     const uint vertex = ox_queued(s, i);
-    if (vertex != ox_queue(s->words, &s->table)[i]) first = OX_NONE;
+    if (vertex != ox_queue(s->scene, &s->table)[i]) first = OX_NONE;
     if (ox_is_open(s)) {
-      ox_append_ray(&s->scene, s->pair_side, vertex, rays);
+      ox_append_ray(s->scene, s->pair_side, vertex);
       continue;
     }
-    if (ox_is_flat_vertex(&s->scene, s->pair, s->pair_side & 1u, vertex)) continue;
+    if (ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex)) continue;
     if (first == OX_NONE) first = vertex;
-    ox_append_inside(&s->scene, s->pair_side, vertex,
-                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first, rays);
+    ox_append_inside(s->scene, s->pair_side, vertex,
+                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
   }
 }
 
 // Every vertex of the source is the vertex step's.
-static void ox_look_at_all(const ox_flood_state* s, __global ox_chunk_task* tasks) {
+static void ox_look_at_all(const ox_flood_state* s) {
   for (uint k = 0u; k < s->source->chunk_count; ++k) {
     const uint chunk = s->source->chunk_first + k;
-    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene.chunks + chunk)) continue;
-    const uint index = ox_append(&s->scene, OX_LIST_CHUNKS);
+    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene->chunks + chunk)) continue;
+    const uint index = ox_append(s->scene, OX_LIST_CHUNKS);
     if (index == OX_NONE) continue;
-    tasks[index].pair_side = s->pair_side;
-    tasks[index].chunk = chunk;
+    s->scene->tasks[index].pair_side = s->pair_side;
+    s->scene->tasks[index].chunk = chunk;
   }
 }
 
 // Strings the crossings of an edge together, from the last to come on.
 static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
-  __global ox_edge_crossing* c = s->crossings + crossing;
+  __global ox_edge_crossing* c = s->scene->crossings + crossing;
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
   if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
-  const uint word = ox_find_key(s->words, &s->table, key);
-  c->of_edge = s->words[word + 1u];
-  s->words[word + 1u] = crossing;
+  const uint word = ox_find_key(s->scene, &s->table, key);
+  c->of_edge = s->scene->flood_words[word + 1u];
+  s->scene->flood_words[word + 1u] = crossing;
   return true;
 }
 
@@ -148,38 +148,38 @@ static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
 // which rounding may have changed the order, at a ridge, in a valley, or where the edge runs along
 // a face, are passed over together where as many enter as leave.
 static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
-  const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
-  if (s->words[word] == 0u) return OX_END_UNPARTED;
-  const uint all = s->words[word + 1u];
-  if (s->crossings[all].of_edge == OX_NONE)  // as mostly
-    return (s->crossings[all].leaves != 0u) == (end == 0u) ? OX_END_INSIDE : OX_END_OUTSIDE;
+  const uint word = ox_find_key(s->scene, &s->table, OX_KEY(edge, OX_KEY_EDGE));
+  if (s->scene->flood_words[word] == 0u) return OX_END_UNPARTED;
+  const uint all = s->scene->flood_words[word + 1u];
+  if (s->scene->crossings[all].of_edge == OX_NONE)  // as mostly
+    return (s->scene->crossings[all].leaves != 0u) == (end == 0u) ? OX_END_INSIDE : OX_END_OUTSIDE;
   const float sign = end == 0u ? 1.0f : -1.0f;
   const float near = s->pair->epsilon;
   for (float passed = -INFINITY;;) {
     float first = INFINITY;
     float last = -INFINITY;
-    for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
-      const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
+    for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
+      const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
       if (begin <= passed || begin >= first) continue;
       first = begin;
-      last = sign * s->crossings[c].t + s->crossings[c].blur + near;
+      last = sign * s->scene->crossings[c].t + s->scene->crossings[c].blur + near;
     }
     if (first == INFINITY) return OX_END_UNPARTED;
     for (bool more = true; more;) {
       more = false;
-      for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
-        const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
-        const float until = sign * s->crossings[c].t + s->crossings[c].blur + near;
+      for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
+        const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
+        const float until = sign * s->scene->crossings[c].t + s->scene->crossings[c].blur + near;
         if (begin < first || begin > last || until <= last) continue;
         last = until;
         more = true;
       }
     }
     int leaving = 0;
-    for (uint c = all; c != OX_NONE; c = s->crossings[c].of_edge) {
-      const float begin = sign * s->crossings[c].t - s->crossings[c].blur - near;
+    for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
+      const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
       if (begin >= first && begin <= last)
-        leaving += (s->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
+        leaving += (s->scene->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
     }
     if (leaving != 0) return leaving > 0 ? OX_END_INSIDE : OX_END_OUTSIDE;
     passed = last;
@@ -192,9 +192,9 @@ static bool ox_is_parted(const ox_flood_state* s, uint edge) {
 
 // Whether it is the crossing by which its edge is looked at, once for all of them.
 static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
-  const uint edge = s->crossings[crossing].edge;
-  const uint word = ox_find_key(s->words, &s->table, OX_KEY(edge, OX_KEY_EDGE));
-  return s->words[word + 1u] == crossing;
+  const uint edge = s->scene->crossings[crossing].edge;
+  const uint word = ox_find_key(s->scene, &s->table, OX_KEY(edge, OX_KEY_EDGE));
+  return s->scene->flood_words[word + 1u] == crossing;
 }
 
 #define OX_OUTSIDE_SO_FAR 0u  // of a target of several parts: behind the wall in front of it it may
@@ -204,7 +204,7 @@ static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
 // of a mesh of several parts, of which some may have crossings and others none.
 static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
-    const uint outside = OX_KEY(s->scene.edges[edge].vertex[end], OX_KEY_OUTSIDE);
+    const uint outside = OX_KEY(s->scene->edges[edge].vertex[end], OX_KEY_OUTSIDE);
     if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
         !ox_add_key(s, outside, OX_OUTSIDE_SO_FAR))
       return false;
@@ -215,8 +215,8 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 // On from the next vertex of the queue over edges that do not cross.
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
   const uint vertex = ox_queued(s, (*next)++);
-  for (uint i = s->scene.ring_starts[vertex]; i < s->scene.ring_starts[vertex + 1u]; ++i) {
-    const ox_neighbour neighbour = s->scene.rings[i];
+  for (uint i = s->scene->ring_starts[vertex]; i < s->scene->ring_starts[vertex + 1u]; ++i) {
+    const ox_neighbour neighbour = s->scene->rings[i];
     if (ox_is_looked_at(s, neighbour.vertex)) continue;  // as mostly
     if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, 0u)) return false;
   }
@@ -238,7 +238,7 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint side = ox_side_of_end(s, edge, end);
     if (side != OX_END_UNPARTED) s->told = true;
-    if (side == OX_END_INSIDE && !ox_flood_from(s, s->scene.edges[edge].vertex[end], next))
+    if (side == OX_END_INSIDE && !ox_flood_from(s, s->scene->edges[edge].vertex[end], next))
       return false;
   }
   return true;
@@ -247,23 +247,23 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
 // Whether a vertex is so near the surface that rounding may say on which side.
 static bool ox_is_near_surface(const ox_flood_state* s, uint vertex) {
   const float3 p =
-      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene.vertices[vertex].position));
+      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene->vertices[vertex].position));
   const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
-  return ox_closest_triangle(&s->scene.surfaces, s->target, p, near, 0.0f) != OX_NONE;
+  return ox_closest_triangle(&s->scene->surfaces, s->target, p, near, 0.0f) != OX_NONE;
 }
 
 // Whether a vertex that is not near the surface is inside of a closed target.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
-  __global const ox_vertex* vertex = s->scene.vertices + index;
+  __global const ox_vertex* vertex = s->scene->vertices + index;
   float3 p = ox_transform(s->pair, side, vload3(0, vertex->position));
   // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
   // larger by so much. Rays of vertices start as far out of their own mesh.
   const float out = OX_INFLATION * s->pair->epsilon;
   if (side == 0u) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
-  return ox_winds_about(p, (float3)(0.0f), s->pair->epsilon, s->target, &s->scene.surfaces) ||
+  return ox_winds_about(p, (float3)(0.0f), s->pair->epsilon, s->target, &s->scene->surfaces) ||
          (side != 0u &&
-          ox_closest_triangle(&s->scene.surfaces, s->target, p, out, 0.0f) != OX_NONE);
+          ox_closest_triangle(&s->scene->surfaces, s->target, p, out, 0.0f) != OX_NONE);
 }
 
 // Of vertices that hang together without a crossing, so that they are all on one side, one of which
@@ -271,7 +271,7 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
 // surface that rounding may have answered, the flood goes on to the first that does not, which
 // tells; where all do, `is_near_inside`. False: there is no room.
 static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_inside, uint* next) {
-  if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->scene.meshes, s->scene.vertices + vertex))
+  if (!ox_keep_vertex(s->pair, s->pair_side & 1u, s->scene->meshes, s->scene->vertices + vertex))
     return true;
   bool is_near = ox_is_near_surface(s, vertex);
   bool is_inside = ox_is_vertex_inside(s, vertex) && (!is_near || is_near_inside);
@@ -294,13 +294,13 @@ static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_insi
 
 static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
-    const uint vertex = s->scene.edges[edge].vertex[end];
+    const uint vertex = s->scene->edges[edge].vertex[end];
     if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_is_looked_at(s, vertex)) continue;
     const uint key = OX_KEY(vertex, OX_KEY_OUTSIDE);
     if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_OUTSIDE_SO_FAR)) return false;
-    const uint word = ox_find_key(s->words, &s->table, key);
-    if (s->words[word + 1u] == OX_OUTSIDE_ASKED) continue;
-    s->words[word + 1u] = OX_OUTSIDE_ASKED;
+    const uint word = ox_find_key(s->scene, &s->table, key);
+    if (s->scene->flood_words[word + 1u] == OX_OUTSIDE_ASKED) continue;
+    s->scene->flood_words[word + 1u] = OX_OUTSIDE_ASKED;
     // What is all on the surface of another part is no deeper in it than rounding.
     if (!ox_flood_if_inside(s, vertex, false, next)) return false;
   }
@@ -317,14 +317,14 @@ static bool ox_flood_components(ox_flood_state* s, uint* next) {
   if (ox_is_open(s)) return true;
   s->asks = true;
   if (s->source->component_count == 1u)
-    return s->told || ox_flood_component(s, s->scene.chunks[s->source->chunk_first].first, next);
+    return s->told || ox_flood_component(s, s->scene->chunks[s->source->chunk_first].first, next);
   // What is inside of the target is in its box.
   const ox_box box = ox_target_box(s->pair, s->pair_side & 1u, s->target);
   ox_box_walk walk = ox_begin_box_walk(s->source);
   for (;;) {
-    const uint m = ox_next_in_box(&walk, &box, s->source, s->scene.surfaces.nodes);
+    const uint m = ox_next_in_box(&walk, &box, s->source, s->scene->surfaces.nodes);
     if (m == OX_NONE) return true;
-    __global const ox_meshlet* meshlet = s->scene.surfaces.meshlets + m;
+    __global const ox_meshlet* meshlet = s->scene->surfaces.meshlets + m;
     for (uint firsts = meshlet->firsts; firsts != 0u; firsts &= firsts - 1u)
       if (!ox_flood_component(s, meshlet->vertex_index[ox_lowest(firsts)], next)) return false;
   }
@@ -333,58 +333,54 @@ static bool ox_flood_components(ox_flood_state* s, uint* next) {
 // False: there is no room, or the flood leaks.
 static bool ox_flood(ox_flood_state* s, uint head) {
   uint count = 0u;
-  for (uint c = head; c != OX_NONE; c = s->crossings[c].before) ++count;
+  for (uint c = head; c != OX_NONE; c = s->scene->crossings[c].before) ++count;
   uint places = OX_LEAST_PLACES;
   while (places < 4u * count) places *= 2u;
   s->table.places = s->table.used = s->table.queued = 0u;
   if (count != 0u) {
-    s->table = ox_empty_table(&s->scene, s->words, places);
+    s->table = ox_empty_table(s->scene, places);
     if (s->table.places == 0u) return false;
   }
   uint next = s->table.queued;
-  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
+  for (uint c = head; c != OX_NONE; c = s->scene->crossings[c].before)
     if (!ox_string_crossing(s, c)) return false;
   const bool marks = ox_is_open(s) || s->source->component_count > 1u;
-  for (uint c = head; c != OX_NONE && marks; c = s->crossings[c].before)
-    if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->crossings[c].edge)) return false;
-  for (uint c = head; c != OX_NONE; c = s->crossings[c].before)
-    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->crossings[c].edge, &next)) return false;
+  for (uint c = head; c != OX_NONE && marks; c = s->scene->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_mark_ends(s, s->scene->crossings[c].edge)) return false;
+  for (uint c = head; c != OX_NONE; c = s->scene->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_flood_ends(s, s->scene->crossings[c].edge, &next)) return false;
   const bool many_parts = !ox_is_open(s) && s->target->component_count > 1u;
-  for (uint c = head; c != OX_NONE && many_parts; c = s->crossings[c].before)
-    if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->crossings[c].edge, &next)) return false;
+  for (uint c = head; c != OX_NONE && many_parts; c = s->scene->crossings[c].before)
+    if (ox_is_for_edge(s, c) && !ox_flood_other_ends(s, s->scene->crossings[c].edge, &next))
+      return false;
   s->crossed = s->table.queued;
   return ox_flood_components(s, &next);
 }
 
-static void ox_flood_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                           __global ox_chunk_task* tasks, __global ox_ray* rays,
-                           __global uint* words) {
+static void ox_flood_sides(const ox_scene* scene) {
   const uint first = 2u * scene->pair_first;
   for (uint i = first + ox_next_item(scene, OX_QUEUE_FLOOD); i < 2u * scene->pair_end;
        i = first + ox_next_item(scene, OX_QUEUE_FLOOD)) {
     __global const ox_pair* pair = scene->pairs + (i >> 1);
     if (pair->near == 0u) continue;
     ox_flood_state state;
-    state.scene = *scene;
+    state.scene = scene;
     state.pair = pair;
     state.pair_side = i;
     state.source = scene->meshes + pair->mesh[i & 1u];
     state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
-    state.crossings = crossings;
-    state.words = words;
     state.told = state.asks = state.refuted = false;
     state.crossed = 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
     if (state.leaks)
-      ox_look_at_all(&state, tasks);
+      ox_look_at_all(&state);
     else
-      ox_cast_queue(&state, rays);
+      ox_cast_queue(&state);
   }
 }
 
-__kernel void flood(OX_SCENE_PARAMETERS, __global ox_edge_crossing* crossings,
-                    __global ox_chunk_task* tasks, __global ox_ray* rays, __global uint* words) {
+__kernel void flood(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_flood_sides(&scene, crossings, tasks, rays, words);
+  ox_flood_sides(&scene);
 }

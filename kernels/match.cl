@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Match: which meshlets of the other mesh can this one meet?
 //
-// in    tasks, pairs, meshes, meshlets, meshlet_nodes
+// in    meshlet_tasks, pairs, meshes, meshlets, meshlet_nodes
 // out   meshlet_pairs; what cross.cl puts out, of what these have no room for: boxes
 //       may overlap by the million where next to nothing crosses, so their list grows with what is
 //       predicted and no further, and what it cannot take is crossed at once (cross.cl)
@@ -14,9 +14,8 @@ typedef struct {
   uint meshlet[OX_MOST_AT_ONCE];  // of the other mesh
 } ox_met_meshlets;
 
-static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, ox_met_meshlets* met,
-                           __global ox_meshlet_pair* meshlet_pairs,
-                           __global ox_edge_crossing* crossings) {
+static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task,
+                           ox_met_meshlets* met) {
   const uint side = task->pair_side & 1u;
   ox_placed_meshlets placed;
   placed.pair = OX_NONE;
@@ -29,19 +28,17 @@ static void ox_store_pairs(const ox_scene* scene, const ox_meshlet_task* task, o
     both.meshlet[1u - side] = met->meshlet[i];
     both.padding = 0u;
     if (i < stored)
-      meshlet_pairs[first + i] = both;
+      scene->meshlet_pairs[first + i] = both;
     else
-      ox_cross_meshlets(scene, crossings, &both, &placed);
+      ox_cross_meshlets(scene, &both, &placed);
   }
   met->count = 0u;
 }
 
-static void ox_match(const ox_scene* scene, __global const ox_meshlet_task* tasks,
-                     __global ox_meshlet_pair* meshlet_pairs,
-                     __global ox_edge_crossing* crossings) {
+static void ox_match(const ox_scene* scene) {
   const uint count = ox_length(scene, OX_LIST_MESHLETS);
   for (uint i = scene->item; i < count; i += scene->item_count) {
-    const ox_meshlet_task task = tasks[i];
+    const ox_meshlet_task task = scene->meshlet_tasks[i];
     const uint side = task.pair_side & 1u;
     __global const ox_pair* pair = scene->pairs + (task.pair_side >> 1);
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
@@ -67,15 +64,13 @@ static void ox_match(const ox_scene* scene, __global const ox_meshlet_task* task
         continue;
       }
       met.meshlet[met.count++] = target->meshlet_first + (child >> 1);
-      if (met.count == OX_MOST_AT_ONCE)
-        ox_store_pairs(scene, &task, &met, meshlet_pairs, crossings);
+      if (met.count == OX_MOST_AT_ONCE) ox_store_pairs(scene, &task, &met);
     }
-    if (met.count != 0u) ox_store_pairs(scene, &task, &met, meshlet_pairs, crossings);
+    if (met.count != 0u) ox_store_pairs(scene, &task, &met);
   }
 }
 
-__kernel void match(OX_SCENE_PARAMETERS, __global const ox_meshlet_task* tasks,
-                    __global ox_meshlet_pair* meshlet_pairs, __global ox_edge_crossing* crossings) {
+__kernel void match(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_match(&scene, tasks, meshlet_pairs, crossings);
+  ox_match(&scene);
 }

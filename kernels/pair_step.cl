@@ -79,16 +79,15 @@ static void ox_begin_found(__global ox_found* found) {
   found->head[1] = OX_NONE;
 }
 
-static void ox_relate_pairs(const ox_scene* scene, __global const ox_object* objects,
-                            __global const uint* pair_objects, __global ox_range* pair_ranges) {
+static void ox_relate_pairs(const ox_scene* scene) {
   for (uint p = scene->pair_first + scene->item; p < scene->pair_end; p += scene->item_count) {
     ox_begin_found(scene->found + p);
-    pair_ranges[p].first = 0u;
-    pair_ranges[p].count = 0u;
+    scene->pair_ranges[p].first = 0u;
+    scene->pair_ranges[p].count = 0u;
     scene->pairs[p].near = 0u;
 
-    __global const ox_object* a = objects + pair_objects[2u * p];
-    __global const ox_object* b = objects + pair_objects[2u * p + 1u];
+    __global const ox_object* a = scene->objects + scene->pair_objects[2u * p];
+    __global const ox_object* b = scene->objects + scene->pair_objects[2u * p + 1u];
     __global const ox_mesh* mesh_a = scene->meshes + a->mesh;
     __global const ox_mesh* mesh_b = scene->meshes + b->mesh;
     __global ox_pair* pair = scene->pairs + p;
@@ -116,8 +115,7 @@ static void ox_relate_pairs(const ox_scene* scene, __global const ox_object* obj
   }
 }
 
-__kernel void pair_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
-                        __global const uint* pair_objects, __global ox_range* pair_ranges) {
+__kernel void pair_step(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_relate_pairs(&scene, objects, pair_objects, pair_ranges);
+  ox_relate_pairs(&scene);
 }

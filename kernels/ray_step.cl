@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ray step (GRAPP section 3.3): where does the ray from this vertex leave the target?
 //
-// in    rays, crossings, pairs, meshes, vertices, triangles, meshlets, meshlet_nodes
+// in    rays, crossings, found, pairs, meshes, vertices, edges, triangles, meshlets, meshlet_nodes
 // out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
@@ -13,12 +13,11 @@ static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float m
   return ox_dot(vload3(0, triangle->normal), p - vload3(0, triangle->a)) <= margin;
 }
 
-static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
-                         __global const ox_edge_crossing* crossings, __global ox_hit* hits) {
+static void ox_cast_rays(const ox_scene* scene) {
   const uint first = scene->lists[OX_LIST_RAYS].first;
   const uint count = ox_length(scene, OX_LIST_RAYS);
   for (uint i = scene->item; i < count; i += scene->item_count) {
-    const ox_ray ray = rays[first + i];
+    const ox_ray ray = scene->rays[first + i];
     const uint side = ray.pair_side & 1u;
     __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
     __global const ox_mesh* source = scene->meshes + pair->mesh[side];
@@ -45,15 +44,14 @@ static void ox_cast_rays(const ox_scene* scene, __global const ox_ray* rays,
     const bool may_be_behind = (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
                                (source->flags & OX_MESH_CLOSED) != 0u;
     if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit &&
-        !ox_goes_on(scene, ray.pair_side, crossings,
-                    vertex_ray.origin + outcome.t * vertex_ray.direction, outcome.t))
+        !ox_goes_on(scene, ray.pair_side, vertex_ray.origin + outcome.t * vertex_ray.direction,
+                    outcome.t))
       continue;
-    ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, &outcome, hits);
+    ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, &outcome);
   }
 }
 
-__kernel void ray_step(OX_SCENE_PARAMETERS, __global const ox_ray* rays,
-                       __global const ox_edge_crossing* crossings, __global ox_hit* hits) {
+__kernel void ray_step(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_cast_rays(&scene, rays, crossings, hits);
+  ox_cast_rays(&scene);
 }

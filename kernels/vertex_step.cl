@@ -9,20 +9,18 @@
 // may overflow: OX_LIST_RAYS
 #include "lib/vertex_ray.h"
 
-static void ox_choose_vertices(const ox_scene* scene, __global const ox_chunk_task* tasks,
-                               __global ox_ray* rays) {
+static void ox_choose_vertices(const ox_scene* scene) {
   const uint count = ox_length(scene, OX_LIST_CHUNKS) * OX_CHUNK_VERTICES;
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global const ox_chunk_task* task =
-        tasks + scene->lists[OX_LIST_CHUNKS].first + i / OX_CHUNK_VERTICES;
+        scene->tasks + scene->lists[OX_LIST_CHUNKS].first + i / OX_CHUNK_VERTICES;
     __global const ox_chunk* chunk = scene->chunks + task->chunk;
     const uint lane = i % OX_CHUNK_VERTICES;
-    if (lane < chunk->count) ox_append_ray(scene, task->pair_side, chunk->first + lane, rays);
+    if (lane < chunk->count) ox_append_ray(scene, task->pair_side, chunk->first + lane);
   }
 }
 
-__kernel void vertex_step(OX_SCENE_PARAMETERS, __global const ox_chunk_task* tasks,
-                          __global ox_ray* rays) {
+__kernel void vertex_step(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_choose_vertices(&scene, tasks, rays);
+  ox_choose_vertices(&scene);
 }

@@ -25,27 +25,6 @@
 #include "vertex_step.cl"
 #endif
 
-// The part of the lists that is one work-item's: what of each pair it appends, and what becomes of
-// that. The next pair takes the place of the last, so it is all in the cache of a core.
-typedef struct {
-  __global ox_meshlet_task* meshlet_tasks;
-  __global ox_meshlet_pair* meshlet_pairs;
-  __global ox_edge_crossing* crossings;
-  __global ox_chunk_task* tasks;
-  __global ox_ray* rays;
-  __global uint* words;
-  __global ox_hit* hits;
-  __global ox_feature* features;
-  __global uint* parents;
-  __global uint* slots;
-  __global ox_region* regions;
-  __global float* members;
-  __global ox_face* faces;
-  __global float* planes;
-  __global uint* edge_planes;
-  __global float* candidates;
-} ox_share;
-
 static void ox_clear_counters(const ox_scene* scene) {
   for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) scene->counters[i * OX_COUNTER_STRIDE] = 0u;
 }
@@ -71,74 +50,70 @@ static bool ox_fits(const ox_scene* scene, uint list) {
 }
 
 // The features of a pair; false: they do not fit into a share.
-static bool ox_find_features(const ox_scene* scene, const ox_share* share) {
-  ox_cull(scene, share->meshlet_tasks);
+static bool ox_find_features(const ox_scene* scene) {
+  ox_cull(scene);
   if (!ox_fits(scene, OX_LIST_MESHLETS)) return false;
-  ox_match(scene, share->meshlet_tasks, share->meshlet_pairs, share->crossings);
-  ox_cross_pairs(scene, share->meshlet_pairs, share->crossings);
+  ox_match(scene);
+  ox_cross_pairs(scene);
   if (!ox_fits(scene, OX_LIST_MESHLET_PAIRS) || !ox_fits(scene, OX_LIST_CROSSINGS)) return false;
-  ox_flood_sides(scene, share->crossings, share->tasks, share->rays, share->words);
-  ox_choose_vertices(scene, share->tasks, share->rays);
+  ox_flood_sides(scene);
+  ox_choose_vertices(scene);
   if (!ox_fits(scene, OX_LIST_FLOOD_WORDS) || !ox_fits(scene, OX_LIST_CHUNKS) ||
       !ox_fits(scene, OX_LIST_RAYS))
     return false;
-  ox_cast_rays(scene, share->rays, share->crossings, share->hits);
+  ox_cast_rays(scene);
   return ox_fits(scene, OX_LIST_HITS);
 }
 
-static void ox_assemble_features(const ox_scene* scene, const ox_share* share) {
-  ox_gather_features(scene, share->crossings, share->hits, share->features, share->parents,
-                     share->slots, share->faces);
+static void ox_assemble_features(const ox_scene* scene) {
+  ox_gather_features(scene);
   ox_place_features(scene);
-  ox_link_features(scene, share->features, share->slots);
-  ox_join_features(scene, share->crossings, share->features, share->parents, share->slots);
-  ox_begin_regions(scene, share->features, share->parents, share->regions);
-  ox_count_members(scene, share->features, share->parents, share->regions);
-  ox_place_regions(scene, share->regions);
-  ox_fill_regions(scene, share->features, share->regions, share->members, share->faces);
-  ox_propose_planes(scene, share->features, share->regions, share->faces, share->planes,
-                    share->edge_planes);
-  ox_choose_planes(scene, share->features, share->regions, share->members, share->faces,
-                   share->planes, share->edge_planes, share->candidates);
+  ox_link_features(scene);
+  ox_join_features(scene);
+  ox_begin_regions(scene);
+  ox_count_members(scene);
+  ox_place_regions(scene);
+  ox_fill_regions(scene);
+  ox_propose_planes(scene);
+  ox_choose_planes(scene);
+  ox_reduce_candidates(scene);
 }
 
-__kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
-                         __global const uint* pair_objects, __global ox_range* pair_ranges,
-                         __global ox_meshlet_task* meshlet_tasks,
-                         __global ox_meshlet_pair* meshlet_pairs,
-                         __global ox_edge_crossing* crossings, __global ox_chunk_task* tasks,
-                         __global ox_ray* rays, __global uint* words, __global ox_hit* hits,
-                         __global float* candidates, uint max_contacts, uint max_deformable,
-                         __global ox_contact* contacts, __global ox_feature* features,
-                         __global uint* parents, __global uint* slots, __global ox_region* regions,
-                         __global float* members, __global ox_face* faces, __global float* planes,
-                         __global uint* edge_planes) {
+// Of the lists the part that is one work-item's: what of each pair it appends, and what becomes of
+// that. The next pair takes the place of the last, so it is all in the cache of a core. Contacts
+// are all work-items'.
+static void ox_take_share(ox_scene* scene) {
+  const uint item = scene->item;
+  scene->counters += (OX_COUNTERS_SHARES + item) * OX_COUNTER_WORDS;
+  scene->lists += OX_LIST_COUNT;
+  scene->item = 0u;
+  scene->item_count = 1u;
+  scene->alone = true;
+  __global const ox_list* each = scene->lists;
+  scene->meshlet_tasks += item * each[OX_LIST_MESHLETS].capacity;
+  scene->meshlet_pairs += item * each[OX_LIST_MESHLET_PAIRS].capacity;
+  scene->crossings += item * each[OX_LIST_CROSSINGS].capacity;
+  scene->flood_words += item * each[OX_LIST_FLOOD_WORDS].capacity;
+  scene->tasks += item * each[OX_LIST_CHUNKS].capacity;
+  scene->rays += item * each[OX_LIST_RAYS].capacity;
+  scene->hits += item * each[OX_LIST_HITS].capacity;
+  const ulong first =
+      item * ((ulong)each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity);
+  scene->features += first;
+  scene->parents += first;
+  scene->slots += OX_SLOTS_PER_FEATURE * first;
+  scene->regions += first;
+  scene->members += OX_MEMBER_WORDS * first;
+  scene->faces += OX_FACES_PER_FEATURE * first;
+  scene->planes += OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * first;
+  scene->edge_planes += 2u * first;
+  scene->candidates += OX_CANDIDATE_WORDS * first;
+}
+
+__kernel void whole_step(OX_SCENE_PARAMETERS) {
   ox_scene scene = OX_SCENE;
+  ox_take_share(&scene);
   __global volatile uint* totals = counters + OX_COUNTERS_TOTALS * OX_COUNTER_WORDS;
-  const uint item = scene.item;
-  scene.counters = counters + (OX_COUNTERS_SHARES + item) * OX_COUNTER_WORDS;
-  scene.lists = lists + OX_LIST_COUNT;
-  scene.item = 0u;
-  scene.item_count = 1u;
-  scene.alone = true;
-  __global const ox_list* each = scene.lists;
-  const ulong n = (ulong)each[OX_LIST_CROSSINGS].capacity + each[OX_LIST_HITS].capacity;
-  const ox_share share = {meshlet_tasks + item * each[OX_LIST_MESHLETS].capacity,
-                          meshlet_pairs + item * each[OX_LIST_MESHLET_PAIRS].capacity,
-                          crossings + item * each[OX_LIST_CROSSINGS].capacity,
-                          tasks + item * each[OX_LIST_CHUNKS].capacity,
-                          rays + item * each[OX_LIST_RAYS].capacity,
-                          words + item * each[OX_LIST_FLOOD_WORDS].capacity,
-                          hits + item * each[OX_LIST_HITS].capacity,
-                          features + item * n,
-                          parents + item * n,
-                          slots + item * OX_SLOTS_PER_FEATURE * n,
-                          regions + item * n,
-                          members + item * OX_MEMBER_WORDS * n,
-                          faces + item * OX_FACES_PER_FEATURE * n,
-                          planes + item * OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * n,
-                          edge_planes + item * 2u * n,
-                          candidates + item * OX_CANDIDATE_WORDS * n};
   ox_sums sums;
   for (uint i = 0u; i < OX_COUNTER_COUNT; ++i) sums.of[i] = 0u;
   for (;;) {
@@ -147,12 +122,10 @@ __kernel void whole_step(OX_SCENE_PARAMETERS, __global const ox_object* objects,
     scene.pair_first = p;
     scene.pair_end = p + 1u;
     ox_clear_counters(&scene);
-    ox_relate_pairs(&scene, objects, pair_objects, pair_ranges);
+    ox_relate_pairs(&scene);
     if (pairs[p].near == 0u) continue;
-    if (ox_find_features(&scene, &share)) {
-      ox_assemble_features(&scene, &share);
-      ox_reduce_candidates(&scene, share.candidates, max_contacts, max_deformable, pair_ranges,
-                           contacts);
+    if (ox_find_features(&scene)) {
+      ox_assemble_features(&scene);
       pairs[p].near = 0u;
     } else {
       ox_clear_counters(&scene);

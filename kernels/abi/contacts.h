@@ -14,7 +14,7 @@
 #define OX_FEATURE_FLAT 8u       // within a facet: of no contact, and no member of a region
 #define OX_FEATURE_REVERSED 16u  // of a vertex: it is behind the face whose normal is turned
 
-typedef struct {
+typedef struct ox_feature {
   ox_f32 position[3];  // in the frame of B
   ox_u32 pair;
   ox_u32 flags;     // OX_FEATURE_...
@@ -33,7 +33,7 @@ typedef struct {
 OX_STATIC_ASSERT(sizeof(ox_feature) == 64, ox_feature_is_64_bytes);
 
 // Features that hang together, along edges and along the curve in which the surfaces meet.
-typedef struct {
+typedef struct ox_region {
   ox_u32 pair;
   ox_u32 first, count;  // of its members; of its planes the first is OX_PLANES_PER_FEATURE * first
   ox_u32 placed;        // of its members, so far
@@ -65,7 +65,7 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
 
 // A place in the table of the faces of a region, one of each facet.
-typedef struct {
+typedef struct ox_face {
   ox_u32 key;    // facet << 1 | mesh; OX_NONE: free
   ox_u32 owner;  // region, among all, << 1 | whether the curve of the surfaces runs over the facet
   ox_u32 triangle;  // the first of those of the facet that are at features of the region

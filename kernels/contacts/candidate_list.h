@@ -9,9 +9,8 @@
 
 #define OX_MAX_CONTACTS 64u
 
-static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair,
-                                         __global float* candidates) {
-  const ox_fields list = {candidates + (ulong)OX_CANDIDATE_WORDS * scene->found[pair].first,
+static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair) {
+  const ox_fields list = {scene->candidates + (ulong)OX_CANDIDATE_WORDS * scene->found[pair].first,
                           scene->found[pair].features};
   return list;
 }

@@ -173,7 +173,7 @@ static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* c
   for (uint end = 0u; end < 2u; ++end) {
     if (end == 1u) {
       if (ox_is_vertex(f->flags) || f->partner == OX_NONE) break;
-      __global const ox_feature* other = m->region->features + f->partner;
+      __global const ox_feature* other = m->region->scene->features + f->partner;
       if (ox_is_vertex(other->flags)) break;  // a unit of its own
       f = other;
     }

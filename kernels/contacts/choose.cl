@@ -109,29 +109,25 @@ static void ox_choose_sheet(ox_manifold* m) {
                    ox_touch_of(f, f->triangle));
 }
 
-static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* features,
-                             __global const ox_region* regions, __global float* members,
-                             __global const ox_face* faces, __global float* planes,
-                             __global const uint* edge_planes, __global float* candidates) {
+static void ox_choose_planes(const ox_scene* scene) {
   const uint region_count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
   for (uint i = ox_next_item(scene, OX_QUEUE_REGIONS); i < region_count;
        i = ox_next_item(scene, OX_QUEUE_REGIONS)) {
+    __global const ox_region* region = scene->regions + i;
+    if (region->count == 0u) continue;  // within facets
     ox_region_view view;
-    if (regions[i].count == 0u) continue;  // within facets
     view.scene = scene;
     view.index = i;
-    view.pair = regions[i].pair;
-    view.count = regions[i].count;
-    view.flags = regions[i].flags;
-    view.plane_count = regions[i].planes;
-    view.features = features;
-    view.members = ox_members_of(regions + i, members);
-    view.faces = faces + OX_FACES_PER_FEATURE * regions[i].first;
-    view.edge_planes = edge_planes;
-    view.planes = ox_planes_of(regions + i, planes);
+    view.pair = region->pair;
+    view.count = region->count;
+    view.flags = region->flags;
+    view.plane_count = region->planes;
+    view.members = ox_members_of(scene, region);
+    view.faces = scene->faces + OX_FACES_PER_FEATURE * region->first;
+    view.planes = ox_planes_of(scene, region);
     ox_manifold manifold;
     manifold.region = &view;
-    manifold.candidates = ox_candidates_of(scene, view.pair, candidates);
+    manifold.candidates = ox_candidates_of(scene, view.pair);
     manifold.count = &scene->found[view.pair].candidates;
     manifold.manifold = 0u;
     const uint mesh_flags = scene->meshes[scene->pairs[view.pair].mesh[0]].flags |
@@ -151,10 +147,7 @@ static void ox_choose_planes(const ox_scene* scene, __global const ox_feature* f
   }
 }
 
-__kernel void choose_planes(OX_SCENE_PARAMETERS, __global const ox_feature* features,
-                            __global const ox_region* regions, __global float* members,
-                            __global const ox_face* faces, __global float* planes,
-                            __global const uint* edge_planes, __global float* candidates) {
+__kernel void choose_planes(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_choose_planes(&scene, features, regions, members, faces, planes, edge_planes, candidates);
+  ox_choose_planes(&scene);
 }

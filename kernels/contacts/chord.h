@@ -65,54 +65,51 @@ static inline uint ox_sort_chain(__global ox_feature* features, uint head) {
 }
 
 // The vertex at the end of an edge that is on the inner side of a crossing, if it is inside.
-static inline uint ox_find_end_inside(const ox_scene* scene, __global const ox_feature* features,
-                                      __global const uint* slots, __global const ox_feature* f) {
+static inline uint ox_find_end_inside(const ox_scene* scene, __global const ox_feature* f) {
   const bool leaves = (f->flags & OX_FEATURE_LEAVES) != 0u;
   const uint vertex = scene->edges[f->source].vertex[leaves ? 0u : 1u];
-  const uint entry =
-      ox_find_feature(scene, features, slots, ox_inside_key(f->pair, ox_side_of(f->flags), vertex));
+  const uint entry = ox_find_feature(scene, ox_inside_key(f->pair, ox_side_of(f->flags), vertex));
   return entry == OX_NONE ? OX_NONE : entry >> 2;
 }
 
 // The first crossing after one by which an edge leaves by which it enters, if rounding may have
 // changed their order: it enters first then, and what lies side by side is one.
-static inline uint ox_find_entry(__global const ox_feature* features,
-                                 __global const ox_edge_crossing* crossings, uint leave) {
-  for (uint n = features[leave].next; n != OX_NONE; n = features[n].next) {
-    if (features[n].t - features[leave].t > crossings[leave].blur + crossings[n].blur) break;
-    if (ox_enters(features + n) && features[n].partner == OX_NONE) return n;
+static inline uint ox_find_entry(const ox_scene* scene, uint leave) {
+  for (uint n = scene->features[leave].next; n != OX_NONE; n = scene->features[n].next) {
+    if (scene->features[n].t - scene->features[leave].t >
+        scene->crossings[leave].blur + scene->crossings[n].blur)
+      break;
+    if (ox_enters(scene->features + n) && scene->features[n].partner == OX_NONE) return n;
   }
   return OX_NONE;
 }
 
 // Partners of all crossings of an edge, from the head of their chain on. Returns its new head.
-static inline uint ox_find_partners(const ox_scene* scene, __global ox_feature* features,
-                                    __global const uint* slots,
-                                    __global const ox_edge_crossing* crossings, uint head) {
-  head = ox_sort_chain(features, head);
+static inline uint ox_find_partners(const ox_scene* scene, uint head) {
+  head = ox_sort_chain(scene->features, head);
   // The last by which it entered and has not left yet; each has the one before as its partner.
   uint open = OX_NONE;
-  for (uint i = head; i != OX_NONE; i = features[i].next) {
-    __global ox_feature* f = features + i;
+  for (uint i = head; i != OX_NONE; i = scene->features[i].next) {
+    __global ox_feature* f = scene->features + i;
     if (f->partner != OX_NONE) continue;  // of a leave before it
     if (ox_enters(f)) {
       f->partner = open;
       open = i;
       continue;
     }
-    const uint entry = ox_find_entry(features, crossings, i);
+    const uint entry = ox_find_entry(scene, i);
     f->partner = entry != OX_NONE ? entry : open;
     if (f->partner == OX_NONE) {
-      f->partner = ox_find_end_inside(scene, features, slots, f);
+      f->partner = ox_find_end_inside(scene, f);
       continue;
     }
-    if (entry == OX_NONE) open = features[open].partner;
-    features[f->partner].partner = i;
+    if (entry == OX_NONE) open = scene->features[open].partner;
+    scene->features[f->partner].partner = i;
   }
   while (open != OX_NONE) {
-    __global ox_feature* f = features + open;
+    __global ox_feature* f = scene->features + open;
     open = f->partner;
-    f->partner = ox_find_end_inside(scene, features, slots, f);
+    f->partner = ox_find_end_inside(scene, f);
   }
   return head;
 }

@@ -60,7 +60,7 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
     const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
     seed.through[seed.count++] = seed.side == 0u ? normal : -normal;
     if (f->partner == OX_NONE) break;
-    f = r->features + f->partner;
+    f = r->scene->features + f->partner;
   }
   return seed;
 }

@@ -14,10 +14,10 @@ static inline ox_face ox_no_face(void) {
 // Puts a face in, unless its facet is there, and says where it is among those of the region. Of a
 // facet the first triangle is kept.
 static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* region, uint owner,
-                               uint side, uint triangle, __global volatile ox_face* faces) {
+                               uint side, uint triangle) {
   const uint key = scene->facets[triangle] << 1 | side;
   const uint count = OX_FACES_PER_FEATURE * region->count;
-  faces += OX_FACES_PER_FEATURE * region->first;
+  __global volatile ox_face* faces = scene->faces + OX_FACES_PER_FEATURE * region->first;
   for (uint place = mul_hi(key * 0x9e3779b1u, count);;  // multiplicative (Knuth)
        place = place + 1u < count ? place + 1u : 0u) {
     __global volatile ox_face* face = faces + place;

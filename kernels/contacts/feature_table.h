@@ -36,9 +36,8 @@ static inline ox_feature_key ox_inside_key(uint pair, uint side, uint vertex) {
   return key;
 }
 
-static inline ox_feature_key ox_key_of_feature(const ox_scene* scene,
-                                               __global const ox_feature* features, uint entry) {
-  __global const ox_feature* f = features + (entry >> 2);
+static inline ox_feature_key ox_key_of_feature(const ox_scene* scene, uint entry) {
+  __global const ox_feature* f = scene->features + (entry >> 2);
   const uint by = entry & 3u;
   const uint side = ox_side_of(f->flags);
   if (by == OX_ENTRY_EDGE) return ox_edge_key(f->pair, side, f->source);
@@ -66,36 +65,33 @@ static inline ox_stretch ox_slots_of(const ox_scene* scene, uint pair) {
   return stretch;
 }
 
-static inline bool ox_is_key(const ox_scene* scene, __global const ox_feature* features, uint entry,
-                             ox_feature_key key) {
-  const ox_feature_key there = ox_key_of_feature(scene, features, entry);
+static inline bool ox_is_key(const ox_scene* scene, uint entry, ox_feature_key key) {
+  const ox_feature_key there = ox_key_of_feature(scene, entry);
   return there.pair == key.pair && there.kind == key.kind && there.first == key.first &&
          there.second == key.second;
 }
 
 // The entry with a key; OX_NONE: there is none.
-static inline uint ox_find_feature(const ox_scene* scene, __global const ox_feature* features,
-                                   __global const uint* slots, ox_feature_key key) {
+static inline uint ox_find_feature(const ox_scene* scene, ox_feature_key key) {
   const ox_stretch of = ox_slots_of(scene, key.pair);
   if (of.count == 0u) return OX_NONE;
   for (uint slot = mul_hi(ox_hash_of(key), of.count);;
        slot = slot + 1u < of.count ? slot + 1u : 0u) {
-    const uint entry = slots[of.first + slot];
-    if (entry == OX_NONE || ox_is_key(scene, features, entry, key)) return entry;
+    const uint entry = scene->slots[of.first + slot];
+    if (entry == OX_NONE || ox_is_key(scene, entry, key)) return entry;
   }
 }
 
 // Puts an entry in, unless there is one with its key: which it returns, else OX_NONE.
-static inline uint ox_add_feature(const ox_scene* scene, __global const ox_feature* features,
-                                  __global volatile uint* slots, uint entry) {
-  const ox_feature_key key = ox_key_of_feature(scene, features, entry);
+static inline uint ox_add_feature(const ox_scene* scene, uint entry) {
+  const ox_feature_key key = ox_key_of_feature(scene, entry);
   const ox_stretch of = ox_slots_of(scene, key.pair);
   for (uint slot = mul_hi(ox_hash_of(key), of.count);;
        slot = slot + 1u < of.count ? slot + 1u : 0u) {
-    uint there = slots[of.first + slot];
+    uint there = scene->slots[of.first + slot];
     if (there == OX_NONE)
-      there = ox_compare_exchange(scene, slots + of.first + slot, OX_NONE, entry);
-    if (there == OX_NONE || ox_is_key(scene, features, there, key)) return there;
+      there = ox_compare_exchange(scene, scene->slots + of.first + slot, OX_NONE, entry);
+    if (there == OX_NONE || ox_is_key(scene, there, key)) return there;
   }
 }
 

@@ -23,12 +23,11 @@ static inline bool ox_is_before_on_line(__global const ox_feature* features, con
 }
 
 // The other end of a stretch, of either mesh; OX_NONE: it is not known.
-static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_feature* features,
-                                     uint entry) {
-  __global const ox_feature* f = features + (entry >> 1);
+static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
+  __global const ox_feature* f = scene->features + (entry >> 1);
   const uint second = f->mate[entry & 1u];
   if (second == OX_NONE || second == entry) return OX_NONE;
-  if (features[second >> 1].mate[second & 1u] == entry) return second;
+  if (scene->features[second >> 1].mate[second & 1u] == entry) return second;
   const uint side = ox_side_of(f->flags);
   const float3 of_edge = ox_normal_of(scene, f->pair, side, f->at[entry & 1u]);
   const float3 crossed = ox_normal_of(scene, f->pair, 1u - side, f->triangle);
@@ -39,13 +38,14 @@ static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_fe
   ox_on_line next = {OX_NONE, 0.0f};
   uint before = 0u;
   uint count = 0u;
-  for (uint n = second; n != entry; n = features[n >> 1].mate[n & 1u]) {
+  for (uint n = second; n != entry; n = scene->features[n >> 1].mate[n & 1u]) {
     if (++count == OX_MANY) return OX_NONE;  // each looks at all
-    const ox_on_line other = {n, ox_dot(line, vload3(0, features[n >> 1].position))};
-    if (ox_is_before_on_line(features, &other, &self)) {
+    const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
+    if (ox_is_before_on_line(scene->features, &other, &self)) {
       ++before;
-      if (last.entry == OX_NONE || ox_is_before_on_line(features, &last, &other)) last = other;
-    } else if (next.entry == OX_NONE || ox_is_before_on_line(features, &other, &next)) {
+      if (last.entry == OX_NONE || ox_is_before_on_line(scene->features, &last, &other))
+        last = other;
+    } else if (next.entry == OX_NONE || ox_is_before_on_line(scene->features, &other, &next)) {
       next = other;
     }
   }
@@ -56,13 +56,12 @@ static inline uint ox_find_other_end(const ox_scene* scene, __global const ox_fe
 
 // The mate of a crossing, of an edge of the other mesh; OX_NONE: it has none. Where facets are not
 // quite flat two may see them in different orders: it is only where they agree.
-static inline uint ox_mate_of(const ox_scene* scene, __global const ox_feature* features,
-                              uint entry) {
-  const uint mate = ox_find_other_end(scene, features, entry);
+static inline uint ox_mate_of(const ox_scene* scene, uint entry) {
+  const uint mate = ox_find_other_end(scene, entry);
   if (mate == OX_NONE ||
-      ox_side_of(features[mate >> 1].flags) == ox_side_of(features[entry >> 1].flags))
+      ox_side_of(scene->features[mate >> 1].flags) == ox_side_of(scene->features[entry >> 1].flags))
     return OX_NONE;
-  return ox_find_other_end(scene, features, mate) == entry ? mate : OX_NONE;
+  return ox_find_other_end(scene, mate) == entry ? mate : OX_NONE;
 }
 
 #endif

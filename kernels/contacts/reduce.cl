@@ -3,7 +3,7 @@
 // The deepest of all, then of each region, then of each manifold, then whatever is farthest from
 // those.
 //
-// in    candidates, found: those of each pair
+// in    candidates, found: those of each pair; pairs, meshes
 // out   contacts, pair_ranges
 // item  1 pair (of a queue)
 // may overflow: OX_LIST_CONTACTS
@@ -119,9 +119,7 @@ static uint ox_best_for(const ox_fields* list, uint count, uint what, float merg
   return first;
 }
 
-static void ox_reduce_candidates(const ox_scene* scene, __global float* candidates,
-                                 uint max_contacts, uint max_deformable,
-                                 __global ox_range* pair_ranges, __global ox_contact* contacts) {
+static void ox_reduce_candidates(const ox_scene* scene) {
   const uint first = scene->pair_first;
   for (uint p = first + ox_next_item(scene, OX_QUEUE_REDUCE); p < scene->pair_end;
        p = first + ox_next_item(scene, OX_QUEUE_REDUCE)) {
@@ -129,16 +127,16 @@ static void ox_reduce_candidates(const ox_scene* scene, __global float* candidat
     if (count == 0u) continue;
     __global const ox_mesh* a = scene->meshes + scene->pairs[p].mesh[0];
     __global const ox_mesh* b = scene->meshes + scene->pairs[p].mesh[1];
-    const ox_fields mine = ox_candidates_of(scene, p, candidates);
+    const ox_fields mine = ox_candidates_of(scene, p);
     const bool deformable = ((a->flags | b->flags) & OX_MESH_DEFORMABLE) != 0u;
-    if (deformable && max_deformable == 0u) {
-      const uint room = ox_place_contacts(scene, count, pair_ranges + p);
+    if (deformable && scene->max_deformable == 0u) {
+      const uint room = ox_place_contacts(scene, count, scene->pair_ranges + p);
       for (uint i = 0u; i < room; ++i)
-        ox_store_contact(&mine, i, contacts + pair_ranges[p].first + i);
+        ox_store_contact(&mine, i, scene->contacts + scene->pair_ranges[p].first + i);
       continue;
     }
     const float merge = OX_MERGE * ox_min(a->radius, b->radius);
-    const uint most = deformable ? max_deformable : max_contacts;
+    const uint most = deformable ? scene->max_deformable : scene->max_contacts;
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;
     // Where none comes into question for something, none ever will: distances only fall.
@@ -151,15 +149,13 @@ static void ox_reduce_candidates(const ox_scene* scene, __global float* candidat
       taken[n++] = next;
       if (n < most) ox_note_taken(&mine, count, next);
     }
-    const uint room = ox_place_contacts(scene, n, pair_ranges + p);
+    const uint room = ox_place_contacts(scene, n, scene->pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
-      ox_store_contact(&mine, taken[k], contacts + pair_ranges[p].first + k);
+      ox_store_contact(&mine, taken[k], scene->contacts + scene->pair_ranges[p].first + k);
   }
 }
 
-__kernel void reduce_candidates(OX_SCENE_PARAMETERS, __global float* candidates, uint max_contacts,
-                                uint max_deformable, __global ox_range* pair_ranges,
-                                __global ox_contact* contacts) {
+__kernel void reduce_candidates(OX_SCENE_PARAMETERS) {
   const ox_scene scene = OX_SCENE;
-  ox_reduce_candidates(&scene, candidates, max_contacts, max_deformable, pair_ranges, contacts);
+  ox_reduce_candidates(&scene);
 }

@@ -12,10 +12,8 @@ typedef struct {
   uint count;
   uint flags;
   uint plane_count;
-  __global const ox_feature* features;
   ox_fields members;
   __global const ox_face* faces;
-  __global const uint* edge_planes;  // of each crossing (features.cl)
   ox_fields planes;
 } ox_region_view;
 
@@ -33,7 +31,7 @@ static inline uint ox_flags_of(const ox_region_view* r, uint k) {
 }
 
 static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, uint k) {
-  return r->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
+  return r->scene->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
 }
 
 // Whether one of the faces at a vertex of mesh `side` faces back from a direction.

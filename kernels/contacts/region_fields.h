@@ -6,14 +6,15 @@
 #include "contacts/fields.h"
 #include "contacts/plane.h"
 
-static inline ox_fields ox_members_of(__global const ox_region* region, __global float* members) {
-  const ox_fields list = {members + (ulong)OX_MEMBER_WORDS * region->first, region->count};
+static inline ox_fields ox_members_of(const ox_scene* scene, __global const ox_region* region) {
+  const ox_fields list = {scene->members + (ulong)OX_MEMBER_WORDS * region->first, region->count};
   return list;
 }
 
-static inline ox_fields ox_planes_of(__global const ox_region* region, __global float* planes) {
-  const ox_fields list = {planes + (ulong)OX_PLANE_WORDS * OX_PLANES_PER_FEATURE * region->first,
-                          OX_PLANES_PER_FEATURE * region->count};
+static inline ox_fields ox_planes_of(const ox_scene* scene, __global const ox_region* region) {
+  const ox_fields list = {
+      scene->planes + (ulong)OX_PLANE_WORDS * OX_PLANES_PER_FEATURE * region->first,
+      OX_PLANES_PER_FEATURE * region->count};
   return list;
 }
 

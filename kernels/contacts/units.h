@@ -90,13 +90,14 @@ static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
     if (face != OX_NONE) ox_propose_for(r, k, r->faces[face].plane, &best);
     if (!ox_is_vertex(ox_flags_of(r, k))) {
       const uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
-      const uint partner = r->features[feature].partner;
-      for (uint i = 0u; i < 2u; ++i) ox_propose_for(r, k, r->edge_planes[2u * feature + i], &best);
+      const uint partner = r->scene->features[feature].partner;
+      for (uint i = 0u; i < 2u; ++i)
+        ox_propose_for(r, k, r->scene->edge_planes[2u * feature + i], &best);
       if (partner != OX_NONE) {
-        const uint other = r->features[partner].face;
+        const uint other = r->scene->features[partner].face;
         if (other != OX_NONE) ox_propose_for(r, k, r->faces[other].plane, &best);
-        for (uint i = 0u; i < 2u && !ox_is_vertex(r->features[partner].flags); ++i)
-          ox_propose_for(r, k, r->edge_planes[2u * partner + i], &best);
+        for (uint i = 0u; i < 2u && !ox_is_vertex(r->scene->features[partner].flags); ++i)
+          ox_propose_for(r, k, r->scene->edge_planes[2u * partner + i], &best);
       }
     }
     ox_set_own(r, k, &best);

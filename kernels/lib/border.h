@@ -20,15 +20,15 @@ static inline float ox_distance2_to_segment(float3 p, float3 a, float3 b) {
 }
 
 // The stretch of an edge that is inside, from a crossing on to the next or to its end.
-static inline float3 ox_end_inside(const ox_scene* scene,
-                                   __global const ox_edge_crossing* crossings, uint head,
+static inline float3 ox_end_inside(const ox_scene* scene, uint head,
                                    __global const ox_edge_crossing* c, float3 start,
                                    float3 direction) {
   const bool leaves = c->leaves != 0u;
   float nearest = INFINITY;
-  for (uint i = head; i != OX_NONE; i = crossings[i].before) {
-    if (crossings[i].edge != c->edge || (crossings[i].leaves != 0u) == leaves) continue;
-    const float after = leaves ? c->t - crossings[i].t : crossings[i].t - c->t;
+  for (uint i = head; i != OX_NONE; i = scene->crossings[i].before) {
+    if (scene->crossings[i].edge != c->edge || (scene->crossings[i].leaves != 0u) == leaves)
+      continue;
+    const float after = leaves ? c->t - scene->crossings[i].t : scene->crossings[i].t - c->t;
     if (after >= 0.0f) nearest = ox_min(nearest, after);
   }
   const float3 end =
@@ -39,16 +39,14 @@ static inline float3 ox_end_inside(const ox_scene* scene,
 // Whether the target of a side of a pair goes on for `distance` about a point of it, in its frame.
 // Of its border what crosses the source is looked at; a target that does not cross it is within it,
 // border and all.
-static inline bool ox_goes_on(const ox_scene* scene, uint pair_side,
-                              __global const ox_edge_crossing* crossings, float3 p,
-                              float distance) {
+static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, float distance) {
   const uint pair = pair_side >> 1;
   const uint side = 1u - (pair_side & 1u);  // of the target
   __global const ox_found* found = scene->found + pair;
   if (found->head[0] == OX_NONE && found->head[1] == OX_NONE) return false;
   if (distance > scene->meshes[scene->pairs[pair].mesh[side]].radius) return false;
-  for (uint i = found->head[side]; i != OX_NONE; i = crossings[i].before) {
-    __global const ox_edge_crossing* c = crossings + i;
+  for (uint i = found->head[side]; i != OX_NONE; i = scene->crossings[i].before) {
+    __global const ox_edge_crossing* c = scene->crossings + i;
     __global const ox_edge* edge = scene->edges + c->edge;
     if (edge->triangle[1] != OX_NONE) continue;
     const float3 from = vload3(0, scene->vertices[edge->vertex[0]].position);
@@ -56,7 +54,7 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side,
     const float length = sqrt(ox_dot(along, along));
     const float3 direction = length > 0.0f ? along / length : along;
     const float3 start = from + c->t * direction;
-    const float3 end = ox_end_inside(scene, crossings, found->head[side], c, start, direction);
+    const float3 end = ox_end_inside(scene, found->head[side], c, start, direction);
     if (ox_distance2_to_segment(p, start, end) < distance * distance) return false;
   }
   return true;

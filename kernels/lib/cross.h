@@ -13,7 +13,6 @@
 // Crossings of a pair that are yet to be stored.
 typedef struct {
   const ox_scene* scene;
-  __global ox_edge_crossing* crossings;  // where to
   uint pair;
   uint count;
   uint flags[OX_MOST_AT_ONCE];  // OX_NEW_..., and the side above them
@@ -34,7 +33,7 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
   for (uint i = 0u; i < stored; ++i) {
     const uint flags = fresh->flags[i];
     const uint side = flags >> OX_NEW_SIDE_SHIFT;
-    __global ox_edge_crossing* crossing = fresh->crossings + first + i;
+    __global ox_edge_crossing* crossing = fresh->scene->crossings + first + i;
     crossing->pair_side = fresh->pair << 1 | side;
     crossing->edge = fresh->edge[i];
     crossing->triangle = fresh->triangle[i];
@@ -48,7 +47,7 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
   }
   for (uint side = 0u; side < 2u; ++side)
     if (head[side] != OX_NONE)
-      fresh->crossings[tail[side]].before =
+      fresh->scene->crossings[tail[side]].before =
           ox_exchange(fresh->scene, &found->head[side], head[side]);
   fresh->count = 0u;
 }
@@ -247,14 +246,13 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
 
 // The edges of the meshlets of `sides` of two against the triangles of the other one, those of some
 // blocks of its lanes, the same in every call with `placed`.
-static inline void ox_cross_sides(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                  const ox_meshlet_pair* both, uint first_side, uint end_side,
-                                  ox_block_range blocks, ox_placed_meshlets* placed) {
+static inline void ox_cross_sides(const ox_scene* scene, const ox_meshlet_pair* both,
+                                  uint first_side, uint end_side, ox_block_range blocks,
+                                  ox_placed_meshlets* placed) {
   if (!ox_place_meshlets(scene, both, placed)) return;
   const float reach = ox_reach_of(&placed->of[0].box, &placed->of[1].box);
   ox_new_crossings fresh;
   fresh.scene = scene;
-  fresh.crossings = crossings;
   fresh.pair = both->pair;
   fresh.count = 0u;
   for (uint side = first_side; side < end_side; ++side)
@@ -263,9 +261,9 @@ static inline void ox_cross_sides(const ox_scene* scene, __global ox_edge_crossi
 }
 
 // The edges of either meshlet against the triangles of the other, by one work-item.
-static inline void ox_cross_meshlets(const ox_scene* scene, __global ox_edge_crossing* crossings,
-                                     const ox_meshlet_pair* both, ox_placed_meshlets* placed) {
-  ox_cross_sides(scene, crossings, both, 0u, 2u, OX_ALL_BLOCKS, placed);
+static inline void ox_cross_meshlets(const ox_scene* scene, const ox_meshlet_pair* both,
+                                     ox_placed_meshlets* placed) {
+  ox_cross_sides(scene, both, 0u, 2u, OX_ALL_BLOCKS, placed);
 }
 
 #endif

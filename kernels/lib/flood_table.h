@@ -43,54 +43,52 @@ static inline uint ox_take_words(const ox_scene* scene, uint count) {
   return first < list.capacity && count <= list.capacity - first ? list.first + first : OX_NONE;
 }
 
-static inline ox_flood_table ox_empty_table(const ox_scene* scene, __global uint* words,
-                                            uint places) {
+static inline ox_flood_table ox_empty_table(const ox_scene* scene, uint places) {
   ox_flood_table table;
   table.first = ox_take_words(scene, (2u + OX_QUEUE_ROOM) * places);
   table.places = table.first == OX_NONE ? 0u : places;
   table.used = 0u;
   table.queued = 0u;
-  for (uint i = 0u; i < table.places; ++i) words[table.first + 2u * i] = 0u;
+  for (uint i = 0u; i < table.places; ++i) scene->flood_words[table.first + 2u * i] = 0u;
   return table;
 }
 
 // The word of a key: where it is, or would be.
-static inline uint ox_find_key(__global const uint* words, const ox_flood_table* table, uint key) {
+static inline uint ox_find_key(const ox_scene* scene, const ox_flood_table* table, uint key) {
   uint place = mul_hi(key * 0x9e3779b1u, table->places);  // multiplicative (Knuth)
   for (;; ++place) {
     const uint word = table->first + 2u * (place & (table->places - 1u));
-    if (words[word] == key || words[word] == 0u) return word;
+    if (scene->flood_words[word] == key || scene->flood_words[word] == 0u) return word;
   }
 }
 
-static inline __global uint* ox_queue(__global uint* words, const ox_flood_table* table) {
-  return words + table->first + 2u * table->places;
+static inline __global uint* ox_queue(const ox_scene* scene, const ox_flood_table* table) {
+  return scene->flood_words + table->first + 2u * table->places;
 }
 
 // Room for one key more, the table being at most half full, and for one vertex more in the queue.
 // False: there is none.
-static inline bool ox_grow_table(const ox_scene* scene, __global uint* words,
-                                 ox_flood_table* table) {
+static inline bool ox_grow_table(const ox_scene* scene, ox_flood_table* table) {
   if (2u * (table->used + 1u) <= table->places && table->queued < OX_QUEUE_ROOM * table->places)
     return true;
   if (table->places == 0u) {
-    *table = ox_empty_table(scene, words, OX_LEAST_PLACES);
+    *table = ox_empty_table(scene, OX_LEAST_PLACES);
     return table->places != 0u;
   }
-  ox_flood_table larger = ox_empty_table(scene, words, 2u * table->places);
+  ox_flood_table larger = ox_empty_table(scene, 2u * table->places);
   if (larger.places == 0u) {
     // More than is needed now: the less often a batch is redone.
     ox_take_words(scene, 16u * min(table->places, OX_MOST_COUNTED / 16u));
     return false;
   }
   for (uint i = 0u; i < table->places; ++i) {
-    const uint key = words[table->first + 2u * i];
+    const uint key = scene->flood_words[table->first + 2u * i];
     if (key == 0u) continue;
-    const uint word = ox_find_key(words, &larger, key);
-    words[word] = key;
-    words[word + 1u] = words[table->first + 2u * i + 1u];
+    const uint word = ox_find_key(scene, &larger, key);
+    scene->flood_words[word] = key;
+    scene->flood_words[word + 1u] = scene->flood_words[table->first + 2u * i + 1u];
   }
-  for (uint i = 0u; i < table->queued; ++i) ox_queue(words, &larger)[i] = ox_queue(words, table)[i];
+  for (uint i = 0u; i < table->queued; ++i) ox_queue(scene, &larger)[i] = ox_queue(scene, table)[i];
   larger.used = table->used;
   larger.queued = table->queued;
   *table = larger;

@@ -13,41 +13,40 @@ static inline bool ox_casts_ray(__global const ox_vertex* vertex) {
 }
 
 // A ray of a vertex that can be in contact.
-static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint vertex,
-                                 __global ox_ray* rays) {
+static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint vertex) {
   if (!ox_casts_ray(scene->vertices + vertex) ||
       !ox_keep_vertex(scene->pairs + (pair_side >> 1), pair_side & 1u, scene->meshes,
                       scene->vertices + vertex))
     return;
   const uint index = ox_append(scene, OX_LIST_RAYS);
   if (index == OX_NONE) return;
-  rays[index].pair_side = pair_side;
-  rays[index].vertex = vertex;
-  rays[index].memory = OX_RAY_ASKING;
-  rays[index].triangle = OX_NONE;
+  scene->rays[index].pair_side = pair_side;
+  scene->rays[index].vertex = vertex;
+  scene->rays[index].memory = OX_RAY_ASKING;
+  scene->rays[index].triangle = OX_NONE;
 }
 
 // Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
 static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
-                                    uint from, __global ox_ray* rays) {
+                                    uint from) {
   const uint index = ox_append(scene, OX_LIST_RAYS);
   if (index == OX_NONE) return;
-  rays[index].pair_side = pair_side;
-  rays[index].vertex = vertex;
-  rays[index].memory = memory;
-  rays[index].triangle = from;
+  scene->rays[index].pair_side = pair_side;
+  scene->rays[index].vertex = vertex;
+  scene->rays[index].memory = memory;
+  scene->rays[index].triangle = from;
 }
 
 // The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in
 // ox_hit.
 static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool known, uint from,
-                                 const ox_outcome* outcome, __global ox_hit* hits) {
+                                 const ox_outcome* outcome) {
   const uint kind = outcome->kind & OX_HIT_KIND;
   const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
   if (!leaves && !known) return;
   const uint index = ox_append(scene, OX_LIST_HITS);
   if (index == OX_NONE) return;
-  __global ox_hit* hit = hits + index;
+  __global ox_hit* hit = scene->hits + index;
   hit->pair_side = ray->pair_side;
   hit->vertex = ray->vertex;
   hit->triangle = leaves ? outcome->triangle : OX_NONE;

@@ -36,8 +36,8 @@ static inline uint ox_full_list(const ox_scene* scene, uint pair_side) {
 }
 
 // `task_index` and `lane`: the vertex. Clears its temporal datum; the ray step sets it.
-static inline ox_choice ox_choose(const ox_scene* scene, __global const ox_chunk_task* tasks,
-                                  uint task_index, uint lane, float displacement_limit,
+static inline ox_choice ox_choose(const ox_scene* scene, uint task_index, uint lane,
+                                  float displacement_limit,
                                   __global const ox_temporal* temporal_before,
                                   __global ox_temporal* temporal, ox_work* work) {
   ox_choice choice;
@@ -45,7 +45,7 @@ static inline ox_choice ox_choose(const ox_scene* scene, __global const ox_chunk
   choice.memory = OX_NONE;
   choice.triangle = OX_NONE;
   work->vertex += OX_WORK_TASK;
-  __global const ox_chunk_task* task = tasks + task_index;
+  __global const ox_chunk_task* task = scene->tasks + task_index;
   if (task->chunk == OX_NONE) return choice;
   __global const ox_chunk* chunk = scene->chunks + task->chunk;
   if (lane >= chunk->count) return choice;

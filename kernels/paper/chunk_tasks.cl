@@ -71,7 +71,7 @@ static uint ox_category(__global const ox_pair* pair, uint side, __global const 
 __kernel void chunk_tasks(OX_SCENE_PARAMETERS, __global const ox_link* links, uint pass,
                           float displacement_limit, __global ox_relative_pose* poses,
                           __global ox_directory_entry* directory, uint is_dense,
-                          __global const uint* dense_first, __global ox_chunk_task* tasks) {
+                          __global const uint* dense_first) {
   const ox_scene scene = OX_SCENE;
   const uint parity = pass & 1u;  // what is read and what is written: a pass may be run again
   const uint stride = (uint)get_global_size(0);

@@ -12,18 +12,16 @@
 #include "paper/choose.h"
 #include "paper/note_work.h"
 
-__kernel void monolithic(OX_SCENE_PARAMETERS, __global const ox_chunk_task* tasks, uint task_count,
-                         float displacement_limit, uint walk_limit,
-                         __global const ox_temporal* temporal_before,
-                         __global ox_temporal* temporal, __global ox_hit* hits,
-                         __global ox_work* works) {
+__kernel void monolithic(OX_SCENE_PARAMETERS, uint task_count, float displacement_limit,
+                         uint walk_limit, __global const ox_temporal* temporal_before,
+                         __global ox_temporal* temporal, __global ox_work* works) {
   const ox_scene scene = OX_SCENE;
   const uint stride = (uint)get_global_size(0);
   for (uint i = (uint)get_global_id(0); i < task_count * OX_CHUNK_VERTICES; i += stride) {
     const uint task = i / OX_CHUNK_VERTICES;
     ox_work work = {0u, 0u, 0u, 0u};
-    const ox_choice choice = ox_choose(&scene, tasks, task, i % OX_CHUNK_VERTICES,
-                                       displacement_limit, temporal_before, temporal, &work);
+    const ox_choice choice = ox_choose(&scene, task, i % OX_CHUNK_VERTICES, displacement_limit,
+                                       temporal_before, temporal, &work);
     if (choice.list != OX_NONE) {
       ox_ray ray;
       ray.pair_side = tasks[task].pair_side;
@@ -53,7 +51,7 @@ __kernel void monolithic(OX_SCENE_PARAMETERS, __global const ox_chunk_task* task
             done = ox_cast_ray(&scene, OX_LIST_RAYS, &ray, walk_limit, temporal, &outcome, &work);
         }
       }
-      ox_append_hit(&scene, &ray, false, OX_NONE, &outcome, hits);
+      ox_append_hit(&scene, &ray, false, OX_NONE, &outcome);
     }
     ox_note_work(works, i, &work);
   }

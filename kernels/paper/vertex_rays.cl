@@ -10,10 +10,9 @@
 #include "paper/choose.h"
 #include "paper/note_work.h"
 
-__kernel void vertex_rays(OX_SCENE_PARAMETERS, uint category, __global const ox_chunk_task* tasks,
-                          float displacement_limit, __global const ox_temporal* temporal_before,
-                          __global ox_temporal* temporal, __global ox_ray* rays,
-                          __global ox_work* works) {
+__kernel void vertex_rays(OX_SCENE_PARAMETERS, uint category, float displacement_limit,
+                          __global const ox_temporal* temporal_before,
+                          __global ox_temporal* temporal, __global ox_work* works) {
   const ox_scene scene = OX_SCENE;
   const uint first = lists[category].first;
   const uint count = ox_length(&scene, category) * OX_CHUNK_VERTICES;
@@ -21,8 +20,8 @@ __kernel void vertex_rays(OX_SCENE_PARAMETERS, uint category, __global const ox_
   for (uint i = (uint)get_global_id(0); i < count; i += stride) {
     const uint task = first + i / OX_CHUNK_VERTICES;
     ox_work work = {0u, 0u, 0u, 0u};
-    const ox_choice choice = ox_choose(&scene, tasks, task, i % OX_CHUNK_VERTICES,
-                                       displacement_limit, temporal_before, temporal, &work);
+    const ox_choice choice = ox_choose(&scene, task, i % OX_CHUNK_VERTICES, displacement_limit,
+                                       temporal_before, temporal, &work);
     ox_note_work(works, i, &work);
     if (choice.list == OX_NONE) continue;
     const uint index = ox_append(&scene, choice.list);

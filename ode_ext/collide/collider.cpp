@@ -68,7 +68,7 @@ void Collider::attempt(Batch& batch) {
   read_back_.reserve(data_);
 
   if (whole_step_) {
-    whole_step_->run(workload.launch_shares(), data_);
+    data_.launch(*whole_step_, workload.launch_shares());
     if (!workload.expects_left()) {
       read_back_.read(data_, workload.predicted(List::kContacts));
       if (data_.lists.counted(OX_COUNTER_LEFT) == 0) return;
@@ -83,25 +83,24 @@ void Collider::attempt(Batch& batch) {
 void Collider::launch_steps(Batch& batch) {
   Workload& workload = batch.workload;
   const std::size_t pairs = workload.tile().count;
-  if (!whole_step_) search_.relate(workload.launch(pairs), data_);
+  if (!whole_step_) data_.launch(search_.pair_step, workload.launch(pairs));
   if (options_.edges) {
-    search_.cull(workload.launch(pairs), data_);
-    search_.match(workload.settle_launch(List::kMeshlets), data_);
-    search_.cross(workload.settle_launch(List::kMeshletPairs, search_.items_per_meshlet_pair()),
-                  data_);
+    data_.launch(search_.cull, workload.launch(pairs));
+    data_.launch(search_.match, workload.settle_launch(List::kMeshlets));
+    data_.launch(search_.cross,
+                 workload.settle_launch(List::kMeshletPairs, search_.items_per_meshlet_pair));
   }
   if (paper_) {
     paper_->run(data_, batch);
   } else {
-    search_.flood(workload.launch_queue(2 * pairs), data_);
-    if (!batch.floods_all) search_.choose_vertices(workload.settle_launch(List::kChunks), data_);
-    search_.cast(workload.settle_launch(List::kRays), data_);
+    data_.launch(search_.flood, workload.launch_queue(2 * pairs));
+    if (!batch.floods_all) data_.launch(search_.vertex_step, workload.settle_launch(List::kChunks));
+    data_.launch(search_.ray_step, workload.settle_launch(List::kRays));
   }
   workload.settle_launches();
-  assembly_.assemble(workload.launch(pairs),
-                     std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
-                     workload.launch_queue(pairs), data_);
-  assembly_.reduce(workload.launch_queue(pairs), data_);
+  assembly_.run(workload.launch(pairs),
+                std::max(workload.launch(List::kCrossings), workload.launch(List::kHits)),
+                workload.launch_queue(pairs), data_);
 }
 
 void Collider::deliver(Batch& batch) {

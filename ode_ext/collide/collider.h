@@ -9,7 +9,6 @@
 #include "collide/options.h"
 #include "collide/pass_memory.h"
 #include "collide/read_back.h"
-#include "collide/whole_step.h"
 #include "contacts/contact.h"
 #include "contacts/plane_assembly.h"
 #include "opencl/program.h"
@@ -53,7 +52,7 @@ class Collider {
   PlaneAssembly assembly_;
   BatchData data_;
   // Where options ask for them.
-  std::optional<WholeStep> whole_step_;
+  std::optional<Kernel> whole_step_;  // kernels/whole_step.cl
   std::optional<paper::VertexRays> paper_;
   ReadBack read_back_;
   PairContacts result_;

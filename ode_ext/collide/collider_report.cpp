@@ -9,7 +9,7 @@ StageTimes Collider::take_milliseconds() {
   add_time(ms, Stage::kDeformStep, data_.meshes);
   search_.take_milliseconds(ms);
   assembly_.take_milliseconds(ms);
-  if (whole_step_) whole_step_->take_milliseconds(ms);
+  if (whole_step_) add_time(ms, Stage::kWholeStep, *whole_step_);
   if (paper_) paper_->take_milliseconds(ms);
   return ms;
 }

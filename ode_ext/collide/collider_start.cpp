@@ -39,7 +39,7 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   if (!options.builtins) text += " -DOX_NO_BUILTINS";
   if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
-  if (may_run_whole(options, device)) text += std::string(" ") + WholeStep::kProgramOption;
+  if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   // Last, where Program puts that of the device: drivers keep kernels by this text.
   if (options.vector_width != 0)
     text += " -DOX_VECTOR_WIDTH=" + std::to_string(options.vector_width);
@@ -59,7 +59,7 @@ Collider::Collider(const ColliderOptions& options)
   data_.settings = settings_of(options);
   if (follows_paper(options_)) paper_.emplace(program_, options_);
   if (may_run_whole(options_, device_.info())) {
-    whole_step_.emplace(program_);
+    whole_step_.emplace(program_, "whole_step");
     data_.lists.keep_shares(device_.info().compute_units);
   }
   if (options_.vector_width != 0 && options_.vector_width != 1 && options_.vector_width != 4 &&
@@ -90,20 +90,16 @@ void Collider::warm_up() {
   const bool is_pocl =
       device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
   const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
-  search_.relate(wide, data_);
-  search_.cull(wide, data_);
-  search_.match(wide, data_);
-  search_.cross(wide, data_);
+  for (Kernel* kernel : {&search_.pair_step, &search_.cull, &search_.match, &search_.cross})
+    data_.launch(*kernel, wide);
   if (paper_) {
     paper_->warm_up(wide, data_, batch);
   } else {
-    search_.flood(wide, data_);
-    search_.choose_vertices(wide, data_);
-    search_.cast(wide, data_);
+    for (Kernel* kernel : {&search_.flood, &search_.vertex_step, &search_.ray_step})
+      data_.launch(*kernel, wide);
   }
-  assembly_.assemble(wide, wide, wide, data_);
-  assembly_.reduce(wide, data_);
-  if (whole_step_) whole_step_->run({1, 1}, data_);
+  assembly_.run(wide, wide, wide, data_);
+  if (whole_step_) data_.launch(*whole_step_, {1, 1});
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();

@@ -16,29 +16,14 @@ PlaneAssembly::PlaneAssembly(Program& program)
       choose_(program, "choose_planes"),
       reduce_(program, "reduce_candidates") {}
 
-void PlaneAssembly::assemble(Launch per_pair, Launch per_feature, Launch per_region,
-                             const BatchData& data) {
-  const AppendLists& lists = data.lists;
-  data.launch(gather_, per_feature, lists.crossings(), lists.hits(), lists.features(),
-              lists.feature_parents(), lists.feature_slots(), lists.faces());
+void PlaneAssembly::run(Launch per_pair, Launch per_feature, Launch per_region,
+                        const BatchData& data) {
+  data.launch(gather_, per_feature);
   data.launch(place_, per_pair);
-  data.launch(link_, per_feature, lists.features(), lists.feature_slots());
-  data.launch(join_, per_feature, lists.crossings(), lists.features(), lists.feature_parents(),
-              lists.feature_slots());
-  data.launch(begin_, per_feature, lists.features(), lists.feature_parents(), lists.regions());
-  data.launch(count_, per_feature, lists.features(), lists.feature_parents(), lists.regions());
-  data.launch(place_regions_, per_feature, lists.regions());
-  data.launch(fill_, per_feature, lists.features(), lists.regions(), lists.members(),
-              lists.faces());
-  data.launch(propose_, per_feature, lists.features(), lists.regions(), lists.faces(),
-              lists.planes(), lists.edge_planes());
-  data.launch(choose_, per_region, lists.features(), lists.regions(), lists.members(),
-              lists.faces(), lists.planes(), lists.edge_planes(), lists.candidates());
-}
-
-void PlaneAssembly::reduce(Launch per_pair, const BatchData& data) {
-  data.launch(reduce_, per_pair, data.lists.candidates(), data.settings.max_contacts,
-              data.settings.max_contacts_deformable, data.pairs.ranges, data.lists.contacts());
+  for (Kernel* kernel : {&link_, &join_, &begin_, &count_, &place_regions_, &fill_, &propose_})
+    data.launch(*kernel, per_feature);
+  data.launch(choose_, per_region);
+  data.launch(reduce_, per_region);
 }
 
 void PlaneAssembly::take_milliseconds(StageTimes& ms) {

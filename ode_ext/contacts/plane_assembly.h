@@ -13,10 +13,9 @@ class PlaneAssembly {
  public:
   explicit PlaneAssembly(Program& program);
 
-  // Features, regions and their planes, and candidates for contacts: features.cl, choose.cl.
-  void assemble(Launch per_pair, Launch per_feature, Launch per_region, const BatchData& data);
-  // Of each pair a few of them: reduce.cl.
-  void reduce(Launch per_pair, const BatchData& data);
+  // Features, regions and their planes, and candidates for contacts: features.cl, choose.cl. Of
+  // each pair a few of them: reduce.cl, of a queue as regions are.
+  void run(Launch per_pair, Launch per_feature, Launch per_region, const BatchData& data);
 
   // Adds the device time since the last call.
   void take_milliseconds(StageTimes& ms);

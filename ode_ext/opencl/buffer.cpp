@@ -2,6 +2,7 @@
 #include "opencl/buffer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -58,14 +59,17 @@ Buffer::Buffer(Buffer&& other) noexcept
       is_shared_(other.is_shared_),
       shared_(std::move(other.shared_)),
       memory_(std::move(other.memory_)),
+      id_(other.id_),
       capacity_(std::exchange(other.capacity_, 0)) {}
 
 void Buffer::create(std::size_t size) {
+  static std::atomic<std::uint64_t> count{0};
   SharedHandle shared;
   if (is_shared_) shared = create_shared_memory(*device_, size);
   const cl_mem_flags where = shared ? CL_MEM_USE_HOST_PTR : 0;
   memory_ = create_memory(*device_, CL_MEM_READ_WRITE | where, size, shared.get());
   shared_ = std::move(shared);
+  id_ = ++count;
   capacity_ = size;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -50,6 +51,8 @@ class Buffer {
   }
   std::size_t capacity() const { return capacity_; }  // [bytes]
   cl_mem get() const { return memory_.get(); }
+  // Of its memory; no two have one, in a process. 0: it has none.
+  std::uint64_t id() const { return memory_ ? id_ : 0; }
   // Its contents, after Device::finish(), where it is shared; else null.
   const void* shared() const { return shared_.get(); }
 
@@ -92,6 +95,7 @@ class Buffer {
   bool is_shared_ = false;
   SharedHandle shared_;  // goes after memory_, which lies in it
   MemoryHandle memory_;
+  std::uint64_t id_ = 0;
   std::size_t capacity_ = 0;
 };
 

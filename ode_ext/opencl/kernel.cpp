@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
 #include <utility>
 
 #include "opencl/error.h"
@@ -26,11 +27,22 @@ Kernel::Kernel(Program& program, const char* name) : device_(&program.device()),
   device_->check_call(code, "clCreateKernel", [&] { return "Kernel: " + name_ + "."; });
 }
 
-void Kernel::set_argument_bytes(cl_uint index, std::size_t bytes, const void* value) {
+void Kernel::set_argument_bytes(cl_uint index, std::size_t bytes, const void* value,
+                                std::uint64_t buffer) {
+  if (index >= arguments_.size()) arguments_.resize(index + 1);
+  Argument& known = arguments_[index];
+  if (bytes == known.bytes && buffer == known.buffer &&
+      std::memcmp(known.value.data(), value, bytes) == 0)
+    return;
+  known.bytes = 0;
   device_->check_call(clSetKernelArg(kernel_.get(), index, bytes, value), "clSetKernelArg", [&] {
     return "Kernel: " + name_ + ", argument " + std::to_string(index) + " of " +
            std::to_string(bytes) + " bytes.";
   });
+  if (bytes > known.value.size()) return;
+  known.buffer = buffer;
+  known.bytes = bytes;
+  std::memcpy(known.value.data(), value, bytes);
 }
 
 void Kernel::enqueue(std::size_t groups, std::size_t local) {

@@ -2,7 +2,9 @@
 // The embedded kernels, built for a device, and their launches.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <string>
 #include <type_traits>
@@ -49,7 +51,8 @@ class Kernel {
   Kernel& operator=(const Kernel&) = delete;
 
   // Enqueues `groups` work-groups of `local` work-items; nothing if groups is 0. Arguments are
-  // Buffers or trivially copyable values of the kernel's parameter types.
+  // Buffers or trivially copyable values of the kernel's parameter types; those that are as they
+  // were are not set again.
   template <class... Args>
   void launch(std::size_t groups, std::size_t local, const Args&... args) {
     cl_uint index = 0;
@@ -68,19 +71,27 @@ class Kernel {
   void set_argument(cl_uint index, const T& value) {
     if constexpr (std::is_same_v<T, Buffer>) {
       const cl_mem memory = value.get();
-      set_argument_bytes(index, sizeof(cl_mem), &memory);
+      set_argument_bytes(index, sizeof(cl_mem), &memory, value.id());
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
-      set_argument_bytes(index, sizeof(T), &value);
+      set_argument_bytes(index, sizeof(T), &value, 0);
     }
   }
-  void set_argument_bytes(cl_uint index, std::size_t bytes, const void* value);
+  // buffer: of a Buffer its id, since one that is gone may lend its handle to the next.
+  void set_argument_bytes(cl_uint index, std::size_t bytes, const void* value,
+                          std::uint64_t buffer);
   void enqueue(std::size_t groups, std::size_t local);
   void add_up_finished();
 
   Device* device_;
   KernelHandle kernel_;
   std::string name_;
+  struct Argument {
+    std::uint64_t buffer = 0;
+    std::size_t bytes = 0;  // 0: it is not known what the driver has
+    std::array<std::byte, 32> value{};
+  };
+  std::vector<Argument> arguments_;  // as they were last set
   std::vector<EventHandle> events_;  // of launches not yet in milliseconds_, oldest first
   double milliseconds_ = 0;
   std::exception_ptr clock_failure_;  // told by take_milliseconds

@@ -34,27 +34,24 @@ class Kernels {
                    bool dense, const DensePlaces& places) {
     data.launch(chunk_tasks, per_pair, temporal.links(), temporal.pass(),
                 data.settings.displacement_limit, temporal.poses(), temporal.directory(),
-                cl_uint{dense}, places.first, data.lists.tasks());
+                cl_uint{dense}, places.first);
   }
   // `category`: one of the lists of chunks.
   void choose_vertices(List category, Launch per_vertex, const BatchData& data,
                        const TemporalCache& temporal, const Buffer& works) {
-    data.launch(vertex_rays, per_vertex, static_cast<cl_uint>(category), data.lists.tasks(),
-                data.settings.displacement_limit, temporal.before(), temporal.now(),
-                data.lists.rays(), works);
+    data.launch(vertex_rays, per_vertex, static_cast<cl_uint>(category),
+                data.settings.displacement_limit, temporal.before(), temporal.now(), works);
   }
   // `rays`: one of the three.
   void cast(Kernel& rays, Launch per_ray, const BatchData& data, const TemporalCache& temporal,
             const Buffer& works) {
-    data.launch(rays, per_ray, data.lists.rays(), data.settings.walk_limit, temporal.now(),
-                data.lists.hits(), works);
+    data.launch(rays, per_ray, data.settings.walk_limit, temporal.now(), works);
   }
   // Of tasks that are dense.
   void run_monolithic(Launch per_vertex, const BatchData& data, const TemporalCache& temporal,
                       const DensePlaces& places, const Buffer& works) {
-    data.launch(monolithic, per_vertex, data.lists.tasks(), places.chunks,
-                data.settings.displacement_limit, data.settings.walk_limit, temporal.before(),
-                temporal.now(), data.lists.hits(), works);
+    data.launch(monolithic, per_vertex, places.chunks, data.settings.displacement_limit,
+                data.settings.walk_limit, temporal.before(), temporal.now(), works);
   }
 
   Kernel chunk_tasks, vertex_rays, rays_iterative, rays_full, rays_basic, monolithic;

@@ -81,6 +81,7 @@ class AppendLists {
   const Buffer& faces() const { return faces_; }
   const Buffer& planes() const { return planes_; }
   const Buffer& edge_planes() const { return edge_planes_; }
+  Buffer& candidates() { return candidates_; }
   const Buffer& candidates() const { return candidates_; }
 
  private:

@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From pairs to crossings, vertices inside and the faces these leave by: one kernel a step, in the
-// order in which they run.
+// order in which they run (BatchData::launch).
 #pragma once
 
 #include <cstdint>
 
-#include "opencl/launch.h"
 #include "opencl/program.h"
-#include "search/batch_data.h"
 #include "search/stage.h"
 
 namespace ode_ext {
 
-class Search {
- public:
-  // items_per_meshlet_pair: for so many work-items to each in cross.cl.
-  Search(Program& program, std::uint32_t items_per_meshlet_pair);
-
-  std::uint32_t items_per_meshlet_pair() const { return items_per_meshlet_pair_; }
-
-  // Which pairs overlap: kernels/pair_step.cl.
-  void relate(Launch per_pair, const BatchData& data);
-  // Where their edges cross: cull.cl, match.cl, cross.cl.
-  void cull(Launch per_pair, const BatchData& data);
-  void match(Launch per_meshlet, const BatchData& data);
-  void cross(Launch per_item, const BatchData& data);
-  // Which vertices are inside, and where their rays leave: flood.cl, vertex_step.cl,
-  // ray_step.cl.
-  void flood(Launch per_side, const BatchData& data);
-  void choose_vertices(Launch per_vertex, const BatchData& data);
-  void cast(Launch per_ray, const BatchData& data);
+struct Search {
+  // items: that look at each pair of meshlets in cross.cl.
+  Search(Program& program, std::uint32_t items)
+      : pair_step(program, "pair_step"),
+        cull(program, "cull"),
+        match(program, "match"),
+        cross(program, "cross_meshlets"),
+        flood(program, "flood"),
+        vertex_step(program, "vertex_step"),
+        ray_step(program, "ray_step"),
+        items_per_meshlet_pair(items) {}
 
   // Adds the device time since the last call.
-  void take_milliseconds(StageTimes& ms);
+  void take_milliseconds(StageTimes& ms) {
+    add_time(ms, Stage::kPairStep, pair_step);
+    add_time(ms, Stage::kCull, cull);
+    add_time(ms, Stage::kMatch, match);
+    add_time(ms, Stage::kCross, cross);
+    add_time(ms, Stage::kFlood, flood);
+    add_time(ms, Stage::kVertexStep, vertex_step);
+    add_time(ms, Stage::kBvhRays, ray_step);
+  }
 
- private:
-  Kernel pair_step_, cull_, match_, cross_, flood_, vertex_step_, ray_step_;
-  std::uint32_t items_per_meshlet_pair_;
+  // A work-item for each pair; for each meshlet; for items of each pair of these; for each side of
+  // a pair, of a queue; for each vertex of a chunk; for each ray.
+  Kernel pair_step, cull, match, cross, flood, vertex_step, ray_step;
+  const std::uint32_t items_per_meshlet_pair;
 };
 
 }  // namespace ode_ext

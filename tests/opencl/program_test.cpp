@@ -209,6 +209,62 @@ TEST(Kernel, EnqueuesNothingForNoGroups) {
   EXPECT_EQ(kernel.take_milliseconds(), 0);
 }
 
+// How many arguments a launch sets; of no groups it makes no other calls.
+int arguments_set(Kernel& kernel, const Buffer& buffer) {
+  fault_injector::disarm();
+  kernel.launch(0, 64, buffer);
+  return static_cast<int>(fault_injector::calls_checked());
+}
+
+TEST(Kernel, SetsArgumentsAgainOnlyWhereTheyAreOthers) {
+  Device device("");
+  Program program(device, kSource, "");
+  Kernel kernel(program, "local_sizes");
+  Buffer buffer(device), other(device);
+  buffer.reserve(4 * 64);
+  other.reserve(4 * 64);
+  EXPECT_EQ(arguments_set(kernel, buffer), 1);
+  EXPECT_EQ(arguments_set(kernel, buffer), 0);
+  EXPECT_EQ(arguments_set(kernel, other), 1);
+  EXPECT_EQ(arguments_set(kernel, buffer), 1);
+}
+
+TEST(Kernel, WritesToTheMemoryThatABufferHasNow) {
+  Device device("");
+  Program program(device, kSource, "");
+  Kernel kernel(program, "local_sizes");
+  for (const Memory memory : {Memory::kDevice, Memory::kShared}) {
+    Buffer buffer(device, memory);
+    for (const std::size_t count : {64u, 4096u, 65536u}) {  // another each time, maybe in one place
+      buffer.reserve(4 * count);
+      buffer.fill_zero(4 * count);
+      EXPECT_EQ(arguments_set(kernel, buffer), 1);
+      kernel.launch(1, 64, buffer);
+      std::uint32_t size = 0;
+      buffer.read(&size, sizeof(size));
+      device.finish();
+      EXPECT_EQ(size, 64u);
+      buffer.release();
+      EXPECT_EQ(buffer.id(), 0u);
+    }
+  }
+}
+
+TEST(Kernel, SetsAnArgumentAgainThatCouldNotBeSet) {
+  Device device("");
+  Program program(device, kSource, "");
+  Kernel kernel(program, "local_sizes");
+  Buffer buffer(device), other(device);
+  buffer.reserve(4 * 64);
+  other.reserve(4 * 64);
+  kernel.launch(1, 64, buffer);
+  fault_injector::arm(1, CL_OUT_OF_RESOURCES);
+  EXPECT_THROW(kernel.launch(1, 64, other), DeviceError);
+  fault_injector::disarm();
+  EXPECT_EQ(arguments_set(kernel, buffer), 1);  // nobody knows which of the two it has
+  device.finish();
+}
+
 TEST(Kernel, TellsTheTimeOfEachLaunchOnce) {
   Device device("");
   Program program(device, kSource, "");

@@ -42,10 +42,8 @@ Curves find_curves(const TestScene& scene) {
   data.lists.reserve(room);
   data.lists.begin(data.lists.capacities());
   const Launch launch{8, 64};
-  search.relate(launch, data);
-  search.cull(launch, data);
-  search.match(launch, data);
-  search.cross(launch, data);
+  for (Kernel* kernel : {&search.pair_step, &search.cull, &search.match, &search.cross})
+    data.launch(*kernel, launch);
   data.lists.count();
   EXPECT_FALSE(data.lists.overflowed([&] {
     ListCounts counts{};

@@ -71,7 +71,7 @@ class Rig {
 
   StepRecords run(const Scene& scene, std::uint32_t max_contacts = 16, Launch launch = {8, 64}) {
     upload(scene, max_contacts, false);
-    search_.relate(launch, data_);
+    data_.launch(search_.pair_step, launch);
     run_vertices(launch);
     assemble(launch);
     return read_back();
@@ -84,10 +84,10 @@ class Rig {
     do {
       upload(scene, 16, true);
       if (flooded) data_.settings.modes |= OX_MODE_FLOOD;
-      search_.relate(launch, data_);
-      search_.cull(launch, data_);
-      search_.match(launch, data_);
-      search_.cross(launch, data_);
+      data_.launch(search_.pair_step, launch);
+      data_.launch(search_.cull, launch);
+      data_.launch(search_.match, launch);
+      data_.launch(search_.cross, launch);
       if (flooded)
         flood(launch);
       else if (dense)
@@ -105,27 +105,23 @@ class Rig {
   StepRecords run_reduction(const Scene& scene, const std::vector<Candidate>& candidates,
                             std::uint32_t max_contacts = 16) {
     upload(scene, max_contacts, false);
-    search_.relate({8, 64}, data_);
+    data_.launch(search_.pair_step, {8, 64});
     ox_found found{};
     found.head[0] = found.head[1] = OX_NONE;
     found.features = found.placed = found.candidates = static_cast<ox_u32>(candidates.size());
     data_.pairs.found.write(&found, sizeof(found));
-    Buffer given(device_);
     std::vector<ox_u32> words = words_of(candidates);
     words.resize(words.size() + OX_LANES);  // lanes are loaded beyond the last
-    given.reserve(words.size() * sizeof(ox_u32));
-    given.write(words.data(), words.size() * sizeof(ox_u32));
+    data_.lists.candidates().upload(words);
     Kernel reduce(program_, "reduce_candidates");
-    data_.launch(reduce, {8, 64}, given, data_.settings.max_contacts,
-                 data_.settings.max_contacts_deformable, data_.pairs.ranges,
-                 data_.lists.contacts());
+    data_.launch(reduce, {8, 64});
     return read_back();
   }
 
   // Its first batch alone.
   StepRecords run_pair_step(const Scene& scene, Launch launch = {8, 64}) {
     upload(scene, 1, false);
-    search_.relate(launch, data_);
+    data_.launch(search_.pair_step, launch);
     list_chunks(launch, false);
     return read_back();
   }
@@ -147,15 +143,12 @@ class Rig {
         paper_(program_),
         data_(program_) {}
 
-  void assemble(Launch launch) {
-    assembly_.assemble(launch, launch, launch, data_);
-    assembly_.reduce(launch, data_);
-  }
+  void assemble(Launch launch) { assembly_.run(launch, launch, launch, data_); }
 
   void flood(Launch launch) {
-    search_.flood(launch, data_);
-    search_.choose_vertices(launch, data_);
-    search_.cast(launch, data_);
+    data_.launch(search_.flood, launch);
+    data_.launch(search_.vertex_step, launch);
+    data_.launch(search_.ray_step, launch);
   }
 
   void list_chunks(Launch launch, bool dense) {
