@@ -28,7 +28,7 @@ typedef struct ox_feature {
   // Of a crossing, for each facet at its edge: the next that has the pair of facets in common, and
   // so on round about, feature << 1 | which of the facets at its edge; OX_NONE at a border.
   ox_u32 mate[2];
-  ox_u32 region;  // of overlap, among all
+  ox_u32 region;  // of overlap, among all; until then itself, where the chain of its edge begins
 } ox_feature;
 OX_STATIC_ASSERT(sizeof(ox_feature) == 64, ox_feature_is_64_bytes);
 
@@ -58,8 +58,7 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_FLAGS 10u    // OX_FEATURE_..., with OX_MEMBER_BEGINS
 #define OX_MEMBER_FEATURE 11u  // among all
 #define OX_MEMBER_PLANE 12u
-#define OX_MEMBER_FACE 13u  // as in ox_feature
-#define OX_MEMBER_WORDS 14u
+#define OX_MEMBER_WORDS 13u
 
 #define OX_MEMBER_BEGINS 64u    // it begins a unit
 #define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
@@ -77,8 +76,7 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 // common normals of two edges. Each field lies for itself, so that many planes are looked at at a
 // time (contacts/fields.h): of a region with m members there is room for OX_PLANES_PER_FEATURE * m.
 #define OX_PLANE_NORMAL 0u  // three: unit, the way A is moved
-#define OX_PLANE_TOP 3u     // [m] along it, to where what of A is below has to rise
-#define OX_PLANE_BOTTOM 4u  // to where what of B is above has to sink; of a face the same
+#define OX_PLANE_LEVEL 3u   // two, of A and B: to where it has to go the way it is moved [m]
 #define OX_PLANE_FLAGS 5u   // OX_PLANE_..., a kind, with OX_PLANE_CROSSED, OX_PLANE_PASSED
 #define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and of B
 #define OX_PLANE_WORDS 8u

@@ -6,9 +6,9 @@
 // plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
 // the deepest first, and each plane clears what it can.
 //
-// in    regions, members, planes, features
+// in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
-//       planes: which of them part of the region is past
+//       planes: which of them part of the region is past; members: units, in another order
 // item  1 region (of a queue)
 // may overflow: none; a feature makes one candidate at most
 #include "contacts/candidates.h"

@@ -58,7 +58,7 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
   __global const ox_feature* f = ox_feature_of(r, unit);
   for (uint end = 0u; end < 2u && !ox_is_vertex(f->flags); ++end) {
     const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
-    seed.through[seed.count++] = seed.side == 0u ? normal : -normal;
+    seed.through[seed.count++] = ox_way_of(seed.side, normal);
     if (f->partner == OX_NONE) break;
     f = r->scene->features + f->partner;
   }
@@ -92,10 +92,9 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint 
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_position_of(r, unit), &one);
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_vector_of(&r->members, OX_MEMBER_END, unit),
                 &other);
-  const ox_floats level =
-      OX_LOAD_FLOATS(&r->planes, side == 0u ? OX_PLANE_TOP : OX_PLANE_BOTTOM, block);
-  one = side == 0u ? level - one : one - level;
-  other = side == 0u ? level - other : other - level;
+  const ox_floats level = OX_LOAD_FLOATS(&r->planes, OX_PLANE_LEVEL + side, block);
+  one = side == 0u ? level - one : level + one;
+  other = side == 0u ? level - other : level + other;
   const ox_ints clears = (one + other >= past + past) & (one <= limit) & (other <= limit);
   // Those of other kinds clear the other mesh alone.
   const uint others = ox_of_kind(&r->planes, block, OX_PLANE_KIND,
@@ -171,17 +170,12 @@ static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_p
   ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, plane->normal, &one);
   ox_dot_fields(&r->members, OX_MEMBER_END, block, plane->normal, &other);
   uint cleared = 0u;
-  if (ox_clears_side(plane, 0u)) {
-    const ox_floats a = plane->top - one;
-    const ox_floats b = plane->top - other;
+  for (uint side = 0u; side < 2u; ++side) {
+    if (!ox_clears_side(plane, side)) continue;
+    const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
+    const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
     const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
-    cleared |= ox_mask_of(&clears) & ~of_b;
-  }
-  if (ox_clears_side(plane, 1u)) {
-    const ox_floats a = one - plane->bottom;
-    const ox_floats b = other - plane->bottom;
-    const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
-    cleared |= ox_mask_of(&clears) & of_b;
+    cleared |= ox_mask_of(&clears) & (side == 0u ? ~of_b : of_b);
   }
   return cleared;
 }

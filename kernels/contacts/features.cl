@@ -3,7 +3,7 @@
 // are of one region that follow one another along the curve in which the surfaces meet, or along an
 // edge inside the other mesh.
 //
-// in    crossings, hits: the vertices inside
+// in    crossings, hits: the vertices inside; pairs, and of meshes all but chunks and meshlets
 // out   features; regions, their members and planes
 // room  parents; slots, faces: tables (contacts/feature_table.h, contacts/face_table.h)
 // item  1 feature (grid-stride); of feature_place 1 pair
@@ -119,7 +119,10 @@ static void ox_link_features(const ox_scene* scene) {
       continue;
     }
     const uint of_edge = ox_add_feature(scene, i << 2 | OX_ENTRY_EDGE);
-    if (of_edge != OX_NONE) f->next = ox_exchange(scene, &scene->features[of_edge >> 2].next, i);
+    if (of_edge == OX_NONE)
+      f->region = i;  // for now: the chain begins with it
+    else
+      f->next = ox_exchange(scene, &scene->features[of_edge >> 2].next, i);
     for (uint k = 0u; k < 2u && (f->flags & OX_FEATURE_FLAT) == 0u; ++k) {
       if (f->at[k] == OX_NONE) continue;
       const uint other = ox_add_feature(scene, i << 2 | k);
@@ -176,9 +179,7 @@ static void ox_join_features(const ox_scene* scene) {
     if (!ox_is_vertex(f->flags)) {
       if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
       ox_join_stretches(scene, i);
-      const uint head =
-          ox_find_feature(scene, ox_edge_key(f->pair, ox_side_of(f->flags), f->source)) >> 2;
-      if (head == i) ox_join_chords(scene, i);
+      if (f->region == i) ox_join_chords(scene, i);
     } else if (f->next == OX_NONE) {
       ox_join_neighbours(scene, i);
     } else if (f->next != f->source) {
@@ -291,7 +292,6 @@ static void ox_fill_regions(const ox_scene* scene) {
     const bool crossed = !ox_is_vertex(f->flags);
     const uint owner = f->region << 1 | (crossed ? 1u : 0u);
     if (f->triangle != OX_NONE) f->face = ox_add_face(scene, region, owner, 1u - side, f->triangle);
-    ox_words_of(&list, OX_MEMBER_FACE)[place] = f->face;
     for (uint k = 0u; k < 2u && crossed; ++k)
       if (f->at[k] != OX_NONE) ox_add_face(scene, region, owner, side, f->at[k]);
   }

@@ -18,19 +18,21 @@
 #define OX_PLANE_PASSED 8u   // part of its region is on the other side of it
 
 typedef struct {
-  uint kind;      // OX_PLANE_...
-  uint id[2];     // of a face: its triangle, 0; else the edges, of A and of B
-  float3 normal;  // unit, the way A is moved
-  float top;      // [m] along it, to where what of A is below has to rise
-  float bottom;   // to where what of B is above has to sink
+  uint kind;       // OX_PLANE_...
+  uint id[2];      // of a face: its triangle, 0; else the edges, of A and of B
+  float3 normal;   // unit, the way A is moved
+  float level[2];  // of A and B: to where it has to go the way it is moved [m]
 } ox_plane;
+
+// The way that a plane with this normal moves mesh `side`.
+static inline float3 ox_way_of(uint side, float3 normal) { return side == 0u ? normal : -normal; }
 
 static inline ox_plane ox_no_plane(void) {
   ox_plane plane;
   plane.kind = OX_PLANE_NONE;
   plane.id[0] = plane.id[1] = OX_NONE;
   plane.normal = (float3)(0.0f);
-  plane.top = plane.bottom = 0.0f;
+  plane.level[0] = plane.level[1] = 0.0f;
   return plane;
 }
 
@@ -53,13 +55,14 @@ static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint s
   plane.kind = side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B;
   plane.id[0] = triangle;
   plane.id[1] = 0u;
-  plane.normal = side == 0u ? -normal : normal;
+  plane.normal = ox_way_of(side, -normal);
   // The highest of its corners, whichever comes first.
   __global const ox_triangle* t = scene->surfaces.triangles + triangle;
   float height = -INFINITY;
   for (uint k = 0u; k < 3u; ++k)
     height = ox_max(height, ox_dot(normal, ox_in_b(scene, pair, side, ox_corner(t, k))));
-  plane.top = plane.bottom = side == 0u ? -height : height;
+  plane.level[side] = -height;
+  plane.level[1u - side] = height;
   if (ox_dot(normal, normal) == 0.0f) plane.kind = OX_PLANE_NONE;  // of no area
   return plane;
 }
@@ -69,10 +72,9 @@ static inline bool ox_clears_side(const ox_plane* plane, uint side) {
   return (plane->kind & OX_PLANE_CLEARS(side)) != 0u;
 }
 
-// How deep a point of mesh `side` is below it [m]; of B: above it.
+// How deep a point of mesh `side` is behind it [m].
 static inline float ox_plane_depth(const ox_plane* plane, uint side, float3 p) {
-  const float height = ox_dot(plane->normal, p);
-  return side == 0u ? plane->top - height : height - plane->bottom;
+  return plane->level[side] - ox_dot(ox_way_of(side, plane->normal), p);
 }
 
 // An edge between facets.
@@ -176,12 +178,13 @@ static inline ox_plane ox_plane_of_ridges(const ox_scene* scene, uint pair, cons
   // Away from B, and towards A: at the rim of an open mesh one of the two alone may tell.
   const float3 outward = b->normal - a->normal;
   plane.normal = (ox_dot(n, outward) >= 0.0f ? n : -n) / sqrt(sine2);
-  plane.top = ox_dot(plane.normal, b->from);
-  plane.bottom = ox_dot(plane.normal, a->from);
-  if (plane.top < plane.bottom || plane.top - plane.bottom > limit) return plane;
+  plane.level[0] = ox_dot(plane.normal, b->from);
+  plane.level[1] = -ox_dot(plane.normal, a->from);
+  const float depth = plane.level[0] + plane.level[1];
+  if (depth < 0.0f || depth > limit) return plane;
   const float tolerance = OX_INFLATION * scene->pairs[pair].epsilon;
-  const ox_support of_b = {pair, 1u, plane.normal, plane.top + tolerance};
-  const ox_support of_a = {pair, 0u, -plane.normal, -plane.bottom + tolerance};
+  const ox_support of_b = {pair, 1u, plane.normal, plane.level[0] + tolerance};
+  const ox_support of_a = {pair, 0u, -plane.normal, plane.level[1] + tolerance};
   if (!ox_edge_supports(scene, &of_b, b) || !ox_edge_supports(scene, &of_a, a)) return plane;
   plane.kind = OX_PLANE_EDGES;
   plane.id[0] = a->edge;

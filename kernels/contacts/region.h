@@ -63,7 +63,7 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
     if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
       return true;
   }
-  const float3 direction = side == 0u ? plane->normal : -plane->normal;
+  const float3 direction = ox_way_of(side, plane->normal);
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
     if (ox_is_vertex(flags) && ox_side_of(flags) != side &&
@@ -81,10 +81,10 @@ static inline float ox_body_tie(const ox_region_view* r) {
 // How deep all of mesh `side` is below a plane, and the tie [m]; or something beyond `limit`.
 static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* plane, uint side,
                                      float limit) {
-  const float3 down = side == 0u ? -plane->normal : plane->normal;
-  const float above = side == 0u ? plane->top : -plane->bottom;
+  const float3 down = -ox_way_of(side, plane->normal);
+  const float level = plane->level[side];
   // Where the walk ends early, the tie is more than rounding and takes the sum past the limit.
-  return above + ox_reach_along(r->scene, r->pair, side, down, limit - above) + ox_body_tie(r);
+  return level + ox_reach_along(r->scene, r->pair, side, down, limit - level) + ox_body_tie(r);
 }
 
 // How far A has to go along a direction to be past all of B [m].

@@ -31,21 +31,21 @@ static inline bool ox_parts_by_faces_of(const ox_scene* scene, uint pair, uint f
 static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane* plane,
                                   uint flags) {
   ox_set_vector(list, OX_PLANE_NORMAL, i, plane->normal);
-  ox_floats_of(list, OX_PLANE_TOP)[i] = plane->top;
-  ox_floats_of(list, OX_PLANE_BOTTOM)[i] = plane->bottom;
   ox_words_of(list, OX_PLANE_FLAGS)[i] = plane->kind | flags;
-  ox_words_of(list, OX_PLANE_ID)[i] = plane->id[0];
-  ox_words_of(list, OX_PLANE_ID + 1u)[i] = plane->id[1];
+  for (uint k = 0u; k < 2u; ++k) {
+    ox_floats_of(list, OX_PLANE_LEVEL + k)[i] = plane->level[k];
+    ox_words_of(list, OX_PLANE_ID + k)[i] = plane->id[k];
+  }
 }
 
 static inline ox_plane ox_load_plane(const ox_fields* list, uint i) {
   ox_plane plane;
   plane.normal = ox_vector_of(list, OX_PLANE_NORMAL, i);
-  plane.top = ox_floats_of(list, OX_PLANE_TOP)[i];
-  plane.bottom = ox_floats_of(list, OX_PLANE_BOTTOM)[i];
   plane.kind = ox_words_of(list, OX_PLANE_FLAGS)[i] & OX_PLANE_KIND;
-  plane.id[0] = ox_words_of(list, OX_PLANE_ID)[i];
-  plane.id[1] = ox_words_of(list, OX_PLANE_ID + 1u)[i];
+  for (uint k = 0u; k < 2u; ++k) {
+    plane.level[k] = ox_floats_of(list, OX_PLANE_LEVEL + k)[i];
+    plane.id[k] = ox_words_of(list, OX_PLANE_ID + k)[i];
+  }
   return plane;
 }
 

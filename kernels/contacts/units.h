@@ -86,19 +86,13 @@ static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
   for (uint k = 0u; k < waiting; ++k) {
     ox_plane_choice best = ox_no_choice();
     ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = OX_NONE;
-    const uint face = ox_words_of(&r->members, OX_MEMBER_FACE)[k];
-    if (face != OX_NONE) ox_propose_for(r, k, r->faces[face].plane, &best);
-    if (!ox_is_vertex(ox_flags_of(r, k))) {
-      const uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
-      const uint partner = r->scene->features[feature].partner;
-      for (uint i = 0u; i < 2u; ++i)
+    uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
+    for (uint end = 0u; end < 2u && feature != OX_NONE; ++end) {
+      __global const ox_feature* f = r->scene->features + feature;
+      if (f->face != OX_NONE) ox_propose_for(r, k, r->faces[f->face].plane, &best);
+      for (uint i = 0u; i < 2u && !ox_is_vertex(f->flags); ++i)
         ox_propose_for(r, k, r->scene->edge_planes[2u * feature + i], &best);
-      if (partner != OX_NONE) {
-        const uint other = r->scene->features[partner].face;
-        if (other != OX_NONE) ox_propose_for(r, k, r->faces[other].plane, &best);
-        for (uint i = 0u; i < 2u && !ox_is_vertex(r->scene->features[partner].flags); ++i)
-          ox_propose_for(r, k, r->scene->edge_planes[2u * partner + i], &best);
-      }
+      feature = f->partner;
     }
     ox_set_own(r, k, &best);
   }

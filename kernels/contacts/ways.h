@@ -43,7 +43,7 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
   __global const ox_mesh* target = ox_target_of(r, side);
   if ((target->flags & OX_MESH_CLOSED) == 0u) return false;
   const float epsilon = r->scene->pairs[r->pair].epsilon;
-  const float3 away = side == 0u ? plane->normal : -plane->normal;
+  const float3 away = ox_way_of(side, plane->normal);
   const float3 there = p + (depth + OX_MARGIN * epsilon) * away;
   return ox_winds_about(ox_in_target(r, side, there),
                         side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away), epsilon,

@@ -46,7 +46,7 @@ typedef struct {
 } ox_extent;
 
 static inline ox_extent ox_begin_extent(const ox_plane* plane) {
-  ox_extent extent = {plane, {-plane->bottom, plane->top}, 0.0f};
+  ox_extent extent = {plane, {plane->level[1], plane->level[0]}, 0.0f};
   if (plane->kind != OX_PLANE_EDGES) extent.reach[ox_clears_side(plane, 0u) ? 0 : 1] = -INFINITY;
   return extent;
 }
@@ -55,9 +55,9 @@ static inline ox_extent ox_begin_extent(const ox_plane* plane) {
 static inline bool ox_extend(const ox_region_view* r, uint side, uint block, ox_extent* extent) {
   const ox_plane* plane = extent->plane;
   float least, most;
-  ox_extent_of_block(r, block, side, side == 0u ? -plane->normal : plane->normal, &least, &most);
+  ox_extent_of_block(r, block, side, -ox_way_of(side, plane->normal), &least, &most);
   if (plane->kind != OX_PLANE_EDGES)
-    extent->past = ox_max(extent->past, (side == 0u ? -plane->top : plane->bottom) - least);
+    extent->past = ox_max(extent->past, -plane->level[side] - least);
   const bool is_farther = most > extent->reach[side];
   if (is_farther) extent->reach[side] = most;
   return is_farther;

@@ -44,7 +44,7 @@ static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global 
 // known of two coordinates.
 static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 normal,
                                    ox_edge_set* set) {
-  const float3 past = side == 0u ? -normal : normal;
+  const float3 past = -ox_way_of(side, normal);
   float farthest = -INFINITY;
   for (uint k = 0u; k < r->count; ++k)
     if (ox_is_on(ox_flags_of(r, k), side))
@@ -172,7 +172,7 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
 // Of the members that are points of mesh `side` the farthest past a plane; OX_NONE: there is none,
 // as of what contains the other mesh.
 static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 normal) {
-  const float3 past = side == 0u ? -normal : normal;
+  const float3 past = -ox_way_of(side, normal);
   uint best = OX_NONE;
   float farthest = -INFINITY;
   for (uint k = 0u; k < r->count; ++k) {
