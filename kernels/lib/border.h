@@ -54,6 +54,11 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, f
     const float length = sqrt(ox_dot(along, along));
     const float3 direction = length > 0.0f ? along / length : along;
     const float3 start = from + c->t * direction;
+    // As mostly: the crossing itself is near, or not even the rest of the edge is.
+    if (ox_distance2_to_segment(p, start, start) < distance * distance) return false;
+    const float3 last =
+        vload3(0, scene->vertices[edge->vertex[c->leaves != 0u ? 0u : 1u]].position);
+    if (ox_distance2_to_segment(p, start, last) >= distance * distance) continue;
     const float3 end = ox_end_inside(scene, found->head[side], c, start, direction);
     if (ox_distance2_to_segment(p, start, end) < distance * distance) return false;
   }

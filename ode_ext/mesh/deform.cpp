@@ -13,6 +13,10 @@
 namespace ode_ext {
 namespace {
 
+// A search takes about as much longer as meshlets are larger. Those that have come apart so far are
+// worth to be made anew, once for each such change.
+constexpr double kMostSpread = 4;
+
 bool is_collapsed(const SourceTriangles& source, std::size_t first) {
   return source[first] == source[first + 1] || source[first + 1] == source[first + 2] ||
          source[first + 2] == source[first];
@@ -53,6 +57,8 @@ std::shared_ptr<const Mesh> deformed(const std::shared_ptr<const MeshTopology>& 
   // Built anew, a mesh is turned where its volume is negative.
   const double volume = signed_volume(shape.vertices, topology->triangles);
   if (topology->closed && (volume < 0 || (volume == 0 && topology->inverted))) return nullptr;
+  const double spread = meshlet_spread(topology->meshlets, shape.vertices, topology->triangles);
+  if (spread > kMostSpread * topology->spread) return nullptr;
   shape.topology = topology;
   shape.box = box_of(shape.vertices);
   shape.radius = half_diagonal(shape.box);

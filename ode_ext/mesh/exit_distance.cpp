@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesh/both.h"
 #include "mesh/box.h"
@@ -24,9 +23,10 @@ constexpr std::size_t kVerticesAThread = 4096;
 
 std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
                                   const std::vector<Vec3f>& normals,
-                                  const std::vector<Triangle>& triangles, const Bvh& bvh) {
+                                  const std::vector<Triangle>& triangles, const Bvh& bvh,
+                                  float thickness) {
   const double on_surface = kOnSurface * length(extent(box_of(vertices)));
-  std::vector<float> exits(vertices.size(), std::numeric_limits<float>::infinity());
+  std::vector<float> exits(vertices.size(), thickness);
   const auto exit_of = [&](std::size_t i) {
     if (normals[i] == Vec3f{}) {
       exits[i] = 0;
@@ -34,9 +34,10 @@ std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
     }
     Ray ray{Vec3d(vertices[i]), -Vec3d(normals[i])};
     ray.t_min = on_surface;
+    ray.t_max = static_cast<double>(thickness);
     ray.excluded_vertex = static_cast<std::uint32_t>(i);
     const RayHit hit = cast_ray(ray, bvh, vertices, triangles);
-    if (hit.back) exits[i] = static_cast<float>(hit.t);
+    if (hit.back) exits[i] = std::min(static_cast<float>(hit.t), thickness);
   };
   const auto exits_of = [&](auto self, std::size_t first, std::size_t last,
                             std::size_t threads) -> void {
@@ -51,15 +52,6 @@ std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
         [&] { self(self, middle, last, threads - half); });
   };
   exits_of(exits_of, 0, vertices.size(), worthwhile_threads(vertices.size(), kVerticesAThread));
-  return exits;
-}
-
-std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
-                                  const std::vector<Vec3f>& normals,
-                                  const std::vector<Triangle>& triangles, const Bvh& bvh,
-                                  float thickness) {
-  std::vector<float> exits = exit_distances(vertices, normals, triangles, bvh);
-  for (float& exit : exits) exit = std::min(exit, thickness);
   return exits;
 }
 

@@ -2,6 +2,7 @@
 // How deep below each vertex a mesh is solid.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "mesh/bvh.h"
@@ -11,15 +12,11 @@ namespace ode_ext {
 
 // For each vertex the t at which the ray along -normal leaves a closed mesh (GRAPP section 3, from
 // Hermann 2008: contacts beyond it are not the vertex's own). Infinity if it meets a front face
-// first, as the ray then starts outside, or nothing; 0 for a vertex without a normal.
-std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
-                                  const std::vector<Vec3f>& normals,
-                                  const std::vector<Triangle>& triangles, const Bvh& bvh);
-
-// The same for an open mesh, which is taken to be solid down to `thickness` [m] at most.
+// first, as the ray then starts outside, or nothing; 0 for a vertex without a normal. An open mesh
+// is taken to be solid down to `thickness` [m] at most.
 std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
                                   const std::vector<Vec3f>& normals,
                                   const std::vector<Triangle>& triangles, const Bvh& bvh,
-                                  float thickness);
+                                  float thickness = std::numeric_limits<float>::infinity());
 
 }  // namespace ode_ext

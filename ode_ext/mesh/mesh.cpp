@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mesh/both.h"
@@ -100,16 +101,15 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
     mesh.radius = half_diagonal(mesh.box);
     topology->source = source;
     topology->corner_vertex = std::move(welded.corner_vertex);
+    topology->spread = meshlet_spread(topology->meshlets, mesh.vertices, triangles);
     return mesh;
   }
 
   mesh.radius = radius_about(centre(mesh.box), mesh.vertices);
-  if (mesh.closed()) {
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh);
-  } else {
-    const float thickness = options.open_thickness > 0 ? options.open_thickness : mesh.mean_edge;
-    mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh, thickness);
-  }
+  const float thickness = mesh.closed()                ? std::numeric_limits<float>::infinity()
+                          : options.open_thickness > 0 ? options.open_thickness
+                                                       : mesh.mean_edge;
+  mesh.exits = exit_distances(mesh.vertices, mesh.normals, triangles, bvh, thickness);
   return mesh;
 }
 

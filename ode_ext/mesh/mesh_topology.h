@@ -45,6 +45,7 @@ struct MeshTopology {
   std::vector<Edge> edges, flat_edges;
   std::vector<Sides> sides;  // of each triangle
   Meshlets meshlets;         // with these edges
+  double spread = 0;         // of these, as the mesh was built (meshlet_spread)
   // A vertex of each part that these edges join, its lowest.
   std::vector<std::uint32_t> components;
 

@@ -126,4 +126,20 @@ Meshlets build_meshlets(const Bvh& bvh, const std::vector<Triangle>& triangles,
   return MeshletBuilder(bvh, triangles, edges).build();
 }
 
+double meshlet_spread(const Meshlets& meshlets, const std::vector<Vec3f>& vertices,
+                      const std::vector<Triangle>& triangles) {
+  double boxes = 0, area = 0;
+  for (const Meshlet& meshlet : meshlets.meshlets) {
+    Box box = empty_box();
+    for (std::uint32_t k = 0; k < meshlet.vertex_count; ++k)
+      box = grown(box, vertices[meshlets.vertices[meshlet.vertex_first + k]]);
+    boxes += half_area(box);
+  }
+  for (const Triangle& t : triangles) {
+    const Vec3d a(vertices[t[0]]);
+    area += 0.5 * length(cross(Vec3d(vertices[t[1]]) - a, Vec3d(vertices[t[2]]) - a));
+  }
+  return area > 0 ? boxes / area : 0;
+}
+
 }  // namespace ode_ext

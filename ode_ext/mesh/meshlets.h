@@ -42,4 +42,10 @@ struct Meshlets {
 Meshlets build_meshlets(const Bvh& bvh, const std::vector<Triangle>& triangles,
                         const std::vector<Edge>& edges);
 
+// How much larger meshlets are than what is in them: the areas of their boxes, halves of each, over
+// those of the triangles; 0 where these have none. Where triangles that lay side by side when the
+// mesh was built are elsewhere now, as those of a sheet that was met rolled up, it grows.
+double meshlet_spread(const Meshlets& meshlets, const std::vector<Vec3f>& vertices,
+                      const std::vector<Triangle>& triangles);
+
 }  // namespace ode_ext

@@ -53,6 +53,8 @@ PairMember& Members::note(Seen& seen, dGeomID geom, dTriMeshDataID data,
     now.scene = before.scene;
     now.object_of = before.object_of;
     now.object = before.object;
+    // What was edited does not come back, and need not be kept alive.
+    if (before.data == now.data && before.mesh != now.mesh) before = {};
   }
   now.last_pass = pass;
   return now;

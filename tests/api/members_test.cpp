@@ -29,6 +29,20 @@ TEST(Members, LetGoOfAMeshThatIsDestroyedOnWhateverGeomItWas) {
   EXPECT_EQ(Members::find_same(seen, gone, mesh.get(), Pose{}, 3), nullptr);
 }
 
+TEST(Members, LetGoOfAMeshThatWasEdited) {
+  OdeWorld world;
+  const OdeMesh& ball = world.mesh(make_icosphere(1, 1));
+  const dGeomID geom = world.geom(ball, {});
+  const auto mesh = std::make_shared<const Mesh>(), edited = std::make_shared<const Mesh>();
+  Members members;
+  Members::Seen& seen = members.seen(geom);
+  members.note(seen, geom, ball.id(), mesh, Pose{}, 1);
+  ASSERT_EQ(mesh.use_count(), 2);
+  members.note(seen, geom, ball.id(), edited, Pose{}, 2);
+  EXPECT_EQ(mesh.use_count(), 1);
+  EXPECT_EQ(Members::find_same(seen, ball.id(), edited.get(), Pose{}, 3), &seen.now);
+}
+
 TEST(Members, LetGoOfMeshesThatAreDestroyedBeforeTheNextPassAtTheLatest) {
   OdeWorld world;
   Members members;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -41,6 +42,31 @@ TEST(Deformed, MovesTheVerticesAndKeepsTheTopology) {
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_EQ(shape->vertices[base->topology->triangles[t][k]],
                 target[3 * base->topology->source_triangle[t] + k]);
+}
+
+// A sheet of 4 m, flat, or rolled up so that sixteen layers lie on one another.
+TriangleSoup sheet_of_four_metres(bool rolled) {
+  TriangleSoup soup;
+  const auto at = [&](int i, int j) {
+    const float s = 4.0f * static_cast<float>(i) / 64, y = static_cast<float>(j) / 16;
+    const float turn = 8 * std::numbers::pi_v<float> * s, r = 0.02f + 0.0005f * s;
+    return rolled ? Vec3f{r * std::cos(turn), y, r * std::sin(turn)} : Vec3f{s, y, 0};
+  };
+  for (int i = 0; i < 64; ++i)
+    for (int j = 0; j < 16; ++j) {
+      shapes::append(soup, at(i, j), at(i + 1, j), at(i, j + 1));
+      shapes::append(soup, at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  return soup;
+}
+
+TEST(Deformed, IsBuiltAnewWhereTrianglesThatLaySideBySideNoLongerDo) {
+  const TriangleSoup flat = sheet_of_four_metres(false), rolled = sheet_of_four_metres(true);
+  EXPECT_EQ(deformed(built(rolled), flat), nullptr);
+  // What lay side by side stays so, however it is rolled.
+  const Shape shape = deformed(built(flat), rolled);
+  ASSERT_NE(shape, nullptr);
+  EXPECT_NE(deformed(shape, flat), nullptr);
 }
 
 // All but the order of the vertices is as if the mesh had been built in this shape.

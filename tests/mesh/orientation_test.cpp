@@ -5,7 +5,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "shapes.h"
 
@@ -83,6 +88,40 @@ TEST(Orientation, GivesEachPartOfAnInconsistentMeshAPositiveVolume) {
   EXPECT_TRUE(mesh.closed());
   EXPECT_TRUE(mesh.topology->reoriented);
   EXPECT_DOUBLE_EQ(shapes::volume(mesh), 3);
+}
+
+// By the volume of each part, of which rounding must not be more.
+TEST(Orientation, TurnsSmallPartsOfALargeMeshOutward) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> place(-500, 500), corner(0, 0.002f);
+  std::vector<TriangleSoup> parts;
+  TriangleSoup all;
+  while (parts.size() < 1000) {
+    const Vec3f at{place(random), place(random), place(random)};
+    std::array<Vec3f, 4> p;
+    for (Vec3f& v : p) v = at + Vec3f{corner(random), corner(random), corner(random)};
+    const Vec3d u(p[1] - p[0]), v(p[2] - p[0]), w(p[3] - p[0]);
+    const double volume = dot(u, cross(v, w));
+    if (std::abs(volume) < 0.05 * length(u) * length(v) * length(w)) continue;  // hardly a solid
+    if (volume < 0) std::swap(p[1], p[2]);
+    // One of four triangles is turned: each part is to be decided by itself.
+    parts.push_back({p[0], p[1], p[2], p[0], p[1], p[3], p[1], p[2], p[3], p[2], p[0], p[3]});
+    all = parts.size() == 1 ? parts[0] : shapes::joined(all, parts.back());
+  }
+  const Mesh mesh = built_mesh(all);
+  ASSERT_TRUE(mesh.topology->reoriented);
+  std::map<std::uint32_t, double> volumes;  // by part
+  std::map<std::uint32_t, Vec3d> apexes;
+  for (std::size_t t = 0; t < mesh.topology->triangles.size(); ++t) {
+    const std::uint32_t part = mesh.topology->source_triangle[t] / 4;
+    const auto& corners = mesh.topology->triangles[t];
+    const Vec3d apex = apexes.emplace(part, Vec3d(mesh.vertices[corners[0]])).first->second;
+    volumes[part] += dot(
+        Vec3d(mesh.vertices[corners[0]]) - apex,
+        cross(Vec3d(mesh.vertices[corners[1]]) - apex, Vec3d(mesh.vertices[corners[2]]) - apex));
+  }
+  ASSERT_EQ(volumes.size(), parts.size());
+  for (const auto& [part, volume] : volumes) EXPECT_GT(volume, 0) << part;
 }
 
 TEST(Orientation, LeavesACavityACavity) {
