@@ -66,8 +66,9 @@ typedef struct dxBatchCollider *dBatchColliderID;
     version may add some at the end: a program that was built before gets their defaults. */
 typedef struct dBatchColliderParams {
   size_t struct_size; /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
-  const char *device; /**< as ODE_EXT_DEVICE; NULL: the environment, else GPU, accelerator, CPU.
-                             Read during dBatchColliderCreate only, as is `config` */
+  const char *device; /**< as ODE_EXT_DEVICE; NULL: the environment, else the first that works of
+                             GPU, accelerator, CPU. Read during dBatchColliderCreate only, as is
+                             `config` */
   int max_contacts;   /**< contacts kept per pair, 1..64 (default 16) */
   int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh, 1..64; 0
                                       (default): all of them */
@@ -95,8 +96,9 @@ ODE_EXT_API const char *dBatchConfigValues(int index);  /**< its values */
 ODE_EXT_API const char *dBatchConfigDefault(int index); /**< its default */
 ODE_EXT_API const char *dBatchConfigMeaning(int index); /**< what it does */
 
-/** @return 0 if dBatchColliderCreate would take this as params.config, else -1, and the last error
-    says what is wrong with it. A device may still refuse a work_group_size. */
+/** @return 0 if dBatchColliderCreate would take this text as params.config, else -1, and the last
+    error says what is wrong with it. NULL is no text. A device may still refuse a
+    work_group_size. */
 ODE_EXT_API int dBatchConfigCheck(const char *config);
 
 /** Sets struct_size and the defaults of a struct of that size: that of the header that the program
@@ -250,7 +252,8 @@ ODE_EXT_API int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDat
 /**
  * Announces that the vertices of a mesh moved or that it was rebuilt (after the change, and after
  * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, unless
- * `trust_meshes` is set. collider 0: all colliders.
+ * `trust_meshes` is set. All colliders are told, since any may be asked about the mesh: collider is
+ * one that lives, or 0.
  */
 ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data);
 
@@ -271,15 +274,18 @@ ODE_EXT_API void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collide
                                                         dTriMeshDataID data, int deformable);
 
 /** Announces that a mesh was or is about to be destroyed; its answers are forgotten. The handle is
-    not dereferenced. collider 0: all colliders. */
+    not dereferenced. All colliders are told, as of an update. */
 ODE_EXT_API void dBatchColliderTriMeshDataDestroyed(dBatchColliderID collider, dTriMeshDataID data);
 
 /** Status bits of the last pass. 0: all went well. */
 enum {
-  dBatchStatusRedone = 1 << 0,       /**< an append buffer was too small; it was grown and the pass
+  dBatchStatusRedone = 1 << 0,        /**< an append buffer was too small; it was grown and the pass
                                            redone: nothing was lost */
-  dBatchStatusDeviceFailed = 1 << 1, /**< the device failed; ODE's own collider answers this pass */
-  dBatchStatusMeshRefused = 1 << 2,  /**< a mesh has a vertex that is not finite, or farther than
+  dBatchStatusDeviceFailed = 1 << 1,  /**< the device failed, and ODE's own collider answers this
+                                           pass; or it has no room for a pair by itself, and ODE's
+                                           collider answers for that one: it is tried again after
+                                           some hundred passes */
+  dBatchStatusMeshRefused = 1 << 2,   /**< a mesh has a vertex that is not finite, or farther than
                                            2^36 m (6.9e10) from its origin, or is less than 2^-30 m
                                            (9.3e-10) across; its pairs get no contacts */
   dBatchStatusGatherSkipped = 1 << 3, /**< the space was known to hold no mesh pair */
@@ -329,7 +335,7 @@ enum {
     value for what was expected and what there was room for. A version may add values between these;
     none is given another meaning. */
 enum {
-  /* of the last pass */
+  /* of the last pass, which may be one that a callback made within another */
   dBatchCounterPairs = 0,          /**< mesh pairs gathered */
   dBatchCounterPairsComputed = 1,  /**< of those, computed now (the others had a valid answer) */
   dBatchCounterPairsColliding = 2, /**< of those gathered, with at least one contact; of pairs that

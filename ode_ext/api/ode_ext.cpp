@@ -6,15 +6,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "api/guarded.h"
 #include "api/params.h"
 #include "ode/batch_collider.h"
 #include "ode/capture.h"
 #include "ode/known_contacts.h"
+#include "ode/messages.h"
 #include "ode/override.h"
 #include "ode/pass.h"
 #include "ode/trace.h"
+#include "opencl/choice.h"
+#include "opencl/error.h"
 #include "opencl/fork_guard.h"
 
 using namespace ode_ext::api;
@@ -100,14 +104,44 @@ int collide_one_by_one(const dGeomID* pairs, int pair_count, int flags, dContact
   return total;
 }
 
-// Applies to one collider, or to all where the handle is 0.
+std::shared_ptr<BatchCollider> created(const dBatchColliderParams& params,
+                                       const ode_ext::ColliderOptions& options) {
+  return std::make_shared<BatchCollider>(options, static_cast<float>(params.open_thickness),
+                                         params.trust_meshes != 0, params.triangle_callbacks != 0);
+}
+
+// Where no device is selected, on the first that works: a driver may be there and not build the
+// kernels. Throws what the last says if none does.
+std::shared_ptr<BatchCollider> created_on_a_device(const dBatchColliderParams& params) {
+  ode_ext::ColliderOptions options = to_options(params);
+  std::vector<ode_ext::DeviceInfo> devices;
+  if (options.device.find_first_not_of(' ') == std::string::npos)
+    devices = in_default_order(ode_ext::list_devices());
+  for (std::size_t i = 0; i + 1 < devices.size(); ++i) {
+    try {
+      return created(params, options);
+    } catch (const ode_ext::DeviceError& error) {
+      ode_ext::log(ode_ext::LogLevel::kWarning,
+                   std::string(error.what()) + " The next device is tried.");
+      options.device = std::to_string(devices[i + 1].index);
+    }
+  }
+  return created(params, options);
+}
+
+// Who is told of a mesh: the collider of a handle, all where it is 0; or all, whichever it is, of
+// what is true whoever is asked.
+enum class Told : bool { kOne, kAll };
+
 template <class Visit>
-void visit_colliders(const char* call, dBatchColliderID handle, dTriMeshDataID data, Visit visit) {
+void visit_colliders(const char* call, dBatchColliderID handle, dTriMeshDataID data, Told told,
+                     Visit visit) {
   guarded(call, 0, [&] {
     if (data == nullptr) refuse("the mesh is NULL");
     if (ode_ext::is_lost_by_fork()) return 0;
-    if (handle != nullptr)
-      visit(*live(handle));
+    const auto one = handle != nullptr ? live(handle) : nullptr;
+    if (one != nullptr && told == Told::kOne)
+      visit(*one);
     else
       ode_ext::for_each_collider(visit);
     return 0;
@@ -126,13 +160,11 @@ dBatchColliderID dBatchColliderCreate(const dBatchColliderParams* params) {
     if (ode_ext::is_lost_by_fork())
       refuse(
           "this process was forked from one that had used OpenCL, and its driver does not work "
-          "here; fork before the first collider is created, or call exec in the child");
+          "here; fork before the first call that looks at devices, or call exec in the child");
     ode_ext::set_log_level(ode_ext::log_level_of_environment());
     ode_ext::open_trace_of_environment();
     ode_ext::open_capture_of_environment();
-    auto collider = std::make_shared<BatchCollider>(
-        to_options(complete_params), static_cast<float>(complete_params.open_thickness),
-        complete_params.trust_meshes != 0, complete_params.triangle_callbacks != 0);
+    auto collider = created_on_a_device(complete_params);
     ode_ext::capture_collider(collider->identity(), complete_params, collider->device_name());
     ode_ext::install_override();
     ode_ext::register_collider(collider);
@@ -234,20 +266,21 @@ int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDataID data, in
 }
 
 void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data) {
-  visit_colliders("dBatchColliderTriMeshDataUpdate", collider, data, [&](BatchCollider& c) {
-    ode_ext::install_override();
-    c.announce_change(data);
-  });
+  visit_colliders("dBatchColliderTriMeshDataUpdate", collider, data, Told::kAll,
+                  [&](BatchCollider& c) {
+                    ode_ext::install_override();
+                    c.announce_change(data);
+                  });
 }
 
 void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider, dTriMeshDataID data,
                                             int deformable) {
-  visit_colliders("dBatchColliderTriMeshDataSetDeformable", collider, data,
+  visit_colliders("dBatchColliderTriMeshDataSetDeformable", collider, data, Told::kOne,
                   [&](BatchCollider& c) { c.set_deformable(data, deformable != 0); });
 }
 
 void dBatchColliderTriMeshDataDestroyed(dBatchColliderID collider, dTriMeshDataID data) {
-  visit_colliders("dBatchColliderTriMeshDataDestroyed", collider, data,
+  visit_colliders("dBatchColliderTriMeshDataDestroyed", collider, data, Told::kAll,
                   [&](BatchCollider& c) { c.forget(data); });
 }
 

@@ -25,6 +25,8 @@ void check(const dBatchColliderParams& p) {
   if (p.max_contacts_deformable < 0 || p.max_contacts_deformable > static_cast<int>(kMaxContacts))
     refuse("max_contacts_deformable is " + std::to_string(p.max_contacts_deformable) +
            ", expected 0 (all) to " + std::to_string(kMaxContacts));
+  if (p.trust_meshes < 0)
+    refuse("trust_meshes is " + std::to_string(p.trust_meshes) + ", expected 0 or 1");
   // Used as a float, which is not to make 0 or infinity of it.
   const bool is_normal = p.open_thickness >= dReal{FLT_MIN} && p.open_thickness <= dReal{FLT_MAX};
   if (p.open_thickness != 0 && !is_normal) {

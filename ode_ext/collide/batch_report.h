@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "paper/work_count.h"
 #include "search/list.h"
@@ -29,7 +32,11 @@ struct BatchReport {
   std::uint64_t left = 0;                        // pairs that did not fit into a share
   int redone = 0;
   int synchronizations = 0;
-  bool backtracked = false;    // nothing was delivered
+  bool backtracked = false;  // nothing was delivered
+  // Pairs of the scene that the device has no room for, each by itself, while it has for others:
+  // their ranges are empty and say nothing. Why, of the last.
+  std::vector<std::size_t> given_up;
+  std::string why_given_up;
   std::uint64_t missed = 0;    // entries that were lost
   std::uint64_t unproven = 0;  // iterative rays that were cast in full after all
   std::uint64_t dropped = 0;   // vertices dropped for want of temporal data

@@ -51,7 +51,7 @@ void Collider::collide_tile(Batch& batch) {
   } catch (const DeviceError& error) {
     report_.work = work;
     forget_uploads();
-    if (!batch.workload.try_smaller(error.code())) throw;
+    if (!batch.workload.try_smaller(error.code()) && !give_up(batch, error)) throw;
     if (batch.remembers()) batch.memory->temporal.reset();  // how far what moved is forgotten, too
     upload(batch.scene);
     return;
@@ -111,6 +111,22 @@ void Collider::deliver(Batch& batch) {
   }
   append_contacts(batch.scene, data_.meshes, batch.workload.tile().first, read_back_.ranges(data_),
                   read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
+}
+
+// A pair that the device has no room for, of a scene of others. Where several in a row have none,
+// that says more of the device than of the pairs.
+constexpr std::size_t kMostGivenUp = 4;
+
+bool Collider::give_up(Batch& batch, const DeviceError& error) {
+  const Tile tile = batch.workload.tile();
+  if (!is_out_of_memory(error.code()) || tile.count != 1 || batch.scene.pairs.size() < 2 ||
+      report_.given_up.size() == kMostGivenUp)
+    return false;
+  data_.lists.release();
+  report_.given_up.push_back(tile.first);
+  report_.why_given_up = error.what();
+  result_.ranges.push_back({result_.contacts.size(), 0});
+  return true;
 }
 
 // Of what is uploaded only where it changed: some may not have been made.

@@ -11,6 +11,7 @@
 #include "collide/read_back.h"
 #include "contacts/contact.h"
 #include "contacts/plane_assembly.h"
+#include "opencl/error.h"
 #include "opencl/program.h"
 #include "paper/vertex_rays.h"
 #include "search/batch_data.h"
@@ -39,6 +40,7 @@ class Collider {
   void attempt(Batch& batch);
   void launch_steps(Batch& batch);
   void deliver(Batch& batch);
+  bool give_up(Batch& batch, const DeviceError& error);
   void forget_uploads();
   void drop(Batch& batch);
   void finish(Batch& batch);

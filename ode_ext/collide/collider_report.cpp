@@ -23,6 +23,7 @@ void Collider::finish(Batch& batch) {
   batch.memory->history = {report_.pairs, report_.actual, report_.appended, report_.left};
   // A little more each time: what did not fit once may have been short of memory for a moment.
   std::size_t& tile_pairs = batch.memory->tile_pairs;
+  if (!report_.given_up.empty()) tile_pairs = batch.tile_pairs;  // no size helped
   if (tile_pairs != 0 && tile_pairs < report_.pairs) tile_pairs += tile_pairs / 16 + 1;
 }
 

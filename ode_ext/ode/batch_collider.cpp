@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "ode/contact_export.h"
 #include "ode/messages.h"
@@ -84,7 +85,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
     stats_.ms_gather = ms_gather;
     try {
       compute_ahead(pairs, root);
-      if (stats_.pairs_computed != 0) failure_said_ = false;  // the device works
+      note_success();
     } catch (const std::exception& error) {
       failed_ = true;
       fail(error);
@@ -184,7 +185,8 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   };
   try {
     if (holds_now()) return known;
-    if (is_within_a_pass() && failed_) return nullptr;
+    if (is_within_a_pass() && (failed_ || (known != nullptr && known_.is_given_up(*known))))
+      return nullptr;
     if (was_unasked && unasked_.wakes_by_question()) {
       unasked_.compute(known_);
       stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs));
@@ -197,8 +199,12 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     known_.begin_batch();
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});
     known_.compute(nullptr);
+    if (!known->valid) throw std::runtime_error(known_.why_given_up());
+    if (!is_within_a_pass()) failure_said_ = false;  // the device works
+    if (std::exchange(failed_alone_, false)) stats_.status &= ~unsigned{dBatchStatusDeviceFailed};
   } catch (const std::exception& error) {
     if (is_within_a_pass()) failed_ = true;  // one attempt is enough for this pass
+    failed_alone_ = !is_within_a_pass() && (stats_.status & dBatchStatusDeviceFailed) == 0;
     fail(error);
     return nullptr;
   }
@@ -221,14 +227,25 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
 
 void BatchCollider::fail(const std::exception& error) {
   known_.drop_batch();
+  tell_failure(error.what());
+}
+
+void BatchCollider::note_success() {
+  if (!known_.why_given_up().empty())
+    tell_failure(known_.why_given_up() + " This is of one pair; others are collided.");
+  else if (stats_.pairs_computed != 0)
+    failure_said_ = false;  // the device works
+}
+
+void BatchCollider::tell_failure(const std::string& what) {
   stats_.status |= dBatchStatusDeviceFailed;
-  set_last_error(error.what());
-  if (!failure_said_)
-    log(LogLevel::kError, std::string(error.what()) + " Meanwhile ODE's own collider answers.");
+  set_last_error(what);
+  if (!failure_said_) log(LogLevel::kError, what + " Meanwhile ODE's own collider answers.");
   failure_said_ = true;
 }
 
 void BatchCollider::begin_stats(bool within_a_pass) {
+  failed_alone_ = false;
   PassStats fresh{};
   if (within_a_pass)
     fresh.status = stats_.status & ~unsigned{dBatchStatusGatherSkipped | dBatchStatusBacktracked};

@@ -69,9 +69,9 @@ class BatchCollider {
   // An answer of which the program's callbacks are to be asked.
   using PairToAsk = std::pair<std::size_t, AnswerCopy>;
 
-  // False: the device fails, and nothing is answered.
-  bool collide_batch(std::span<const dGeomID> geoms, PairOutput& output,
-                     std::vector<PairToAsk>& to_ask);
+  // `by_stock`: the pairs that are left to ODE's own collider, since the device fails.
+  void collide_batch(std::span<const dGeomID> geoms, PairOutput& output,
+                     std::vector<PairToAsk>& to_ask, std::vector<std::size_t>& by_stock);
   // All of these under the lock.
   void compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root);
   void compute_pairs(std::span<const dGeomID> geoms);
@@ -85,6 +85,9 @@ class BatchCollider {
   void begin_stats(bool within_a_pass);
   void note_report();
   void fail(const std::exception& error);
+  // What has come of a batch that did not fail, of whose pairs some may have been given up.
+  void note_success();
+  void tell_failure(const std::string& what);
 
   // An answer after the program's callbacks had their say; without the lock.
   int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
@@ -106,6 +109,7 @@ class BatchCollider {
   std::uint64_t asked_outside_ = 0;
   bool failed_ = false;        // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;  // one message per run of failures
+  bool failed_alone_ = false;  // the status tells of a question outside of any pass
 };
 
 }  // namespace ode_ext

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // BatchCollider, where a program gives it the pairs.
+#include <numeric>
+
 #include "ode/batch_collider.h"
 #include "ode/contact_export.h"
 #include "ode/messages.h"
@@ -16,9 +18,10 @@ bool can_collide(dGeomID g1, dGeomID g2) {
 }
 
 // Returns how many pairs it answered.
-long long collide_by_stock(std::span<const dGeomID> geoms, int flags, PairOutput& output) {
+long long collide_by_stock(std::span<const dGeomID> geoms, std::span<const std::size_t> pairs,
+                           int flags, PairOutput& output) {
   long long answered = 0;
-  for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
+  for (const std::size_t i : pairs) {
     const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
     if (!can_collide(g1, g2)) {
       output.note(i, 0);
@@ -39,9 +42,9 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   // What the program's code has a part in waits until the lock is gone: callbacks, and ODE's own
   // collider, which calls them.
   std::vector<PairToAsk> to_ask;
-  long long answered_by_stock = 0;
-  if (!collide_batch(geoms, output, to_ask))
-    answered_by_stock = collide_by_stock(geoms, flags, output);
+  std::vector<std::size_t> by_stock;
+  collide_batch(geoms, output, to_ask, by_stock);
+  const long long answered_by_stock = collide_by_stock(geoms, by_stock, flags, output);
   for (const auto& [i, answer] : to_ask)
     output.note(i, export_asked(answer, geoms[2 * i], geoms[2 * i + 1], output.limit(),
                                 output.of(i), skip));
@@ -54,17 +57,20 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
   return output.total();
 }
 
-bool BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& output,
-                                  std::vector<PairToAsk>& to_ask) {
+void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& output,
+                                  std::vector<PairToAsk>& to_ask,
+                                  std::vector<std::size_t>& by_stock) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   begin_stats(is_within_a_pass());
   try {
     compute_pairs(geoms);
-    if (stats_.pairs_computed != 0) failure_said_ = false;
+    note_success();
   } catch (const std::exception& error) {
     fail(error);
-    return false;
+    by_stock.resize(geoms.size() / 2);
+    std::iota(by_stock.begin(), by_stock.end(), std::size_t{0});
+    return;
   }
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
@@ -73,13 +79,14 @@ bool BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
       continue;
     }
     const Answer& answer = known_.entry(g1, g2);
-    if (has_callbacks(g1, g2, triangle_callbacks_))
+    if (!answer.valid)
+      by_stock.push_back(i);
+    else if (has_callbacks(g1, g2, triangle_callbacks_))
       to_ask.emplace_back(i, known_.copy_of(answer));
     else
       output.note(i, export_contacts(answer.contacts, answer.geoms[0], g1, g2, output.limit(),
                                      output.of(i), output.skip()));
   }
-  return true;
 }
 
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {

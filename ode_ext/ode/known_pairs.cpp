@@ -6,6 +6,7 @@
 
 #include "ode/pose_of.h"
 #include "ode/stopwatch.h"
+#include "opencl/error.h"
 
 namespace ode_ext {
 
@@ -49,6 +50,11 @@ AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
 }
 
 void KnownPairs::add(Answer& answer, const GatheredPair& pair) {
+  if (is_given_up(answer)) {
+    answer.valid = false;
+    why_given_up_ = "The device had no room for a pair of meshes of late.";
+    return;
+  }
   const dGeomID a = pair.first.geom, b = pair.second.geom;
   add(answer, member_of(seen(answer, a, b), pair.first),
       member_of(seen(answer, b, a), pair.second));
@@ -74,13 +80,21 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
 }
 
 void KnownPairs::compute(PassMemory* memory) {
-  const PairContacts& found = scene_.collide(collider_, meshes_, pass_, memory);
+  const PairContacts* collided = nullptr;
+  try {
+    collided = &scene_.collide(collider_, meshes_, pass_, memory);
+  } catch (const DeviceError& error) {
+    if (!is_out_of_memory(error.code()) || !scene_.give_up_if_single(look_)) throw;
+    why_given_up_ = error.what();
+    return;
+  }
   if (collider_.report().backtracked) {  // nothing to keep
     scene_.drop();
     return;
   }
   const Stopwatch storing;
-  scene_.store(found);
+  scene_.store(*collided, collider_.report().given_up, look_);
+  if (!collider_.report().given_up.empty()) why_given_up_ = collider_.report().why_given_up;
   if (memory != nullptr) stats_.ms_export = storing.milliseconds();
 }
 

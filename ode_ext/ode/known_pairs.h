@@ -17,6 +17,9 @@
 
 namespace ode_ext {
 
+// Meshes are looked at twice a pass.
+inline constexpr std::uint64_t kLooksGivenUp = 256;
+
 class KnownPairs {
  public:
   // What is found out is noted in `stats`.
@@ -46,13 +49,23 @@ class KnownPairs {
   AnswerCopy copy_of(const Answer& answer) const;
 
   // A batch begins, pairs are added that are not answered yet, and are computed.
-  void begin_batch() { scene_.begin(); }
+  void begin_batch() {
+    scene_.begin();
+    why_given_up_.clear();
+  }
   // With its geoms as they are, each looked at once for a batch.
   void add(Answer& answer, const GatheredPair& pair);
   void add(Answer& answer, PairMember& a, PairMember& b);
   // Throws DeviceError; the batch is to be dropped then.
   void compute(PassMemory* memory);
   void drop_batch() { scene_.drop(); }
+  // Whether the device had no room for a pair of late, so that it is not added: each attempt takes
+  // as long as a pass.
+  bool is_given_up(const Answer& answer) const {
+    return answer.given_up != 0 && look_ < answer.given_up + kLooksGivenUp;
+  }
+  // Why there is no room for pairs of the batch; "": there is.
+  const std::string& why_given_up() const { return why_given_up_; }
   // Answers of the batch with contacts, those that were there before among them.
   long long colliding() const { return scene_.colliding(); }
 
@@ -74,6 +87,7 @@ class KnownPairs {
   PairScene scene_;  // that is being built
   std::uint64_t pass_ = 0;
   std::uint64_t look_ = 0;
+  std::string why_given_up_;
 };
 
 }  // namespace ode_ext

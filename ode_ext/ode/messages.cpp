@@ -60,8 +60,8 @@ void say_that_a_fork_lost_the_device() {
   if (said.exchange(true)) return;
   const std::string message =
       "this process was forked from one that had used OpenCL, and its driver does not work here: "
-      "ODE's own collider answers. Fork before the first collider is created, or call exec in the "
-      "child.";
+      "ODE's own collider answers. Fork before the first call that looks at devices, or call exec "
+      "in the child.";
   set_last_error(message);
   log(LogLevel::kError, message);
 }

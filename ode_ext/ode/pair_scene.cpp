@@ -8,6 +8,15 @@
 
 namespace ode_ext {
 
+namespace {
+
+void give_up(Answer& answer, std::uint64_t look) {
+  answer.valid = false;
+  answer.given_up = look;
+}
+
+}  // namespace
+
 void PairScene::begin() {
   scene_.objects.clear();
   scene_.pairs.clear();
@@ -76,7 +85,8 @@ void PairScene::set_objects(MeshStore& meshes) {
                               reinterpret_cast<std::uintptr_t>(member->geom)});
 }
 
-void PairScene::store(const PairContacts& found) {
+void PairScene::store(const PairContacts& found, std::span<const std::size_t> given_up,
+                      std::uint64_t look) {
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     if (i + kAhead < pending_.size() && found.ranges[i + kAhead].count != 0)
       pending_[i + kAhead]->prefetch();
@@ -86,7 +96,15 @@ void PairScene::store(const PairContacts& found) {
     pending_[i]->contacts.assign(first, first + range.count);
     ++colliding_;
   }
+  for (const std::size_t i : given_up) give_up(*pending_[i], look);
   pending_.clear();
+}
+
+bool PairScene::give_up_if_single(std::uint64_t look) {
+  if (pending_.size() != 1) return false;
+  give_up(*pending_[0], look);
+  pending_.clear();
+  return true;
 }
 
 void PairScene::drop() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "collide/collider.h"
@@ -23,8 +24,10 @@ class PairScene {
   // Throws DeviceError; the scene is to be dropped then.
   const PairContacts& collide(Collider& collider, MeshStore& meshes, std::uint64_t pass,
                               PassMemory* memory);
-  // Stores what was found.
-  void store(const PairContacts& found);
+  // Stores what was found, and of which pairs nothing is known, since the device has no room.
+  void store(const PairContacts& found, std::span<const std::size_t> given_up, std::uint64_t look);
+  // Whether it is of one pair, which the device has no room for: that is noted then.
+  bool give_up_if_single(std::uint64_t look);
   // It will not be collided: its answers do not stand.
   void drop();
   // Answers with contacts, those that were there before among them.

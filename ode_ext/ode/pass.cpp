@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "ode/registry.h"
 #include "ode/thread_state.h"
 #include "opencl/fork_guard.h"
 
@@ -60,6 +61,7 @@ Pass::Pass(const std::shared_ptr<BatchCollider>& collider, const PassRoot& root,
   const std::vector<PassRoot> traversed = roots_on_this_thread();
   passes().begun.reserve(passes().begun.size() + 1);
   const bool outer_failed = collider->claim();
+  note_pass_here(collider);
   // Before the batch: already gathering calls code of the program's, which may leave by longjmp.
   passes().begun.push_back({collider, root, outer_failed, &mark, mark.frame(), number_});
   try {

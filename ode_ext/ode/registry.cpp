@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ode/pass.h"
+#include "ode/thread_state.h"
 
 namespace ode_ext {
 namespace {
@@ -21,7 +22,15 @@ Registry& registry() {
   return *instance;
 }
 
+struct LastPass {
+  std::weak_ptr<BatchCollider> collider;
+};
+
 }  // namespace
+
+void note_pass_here(const std::shared_ptr<BatchCollider>& collider) {
+  of_this_thread<LastPass>().collider = collider;
+}
 
 void register_collider(std::shared_ptr<BatchCollider> collider) {
   const std::lock_guard lock(registry().mutex);
@@ -50,11 +59,16 @@ int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contac
   BatchCollider* passing = Pass::collider_on_this_thread();
   if (passing != nullptr) return passing->answer(g1, g2, limit, contacts, skip);
   const auto colliders = live_colliders();
-  const auto latest = std::find_if(colliders.rbegin(), colliders.rend(),
-                                   [&](const auto& collider) { return collider->holds(g1, g2); });
-  if (latest != colliders.rend()) return (*latest)->answer(g1, g2, limit, contacts, skip);
   if (colliders.empty()) return -1;
-  return colliders.back()->answer(g1, g2, limit, contacts, skip);
+  const auto latest_that = [&](auto is_so) {
+    return std::find_if(colliders.rbegin(), colliders.rend(), is_so);
+  };
+  auto one = latest_that([&](const auto& collider) { return collider->holds(g1, g2); });
+  const auto last = of_this_thread<LastPass>().collider.lock();
+  if (one == colliders.rend())
+    one = latest_that([&](const auto& collider) { return collider == last; });
+  if (one == colliders.rend()) one = colliders.rbegin();
+  return (*one)->answer(g1, g2, limit, contacts, skip);
 }
 
 }  // namespace ode_ext

@@ -25,8 +25,12 @@ void for_each_collider(Visit visit) {
   for (const auto& collider : live_colliders()) visit(*collider);
 }
 
+// Of the passes that this thread makes, the last is by this collider.
+void note_pass_here(const std::shared_ptr<BatchCollider>& collider);
+
 // Answers dCollide(g1, g2) for two meshes: by the collider whose pass runs on this thread, else by
-// the latest that holds the pair, else by the latest created. -1: ODE's own collider is to answer.
+// the latest that holds the pair, else by that of the thread's last pass, else by the latest
+// created. -1: ODE's own collider is to answer.
 int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
 
 }  // namespace ode_ext

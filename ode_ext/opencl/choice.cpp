@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <tuple>
 
 namespace ode_ext {
@@ -123,6 +124,15 @@ Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& s
   const char* variable = std::getenv("ODE_EXT_DEVICE");
   const bool from_environment = variable && selection == variable;
   return {best, (from_environment ? "ODE_EXT_DEVICE=" : "the program's selection ") + quoted};
+}
+
+std::vector<DeviceInfo> in_default_order(const std::vector<DeviceInfo>& devices) {
+  std::vector<DeviceInfo> usable;
+  std::copy_if(devices.begin(), devices.end(), std::back_inserter(usable),
+               [](const DeviceInfo& device) { return why_unusable(device).empty(); });
+  std::sort(usable.begin(), usable.end(),
+            [](const DeviceInfo& a, const DeviceInfo& b) { return rank(a) < rank(b); });
+  return usable;
 }
 
 std::string device_lines(const std::vector<DeviceInfo>& devices, const DeviceInfo* chosen) {

@@ -16,6 +16,9 @@ struct Choice {
 
 Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& selection);
 
+// Those that can be used, in the order in which they are taken where nothing is selected.
+std::vector<DeviceInfo> in_default_order(const std::vector<DeviceInfo>& devices);
+
 // "gpu", "accelerator", "cpu" or "other".
 const char* type_name(cl_device_type type);
 

@@ -20,21 +20,22 @@ constexpr int kAttempts = 16;
 std::atomic<bool> cannot_create{false};
 std::atomic<double> seconds{0};
 
-// A number of the environment that is not one is as bad as one that a collider refuses.
-int number_of_environment(const char* name, int otherwise) {
+// A number of the environment that is not one, or too large, is as bad as one that a collider
+// refuses.
+int number_of_environment(const char* name, int otherwise, int most) {
   const char* text = std::getenv(name);
   if (text == nullptr || *text == '\0') return otherwise;
   char* end = nullptr;
   const long number = std::strtol(text, &end, 10);
-  return *end == '\0' && number >= 0 && number < 1000000 ? static_cast<int>(number) : -1;
+  return *end == '\0' && number >= 0 && number <= most ? static_cast<int>(number) : -1;
 }
 
 // What a program would say in code: settings of the environment.
 dBatchColliderParams params_of_environment() {
   dBatchColliderParams params;
   dBatchColliderParamsInit(&params);
-  params.max_contacts = number_of_environment("ODE_EXT_MAX_CONTACTS", params.max_contacts);
-  params.trust_meshes = number_of_environment("ODE_EXT_TRUST_MESHES", 0);
+  params.max_contacts = number_of_environment("ODE_EXT_MAX_CONTACTS", params.max_contacts, 1000000);
+  params.trust_meshes = number_of_environment("ODE_EXT_TRUST_MESHES", 0, 1);
   params.config = std::getenv("ODE_EXT_CONFIG");
   return params;
 }

@@ -241,6 +241,12 @@ __attribute__((constructor)) static void redirect_program(void) {
     return;
   }
   ode_of_program->dSpaceCollide = &collide_interior;
+  const char* trust = getenv("ODE_EXT_TRUST_MESHES");
+  if (trust != NULL && *trust != '\0' && strcmp(trust, "0") != 0) {
+    unsetenv("ODE_EXT_TRUST_MESHES");
+    say("ODE is linked into the program itself, and changes of its meshes cannot be seen", "",
+        "ODE_EXT_TRUST_MESHES has no effect");
+  }
   mesh_geoms = LONG_MAX / 2; /* they are not seen, nor do those that are destroyed count */
 }
 

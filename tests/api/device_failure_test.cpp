@@ -6,8 +6,12 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "ode/batch_collider.h"
+#include "ode/registry.h"
 #include "opencl/error.h"
 #include "support/batch_collider.h"
 
@@ -190,6 +194,148 @@ TEST_F(ApiInformation, SaysThatKernelsAreBuiltBeforeTheyAre) {
     return;
   }
   FAIL() << "the build was never reached";
+}
+
+// Of dCollide outside of any pass, in programs that make none.
+TEST_F(ApiDeviceFailure, OfAQuestionIsNoLongerToldOnceOneIsAnswered) {
+  const BatchCollider collider;
+  const CountMessages count;
+  const auto ask = [&](int shift) {
+    set_pose(pile_.geoms[0], at(0.01 * shift, 0, 0));  // something to compute
+    set_pose(pile_.geoms[1], at(0.01 * shift, 0.1, 0));
+    dContactGeom contact;
+    return dCollide(pile_.geoms[0], pile_.geoms[1], 1, &contact, sizeof contact);
+  };
+  for (int round = 0; round < 2; ++round) {
+    fault_injector::arm(1, CL_DEVICE_NOT_AVAILABLE);
+    EXPECT_GT(ask(3 * round), 0) << "ODE's own collider answers";
+    fault_injector::disarm();
+    EXPECT_EQ(dBatchColliderGetStatus(collider), dBatchStatusDeviceFailed);
+    EXPECT_EQ(message_count, round + 1);
+    EXPECT_GT(ask(3 * round + 1), 0);
+    EXPECT_EQ(dBatchColliderGetStatus(collider), 0);
+  }
+  // What is said of a pass stays. Of its calls some only read a clock, which costs nothing.
+  for (int nth = 1; nth < 50 && dBatchColliderGetStatus(collider) == 0; ++nth) {
+    pile_.shake(static_cast<std::uint64_t>(nth));
+    fault_injector::arm(nth, CL_DEVICE_NOT_AVAILABLE);
+    collider.pass(space_);
+    fault_injector::disarm();
+  }
+  ASSERT_EQ(dBatchColliderGetStatus(collider), dBatchStatusDeviceFailed);
+  EXPECT_GT(ask(9), 0);
+  EXPECT_EQ(dBatchColliderGetStatus(collider), dBatchStatusDeviceFailed);
+}
+
+// A device of which no buffer may be large enough for what two soups have in common.
+class ApiGivenUp : public testing::Test {
+ protected:
+  ApiGivenUp() {
+    ColliderOptions options;
+    options.max_contacts = 16;
+    options.whole_steps = false;  // they reserve more
+    options.largest_buffer = std::uint64_t{6} << 20;
+    collider_ = std::make_shared<ode_ext::BatchCollider>(options, 0.0f, false, false);
+    register_collider(collider_);
+  }
+  ~ApiGivenUp() override { dBatchColliderDestroy(id()); }
+
+  dBatchColliderID id() const { return reinterpret_cast<dBatchColliderID>(collider_.get()); }
+  Collected pass() const {
+    Collected collected;
+    EXPECT_EQ(dBatchColliderSpaceCollide(id(), space_, &collected, &collect), 1);
+    return collected;
+  }
+  Collected stock() const {
+    Collected collected;
+    dSpaceCollide(space_, &collected, &collect);
+    return collected;
+  }
+  GeomPair soups_as_asked() const {
+    const GeomPair pair{soups_[0], soups_[1]}, exchanged{soups_[1], soups_[0]};
+    return stock_.contacts.contains(pair) ? pair : exchanged;
+  }
+
+  OdeWorld world_;
+  dSpaceID space_ = world_.space(SpaceKind::Simple);
+  dGeomID soups_[2] = {world_.geom(world_.mesh(make_soup(800, 7)), {}, space_),
+                       world_.geom(world_.mesh(make_soup(800, 8)), {}, space_)};
+  Pile pile_{world_, space_, 8, 5, {20, 0, 0}};
+  Collected stock_ = stock();  // before any collider exists
+  std::shared_ptr<ode_ext::BatchCollider> collider_;
+  const CountMessages count_{};
+};
+
+TEST_F(ApiGivenUp, OnePairIsAnsweredByOdeAndAllOthersByTheBatch) {
+  Collected expected;
+  {
+    const BatchCollider whole;
+    expected = whole.pass(space_);
+  }
+  expected.contacts[soups_as_asked()] = stock_.contacts[soups_as_asked()];
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_EQ(difference_with_geoms(pass(), expected), "") << "pass " << i;
+    EXPECT_EQ(dBatchColliderGetStatus(id()) & dBatchStatusDeviceFailed, dBatchStatusDeviceFailed);
+    EXPECT_EQ(dBatchColliderGetCount(id(), dBatchCounterPairsStock), i);
+    // Where it was: something to look at, and the same to find; or only the soups are left to do.
+    if (i == 1) pile_.shake(5);
+  }
+  const std::size_t told = said.find("This is of one pair");
+  EXPECT_NE(told, std::string::npos) << said;
+  EXPECT_EQ(said.find("This is of one pair", told + 1), std::string::npos) << "once: " << said;
+}
+
+TEST_F(ApiGivenUp, OnePairOfManyThatAreGivenIsAnsweredByOde) {
+  const auto& [soup, other] = soups_as_asked();
+  std::vector<dGeomID> pairs{pile_.geoms[0], pile_.geoms[1], soup,
+                             other,          pile_.geoms[2], pile_.geoms[3]};
+  set_pose(pile_.geoms[1], pose_of(pile_.geoms[0]));
+  set_pose(pile_.geoms[3], pose_of(pile_.geoms[2]));
+  std::vector<Contacts> expected;
+  {
+    const BatchCollider whole;
+    for (std::size_t i = 0; i < 3; ++i) expected.push_back(collide(pairs[2 * i], pairs[2 * i + 1]));
+  }
+  expected[1] = stock_.contacts[soups_as_asked()];
+  std::vector<dContactGeom> contacts(3 * 64);
+  int counts[3];
+  EXPECT_GT(dBatchColliderCollidePairs(id(), pairs.data(), 3, 64, contacts.data(),
+                                       sizeof(dContactGeom), counts),
+            0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto first = contacts.begin() + static_cast<std::ptrdiff_t>(64 * i);
+    EXPECT_EQ(difference(Contacts(first, first + counts[i]), expected[i]), "") << i;
+  }
+}
+
+class DefaultDeviceDeathTest : public testing::Test {
+ protected:
+  DefaultDeviceDeathTest() { ::testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+};
+
+// PoCL shows as many devices as it is told to: the first fails, and the second is taken.
+TEST_F(DefaultDeviceDeathTest, IsTheNextWhereTheFirstDoesNotWork) {
+  EXPECT_EXIT(
+      {
+        unsetenv("ODE_EXT_DEVICE");
+        setenv("POCL_DEVICES", "pthread basic", 1);
+        const OdeWorld world;
+        const int devices = dBatchDeviceCount();
+        // The last call of the first device that can fail: its kernels are not what they should be.
+        for (long long nth = 1; nth < 100; ++nth) {
+          fault_injector::arm(nth, CL_BUILD_PROGRAM_FAILURE);
+          const dBatchColliderID collider = dBatchColliderCreate(nullptr);
+          fault_injector::disarm();
+          const bool is_second =
+              collider != nullptr &&
+              dBatchColliderGetDeviceName(collider) !=
+                  std::string(dBatchDeviceGetText(dBatchDeviceChoose(""), dBatchDeviceName));
+          if (collider != nullptr) dBatchColliderDestroy(collider);
+          if (is_second) std::exit(devices >= 2 ? 0 : 2);
+        }
+        std::exit(devices == 1 ? 0 : 1);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

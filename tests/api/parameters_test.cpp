@@ -32,6 +32,14 @@ TEST(ApiParams, AreInitialisedToTheDocumentedDefaults) {
   EXPECT_EQ(params.config, nullptr);
 }
 
+TEST(ApiParams, RefuseANegativeTrust) {
+  dBatchColliderParams params;
+  dBatchColliderParamsInit(&params);
+  params.trust_meshes = -1;
+  EXPECT_EQ(dBatchColliderCreate(&params), nullptr);
+  EXPECT_THAT(dBatchColliderGetLastErrorMessage(), HasSubstr("trust_meshes is -1"));
+}
+
 TEST(ApiParams, InitWritesNothingBeyondTheSizeItIsGiven) {
   struct {
     dBatchColliderParams params;

@@ -43,6 +43,38 @@ TEST(ApiThreads, TwoCollidersInTwoThreadsGiveTheAnswersOfOne) {
   }
 }
 
+TEST(ApiThreads, AskTheColliderOfTheirOwnPassesOutsideOfThem) {
+  OdeWorld world;
+  const dSpaceID space = world.space(SpaceKind::Simple);
+  const Pile pile(world, space, 8, 1);
+  const BatchCollider first, second;
+  first.pass(space);
+  const OdeMesh& cube = world.mesh(make_cube(1));
+  const dGeomID a = world.geom(cube, {}), b = world.geom(cube, at(0.1, 0.2, 0.9));
+  EXPECT_FALSE(collide(a, b).empty());
+  EXPECT_EQ(dBatchColliderGetCount(first, dBatchCounterPairsAlone), 1);
+  EXPECT_EQ(dBatchColliderGetCount(second, dBatchCounterPairsAlone), 0);
+  std::thread([&] {  // this one made no pass: the latest created answers
+    const dGeomID c = world.geom(cube, at(0.1, 0.2, 0.8));
+    EXPECT_FALSE(collide(a, c).empty());
+  })
+      .join();
+  EXPECT_EQ(dBatchColliderGetCount(second, dBatchCounterPairsAlone), 1);
+}
+
+TEST(ApiThreads, HaveAChangedMeshAnnouncedToWhicheverColliderAnswers) {
+  OdeWorld world;
+  OdeMesh& mesh = world.mesh(make_cube(1));
+  const dGeomID a = world.geom(mesh, {});
+  const dGeomID b = world.geom(world.mesh(make_cube(1)), at(0.1, 0.2, 0.9));
+  const BatchCollider told, other;  // the latter answers
+  const Contacts before = collide(a, b);
+  ASSERT_FALSE(before.empty());
+  for (auto& coordinate : mesh.edit().vertices) coordinate *= 0.8f;
+  dBatchColliderTriMeshDataUpdate(told, mesh.id());
+  EXPECT_NE(difference(collide(a, b), before), "");
+}
+
 TEST(ApiThreads, CreateAndDestroyCollidersWhileAnotherWorks) {
   OdeWorld world;
   const dSpaceID space = world.space(SpaceKind::Simple);

@@ -81,6 +81,12 @@ if [[ $client == two ]]; then
     fail "the second ODE does not go on as before"
   grep -q "this process has another ODE" "$results/statistics" || fail "nothing is said of it"
 fi
+if [[ $client == static ]]; then
+  ODE_EXT_TRUST_MESHES=1 "$build/bin/ode_ext-run" "${program[@]}" > "$results/trusting" \
+    2> "$results/said"
+  diff <(same "$results/preload") <(same "$results/trusting") || fail "it trusts the meshes"
+  grep -q "ODE_EXT_TRUST_MESHES has no effect" "$results/said" || fail "nothing is said of trust"
+fi
 if [[ $client == panda ]]; then
   "$build/bin/ode_ext-run" "${program[@]}" > "$results/again"
   hash_of() { grep -o 'hash .*' "$1"; }

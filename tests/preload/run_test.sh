@@ -76,6 +76,7 @@ same_as_stock() {
 same_as_stock ODE_EXT_DEVICE=nosuch:: "nosuch"
 same_as_stock ODE_EXT_MAX_CONTACTS=many "max_contacts"
 same_as_stock ODE_EXT_CONFIG=rays=none "rays"
+same_as_stock ODE_EXT_TRUST_MESHES=no "trust_meshes"
 same_as_stock ODE_EXT_LOG=loud "ODE_EXT_LOG"
 # lacking <function> <sentence>: an ODE whose table of names has another one in its place.
 lacking() {
