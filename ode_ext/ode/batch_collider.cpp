@@ -2,6 +2,7 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -84,6 +85,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   } else {
     stats_.ms_gather = ms_gather;
     try {
+      make_anew_what_keeps_failing();
       compute_ahead(pairs, root);
       note_success();
     } catch (const std::exception& error) {
@@ -225,12 +227,25 @@ bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
 }
 
+// After a driver was reset nothing works that was made before. So what failed so often is made
+// anew, ever more rarely.
+void BatchCollider::make_anew_what_keeps_failing() {
+  constexpr unsigned kFailures = 8;
+  if (failures_ < kFailures || !std::has_single_bit(failures_)) return;
+  log(LogLevel::kInfo, "the device failed " + std::to_string(failures_) +
+                           " times in a row: it is taken up from the start");
+  memories_.clear();  // of that device
+  known_.make_collider_anew();
+}
+
 void BatchCollider::fail(const std::exception& error) {
+  ++failures_;
   known_.drop_batch();
   tell_failure(error.what());
 }
 
 void BatchCollider::note_success() {
+  if (stats_.pairs_computed != 0) failures_ = 0;
   if (!known_.why_given_up().empty())
     tell_failure(known_.why_given_up() + " This is of one pair; others are collided.");
   else if (stats_.pairs_computed != 0)

@@ -63,7 +63,7 @@ class BatchCollider {
   void forget(dTriMeshDataID data);
   PassStats stats();
   const std::string& device_name() const { return device_name_; }
-  const void* identity() const { return &known_.collider(); }  // by which a capture knows it
+  const void* identity() const { return &known_; }  // by which a capture knows it
 
  private:
   // An answer of which the program's callbacks are to be asked.
@@ -88,6 +88,7 @@ class BatchCollider {
   // What has come of a batch that did not fail, of whose pairs some may have been given up.
   void note_success();
   void tell_failure(const std::string& what);
+  void make_anew_what_keeps_failing();
 
   // An answer after the program's callbacks had their say; without the lock.
   int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
@@ -109,6 +110,7 @@ class BatchCollider {
   std::uint64_t asked_outside_ = 0;
   bool failed_ = false;        // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;  // one message per run of failures
+  unsigned failures_ = 0;      // of batches, in a row
   bool failed_alone_ = false;  // the status tells of a question outside of any pass
 };
 

@@ -13,7 +13,8 @@ namespace ode_ext {
 KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
                        PassStats& stats)
     : stats_(stats),
-      collider_(options),
+      options_(options),
+      collider_(std::make_unique<Collider>(options)),
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
 bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
@@ -82,19 +83,19 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
 void KnownPairs::compute(PassMemory* memory) {
   const PairContacts* collided = nullptr;
   try {
-    collided = &scene_.collide(collider_, meshes_, pass_, memory);
+    collided = &scene_.collide(this, *collider_, meshes_, pass_, memory);
   } catch (const DeviceError& error) {
     if (!is_out_of_memory(error.code()) || !scene_.give_up_if_single(look_)) throw;
     why_given_up_ = error.what();
     return;
   }
-  if (collider_.report().backtracked) {  // nothing to keep
+  if (collider_->report().backtracked) {  // nothing to keep
     scene_.drop();
     return;
   }
   const Stopwatch storing;
-  scene_.store(*collided, collider_.report().given_up, look_);
-  if (!collider_.report().given_up.empty()) why_given_up_ = collider_.report().why_given_up;
+  scene_.store(*collided, collider_->report().given_up, look_);
+  if (!collider_->report().given_up.empty()) why_given_up_ = collider_->report().why_given_up;
   if (memory != nullptr) stats_.ms_export = storing.milliseconds();
 }
 

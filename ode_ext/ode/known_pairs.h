@@ -6,6 +6,8 @@
 #include <ode/ode.h>
 
 #include <cstdint>
+#include <memory>
+#include <string>
 
 #include "collide/collider.h"
 #include "ode/answers.h"
@@ -26,7 +28,10 @@ class KnownPairs {
   KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
              PassStats& stats);
 
-  const Collider& collider() const { return collider_; }
+  const Collider& collider() const { return *collider_; }
+  // Another in its place, with nothing on its device yet. What else knows that device has to be
+  // gone. Throws DeviceError; it is as it was then.
+  void make_collider_anew() { collider_ = std::make_unique<Collider>(options_); }
   MeshStore& meshes() { return meshes_; }
   Members& members() { return members_; }
 
@@ -80,7 +85,8 @@ class KnownPairs {
   const PairMember* current_member(Answer& answer, dGeomID geom, dGeomID other, bool within_a_pass);
 
   PassStats& stats_;
-  Collider collider_;
+  const ColliderOptions options_;
+  std::unique_ptr<Collider> collider_;
   MeshStore meshes_;
   Members members_;
   Answers answers_;

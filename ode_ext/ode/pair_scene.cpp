@@ -54,9 +54,9 @@ std::uint32_t PairScene::object_of(PairMember& member) {
   return member.object;
 }
 
-const PairContacts& PairScene::collide(Collider& collider, MeshStore& meshes, std::uint64_t pass,
-                                       PassMemory* memory) {
-  const auto captured = capture_pass(&collider, members_, scene_.pairs);
+const PairContacts& PairScene::collide(const void* identity, Collider& collider, MeshStore& meshes,
+                                       std::uint64_t pass, PassMemory* memory) {
+  const auto captured = capture_pass(identity, members_, scene_.pairs);
   const PairContacts& found = collide_with_room(collider, meshes, pass, memory);
   capture_contacts(captured, found);
   return found;

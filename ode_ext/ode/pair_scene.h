@@ -21,9 +21,10 @@ class PairScene {
   // Unless the answer is one of these two already. can_collide: something can be said of them.
   // Members and answer have to stay where they are until the scene is collided or dropped.
   void add(Answer& answer, PairMember& a, PairMember& b, bool can_collide);
-  // Throws DeviceError; the scene is to be dropped then.
-  const PairContacts& collide(Collider& collider, MeshStore& meshes, std::uint64_t pass,
-                              PassMemory* memory);
+  // `identity`: by which a capture knows whose it is. Throws DeviceError; the scene is to be
+  // dropped then.
+  const PairContacts& collide(const void* identity, Collider& collider, MeshStore& meshes,
+                              std::uint64_t pass, PassMemory* memory);
   // Stores what was found, and of which pairs nothing is known, since the device has no room.
   void store(const PairContacts& found, std::span<const std::size_t> given_up, std::uint64_t look);
   // Whether it is of one pair, which the device has no room for: that is noted then.

@@ -24,6 +24,7 @@ class SpaceMemories {
   // unused first, but never those of pass number `pass`.
   void prune(std::uint64_t pass, std::size_t most_bytes);
 
+  void clear() { memories_.clear(); }
   std::size_t size() const { return memories_.size(); }
   std::size_t temporal_bytes() const;  // of device memory
 

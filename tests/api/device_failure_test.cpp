@@ -227,6 +227,33 @@ TEST_F(ApiDeviceFailure, OfAQuestionIsNoLongerToldOnceOneIsAnswered) {
   EXPECT_EQ(dBatchColliderGetStatus(collider), dBatchStatusDeviceFailed);
 }
 
+// As a driver leaves it that was reset: whatever was made before fails from then on.
+TEST_F(ApiDeviceFailure, ThatGoesOnHasTheDeviceTakenUpFromTheStart) {
+  const Environment told("ODE_EXT_LOG", "info");
+  const BatchCollider collider;
+  const Collected batch = collider.pass(space_);
+  const CountMessages count;
+  int failures = 0;
+  for (int i = 1; failures < 8; ++i) {
+    ASSERT_LT(i, 100);
+    pile_.shake(static_cast<std::uint64_t>(i));
+    // After a failure the first call is of this pass, else maybe one that reads a clock.
+    fault_injector::arm(failures == 0 ? i : 1, CL_DEVICE_NOT_AVAILABLE);
+    collider.pass(space_);
+    fault_injector::disarm();
+    failures += dBatchColliderGetStatus(collider) == dBatchStatusDeviceFailed ? 1 : 0;
+    EXPECT_EQ(said.find("from the start"), std::string::npos) << said;
+  }
+  pile_.shake(5);
+  EXPECT_EQ(difference_with_geoms(collider.pass(space_), batch), "");
+  EXPECT_EQ(dBatchColliderGetStatus(collider), 0);
+  EXPECT_NE(said.find("failed 8 times in a row: it is taken up from the start"), std::string::npos)
+      << said;
+  pile_.shake(6);
+  pile_.shake(5);
+  EXPECT_EQ(difference_with_geoms(collider.pass(space_), batch), "");
+}
+
 // A device of which no buffer may be large enough for what two soups have in common.
 class ApiGivenUp : public testing::Test {
  protected:
