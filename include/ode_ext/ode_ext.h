@@ -283,8 +283,8 @@ enum {
                                            redone: nothing was lost */
   dBatchStatusDeviceFailed = 1 << 1,  /**< the device failed, and ODE's own collider answers this
                                            pass; or it has no room for a pair by itself, and ODE's
-                                           collider answers for that one: it is tried again after
-                                           some hundred passes */
+                                           collider answers for that one: it is tried again some
+                                           sixty passes later */
   dBatchStatusMeshRefused = 1 << 2,   /**< a mesh has a vertex that is not finite, or farther than
                                            2^36 m (6.9e10) from its origin, or is less than 2^-30 m
                                            (9.3e-10) across; its pairs get no contacts */

@@ -14,6 +14,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
   const long long waits = device_.synchronizations();
   report_ = {};
   report_.pairs = scene.pairs.size();
+  given_up_in_a_row_ = 0;
   result_.clear();
   if (scene.pairs.empty()) return result_;
 
@@ -104,6 +105,7 @@ void Collider::launch_steps(Batch& batch) {
 }
 
 void Collider::deliver(Batch& batch) {
+  given_up_in_a_row_ = 0;
   batch.workload.report_tile();
   if (report_.backtracked) {
     result_.clear();
@@ -115,12 +117,12 @@ void Collider::deliver(Batch& batch) {
 
 // A pair that the device has no room for, of a scene of others. Where several in a row have none,
 // that says more of the device than of the pairs.
-constexpr std::size_t kMostGivenUp = 4;
+constexpr int kMostGivenUp = 4;
 
 bool Collider::give_up(Batch& batch, const DeviceError& error) {
   const Tile tile = batch.workload.tile();
-  if (!is_out_of_memory(error.code()) || tile.count != 1 || batch.scene.pairs.size() < 2 ||
-      report_.given_up.size() == kMostGivenUp)
+  if (!is_no_room(error.code()) || tile.count != 1 || batch.scene.pairs.size() < 2 ||
+      ++given_up_in_a_row_ > kMostGivenUp)
     return false;
   data_.lists.release();
   report_.given_up.push_back(tile.first);

@@ -33,6 +33,8 @@ class Collider {
 
   const BatchReport& report() const { return report_; }
   const DeviceInfo& device_info() const { return device_.info(); }
+  // Its own, of this very device, whatever else there is now.
+  ColliderOptions options_here() const;
 
  private:
   void upload(const Scene& scene);
@@ -59,6 +61,7 @@ class Collider {
   ReadBack read_back_;
   PairContacts result_;
   BatchReport report_;
+  int given_up_in_a_row_ = 0;
 };
 
 }  // namespace ode_ext

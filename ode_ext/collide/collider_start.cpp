@@ -4,6 +4,7 @@
 #include <string>
 
 #include "collide/collider.h"
+#include "opencl/choice.h"
 
 namespace ode_ext {
 namespace {
@@ -73,6 +74,13 @@ Collider::Collider(const ColliderOptions& options)
                                 device_.info().name + "' can run");
   self_test(program_);
   warm_up();
+}
+
+ColliderOptions Collider::options_here() const {
+  ColliderOptions options = options_;
+  const DeviceInfo& device = device_.info();
+  options.device = device.platform_name + ":" + type_name(device.type) + ":" + device.name;
+  return options;
 }
 
 // Launches every kernel on empty input, so that one that cannot run in groups of this size is known

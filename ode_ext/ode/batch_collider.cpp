@@ -2,7 +2,6 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
-#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -47,6 +46,7 @@ BatchCollider::BatchCollider(const ColliderOptions& options, float open_thicknes
 
 bool BatchCollider::claim() {
   const std::lock_guard lock(mutex_);
+  hear_announcements();
   if (depth_ != 0 && pass_thread_ != std::this_thread::get_id())
     throw std::runtime_error(
         "another thread runs a pass of this collider; give each thread a collider of its own");
@@ -106,7 +106,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
 
 void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root) {
   const Stopwatch reading;
-  known_.begin_batch();
+  known_.begin_batch(true);
   std::vector<Answer*> entries;
   entries.reserve(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -157,6 +157,7 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
   {
     const HeldMessages held;
     const std::lock_guard lock(mutex_);
+    hear_announcements();
     const Answer* known = find_or_compute(g1, g2);
     if (known == nullptr) {
       ++stats_.pairs_stock;
@@ -172,42 +173,48 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
   return stats_.totals.note_answer(count);
 }
 
-// Null: the device fails.
+// Null: the device fails, or has no room for the pair.
 const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   const std::uint64_t pass = known_.pass();
+  const bool alone = !is_within_a_pass();
   Answer* known = known_.find(g1, g2);
   bool was_unasked = false;
   if (known != nullptr) {
-    was_unasked = is_within_a_pass() && known->noted_pass == pass;
+    was_unasked = !alone && known->noted_pass == pass;
     known->last_pass = pass;
     known->passes_unasked = 0;
   }
-  const auto holds_now = [&] {
-    return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
-  };
+  const auto holds_now = [&] { return known != nullptr && known_.holds(*known, g1, g2, !alone); };
+  const auto is_given_up = [&] { return !alone && known != nullptr && known_.is_given_up(*known); };
   try {
     if (holds_now()) return known;
-    if (is_within_a_pass() && (failed_ || (known != nullptr && known_.is_given_up(*known))))
-      return nullptr;
+    if ((!alone && failed_) || is_given_up()) return nullptr;
     if (was_unasked && unasked_.wakes_by_question()) {
       unasked_.compute(known_);
-      stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs));
+      stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs) -
+                        known_.given_up());
+      if (!known_.why_given_up().empty()) note_given_up();
       if (holds_now()) return known;
+      if (is_given_up()) return nullptr;
     }
+    if (alone) make_anew_what_keeps_failing();
     count_outside(1);
     known = &known_.entry(g1, g2);
     known->last_pass = pass;
-    if (!is_within_a_pass()) known_.look_again();
-    known_.begin_batch();
+    if (alone) known_.look_again();
+    known_.begin_batch(false);
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});
     known_.compute(nullptr);
-    if (!known->valid) throw std::runtime_error(known_.why_given_up());
-    if (!is_within_a_pass()) failure_said_ = false;  // the device works
+    if (!known->valid) {
+      note_given_up(alone);
+      return nullptr;
+    }
+    health_.note_success();
+    if (alone) failure_said_ = false;
     if (std::exchange(failed_alone_, false)) stats_.status &= ~unsigned{dBatchStatusDeviceFailed};
   } catch (const std::exception& error) {
-    if (is_within_a_pass()) failed_ = true;  // one attempt is enough for this pass
-    failed_alone_ = !is_within_a_pass() && (stats_.status & dBatchStatusDeviceFailed) == 0;
-    fail(error);
+    if (!alone) failed_ = true;  // one attempt is enough for this pass
+    fail(error, alone);
     return nullptr;
   }
   ++stats_.pairs_alone;
@@ -223,40 +230,9 @@ int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2,
 bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
+  hear_announcements();
   Answer* known = known_.find(g1, g2);
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
-}
-
-// After a driver was reset nothing works that was made before. So what failed so often is made
-// anew, ever more rarely.
-void BatchCollider::make_anew_what_keeps_failing() {
-  constexpr unsigned kFailures = 8;
-  if (failures_ < kFailures || !std::has_single_bit(failures_)) return;
-  log(LogLevel::kInfo, "the device failed " + std::to_string(failures_) +
-                           " times in a row: it is taken up from the start");
-  memories_.clear();  // of that device
-  known_.make_collider_anew();
-}
-
-void BatchCollider::fail(const std::exception& error) {
-  ++failures_;
-  known_.drop_batch();
-  tell_failure(error.what());
-}
-
-void BatchCollider::note_success() {
-  if (stats_.pairs_computed != 0) failures_ = 0;
-  if (!known_.why_given_up().empty())
-    tell_failure(known_.why_given_up() + " This is of one pair; others are collided.");
-  else if (stats_.pairs_computed != 0)
-    failure_said_ = false;  // the device works
-}
-
-void BatchCollider::tell_failure(const std::string& what) {
-  stats_.status |= dBatchStatusDeviceFailed;
-  set_last_error(what);
-  if (!failure_said_) log(LogLevel::kError, what + " Meanwhile ODE's own collider answers.");
-  failure_said_ = true;
 }
 
 void BatchCollider::begin_stats(bool within_a_pass) {
@@ -273,23 +249,41 @@ void BatchCollider::begin_stats(bool within_a_pass) {
 
 void BatchCollider::note_report() {
   ode_ext::note_report(known_.collider().report(), stats_);
+  stats_.pairs_computed -= known_.given_up();
   stats_.deformed = static_cast<long long>(known_.meshes().take_deformed());
 }
 
 void BatchCollider::announce_change(dTriMeshDataID data) {
-  const std::lock_guard lock(mutex_);
-  known_.meshes().announce_change(data);
+  const std::lock_guard lock(announced_mutex_);
+  announced_.try_emplace(data, false);
+}
+
+void BatchCollider::forget(dTriMeshDataID data) {
+  const std::lock_guard lock(announced_mutex_);
+  announced_[data] = true;
+}
+
+// Under the lock. What was gone and changed since is gone: nothing is known of it.
+void BatchCollider::hear_announcements() {
+  std::unordered_map<dTriMeshDataID, bool> heard;
+  {
+    const std::lock_guard lock(announced_mutex_);
+    heard.swap(announced_);
+  }
+  for (const auto& [data, is_gone] : heard) {
+    if (is_gone) {
+      known_.meshes().forget(data);
+      known_.members().forget(data);
+    } else {
+      known_.meshes().announce_change(data);
+    }
+  }
 }
 
 void BatchCollider::set_deformable(dTriMeshDataID data, bool deformable) {
   const std::lock_guard lock(mutex_);
+  hear_announcements();
   known_.meshes().set_deformable(data, deformable);
-}
-
-void BatchCollider::forget(dTriMeshDataID data) {
-  const std::lock_guard lock(mutex_);
-  known_.meshes().forget(data);
-  known_.members().forget(data);
 }
 
 PassStats BatchCollider::stats() {

@@ -11,9 +11,11 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "ode/device_health.h"
 #include "ode/known_pairs.h"
 #include "ode/pair_output.h"
 #include "ode/pass_stats.h"
@@ -84,11 +86,14 @@ class BatchCollider {
 
   void begin_stats(bool within_a_pass);
   void note_report();
-  void fail(const std::exception& error);
-  // What has come of a batch that did not fail, of whose pairs some may have been given up.
+  // `alone`: of a question outside of any pass; that is no longer the status once one is answered.
+  void fail(const std::exception& error, bool alone = false);
+  void note_given_up(bool alone = false);
+  void note_failed_status(const std::string& why, bool alone);
+  // A batch that did not fail.
   void note_success();
-  void tell_failure(const std::string& what);
   void make_anew_what_keeps_failing();
+  void hear_announcements();
 
   // An answer after the program's callbacks had their say; without the lock.
   int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
@@ -108,10 +113,16 @@ class BatchCollider {
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
   std::uint64_t asked_outside_ = 0;
-  bool failed_ = false;        // the pass that runs is answered by ODE's own collider
-  bool failure_said_ = false;  // one message per run of failures
-  unsigned failures_ = 0;      // of batches, in a row
-  bool failed_alone_ = false;  // the status tells of a question outside of any pass
+  bool failed_ = false;         // the pass that runs is answered by ODE's own collider
+  bool failure_said_ = false;   // one message per run of failures
+  bool given_up_said_ = false;  // one as long as passes have pairs that are given up
+  bool failed_alone_ = false;   // the status tells of a question outside of any pass
+  DeviceHealth health_;
+
+  // What was announced of meshes and not heard yet, each with whether it is gone: whoever announces
+  // does not wait for a batch.
+  std::mutex announced_mutex_;
+  std::unordered_map<dTriMeshDataID, bool> announced_;
 };
 
 }  // namespace ode_ext

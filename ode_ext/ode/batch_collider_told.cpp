@@ -49,6 +49,7 @@ int BatchCollider::contact_regions(const dContactGeom* contacts, int count, int 
 
 int BatchCollider::meshlets(dTriMeshDataID data, int triangle_count, int* meshlets) {
   const std::lock_guard lock(mutex_);
+  hear_announcements();
   std::fill_n(meshlets, triangle_count, -1);
   const std::shared_ptr<const Mesh> mesh = known_.meshes().known(data, triangle_count);
   if (mesh == nullptr) return 0;

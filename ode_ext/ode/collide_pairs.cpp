@@ -62,8 +62,10 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
                                   std::vector<std::size_t>& by_stock) {
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
+  hear_announcements();
   begin_stats(is_within_a_pass());
   try {
+    make_anew_what_keeps_failing();
     compute_pairs(geoms);
     note_success();
   } catch (const std::exception& error) {
@@ -92,7 +94,7 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
   if (!is_within_a_pass()) known_.look_again();
   count_outside(geoms.size() / 2);
-  known_.begin_batch();
+  known_.begin_batch(is_within_a_pass());
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
     if (!can_collide(g1, g2)) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/known_pairs.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 
@@ -13,7 +14,6 @@ namespace ode_ext {
 KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
                        PassStats& stats)
     : stats_(stats),
-      options_(options),
       collider_(std::make_unique<Collider>(options)),
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
@@ -51,17 +51,21 @@ AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
 }
 
 void KnownPairs::add(Answer& answer, const GatheredPair& pair) {
-  if (is_given_up(answer)) {
-    answer.valid = false;
-    why_given_up_ = "The device had no room for a pair of meshes of late.";
-    return;
-  }
   const dGeomID a = pair.first.geom, b = pair.second.geom;
   add(answer, member_of(seen(answer, a, b), pair.first),
       member_of(seen(answer, b, a), pair.second));
 }
 
 void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
+  const auto are = [&](const PairMember& first, const PairMember& second) {
+    return answer.given_up_meshes ==
+           std::array<const Mesh*, 2>{first.mesh.get(), second.mesh.get()};
+  };
+  if (skips_given_up_ && is_given_up(answer) && (are(a, b) || are(b, a))) {
+    answer.valid = false;
+    why_given_up_ = "The device had no room for a pair of meshes of late.";
+    return;
+  }
   scene_.add(
       answer, a, b,
       a.is_placed && b.is_placed && !meshes_.is_refused(a.data) && !meshes_.is_refused(b.data));
@@ -80,22 +84,39 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
   return member;
 }
 
+void KnownPairs::make_collider_anew() {
+  collider_ = std::make_unique<Collider>(collider_->options_here());
+}
+
+void KnownPairs::give_up(std::size_t pair, const std::string& why) {
+  scene_.give_up(pair, pass_);
+  why_given_up_ = why;
+  ++given_up_;
+}
+
+// What is given up is known, whatever becomes of the rest.
 void KnownPairs::compute(PassMemory* memory) {
+  const auto give_up_those_reported = [&] {
+    for (const std::size_t pair : collider_->report().given_up)
+      give_up(pair, collider_->report().why_given_up);
+  };
   const PairContacts* collided = nullptr;
   try {
     collided = &scene_.collide(this, *collider_, meshes_, pass_, memory);
   } catch (const DeviceError& error) {
-    if (!is_out_of_memory(error.code()) || !scene_.give_up_if_single(look_)) throw;
-    why_given_up_ = error.what();
+    give_up_those_reported();
+    if (!is_no_room(error.code()) || scene_.size() != 1) throw;
+    give_up(0, error.what());
+    scene_.drop();
     return;
   }
+  give_up_those_reported();
   if (collider_->report().backtracked) {  // nothing to keep
     scene_.drop();
     return;
   }
   const Stopwatch storing;
-  scene_.store(*collided, collider_->report().given_up, look_);
-  if (!collider_->report().given_up.empty()) why_given_up_ = collider_->report().why_given_up;
+  scene_.store(*collided);
   if (memory != nullptr) stats_.ms_export = storing.milliseconds();
 }
 

@@ -19,8 +19,7 @@
 
 namespace ode_ext {
 
-// Meshes are looked at twice a pass.
-inline constexpr std::uint64_t kLooksGivenUp = 256;
+inline constexpr std::uint64_t kPassesGivenUp = 64;
 
 class KnownPairs {
  public:
@@ -29,9 +28,9 @@ class KnownPairs {
              PassStats& stats);
 
   const Collider& collider() const { return *collider_; }
-  // Another in its place, with nothing on its device yet. What else knows that device has to be
-  // gone. Throws DeviceError; it is as it was then.
-  void make_collider_anew() { collider_ = std::make_unique<Collider>(options_); }
+  // Another in its place, of the same device, with nothing there yet. What else knows that has to
+  // be gone. Throws DeviceError; it is as it was then.
+  void make_collider_anew();
   MeshStore& meshes() { return meshes_; }
   Members& members() { return members_; }
 
@@ -54,9 +53,13 @@ class KnownPairs {
   AnswerCopy copy_of(const Answer& answer) const;
 
   // A batch begins, pairs are added that are not answered yet, and are computed.
-  void begin_batch() {
+  // skips_given_up: pairs that the device had no room for of late, while they are of the same
+  // meshes: each attempt takes as long as a pass.
+  void begin_batch(bool skips_given_up) {
     scene_.begin();
+    skips_given_up_ = skips_given_up;
     why_given_up_.clear();
+    given_up_ = 0;
   }
   // With its geoms as they are, each looked at once for a batch.
   void add(Answer& answer, const GatheredPair& pair);
@@ -64,13 +67,12 @@ class KnownPairs {
   // Throws DeviceError; the batch is to be dropped then.
   void compute(PassMemory* memory);
   void drop_batch() { scene_.drop(); }
-  // Whether the device had no room for a pair of late, so that it is not added: each attempt takes
-  // as long as a pass.
   bool is_given_up(const Answer& answer) const {
-    return answer.given_up != 0 && look_ < answer.given_up + kLooksGivenUp;
+    return answer.given_up != 0 && pass_ < answer.given_up + kPassesGivenUp;
   }
-  // Why there is no room for pairs of the batch; "": there is.
+  // Why there is no room for pairs of the batch, "": there is; and of how many that was tried.
   const std::string& why_given_up() const { return why_given_up_; }
+  std::int64_t given_up() const { return given_up_; }
   // Answers of the batch with contacts, those that were there before among them.
   long long colliding() const { return scene_.colliding(); }
 
@@ -79,13 +81,13 @@ class KnownPairs {
   void clear();
 
  private:
+  void give_up(std::size_t pair, const std::string& why);
   // What is known of one geom of an answer: looked up once for it, and not again in every pass.
   Members::Seen& seen(Answer& answer, dGeomID geom, dGeomID other);
   PairMember& member_of(Members::Seen& seen, const PlacedGeom& placed);
   const PairMember* current_member(Answer& answer, dGeomID geom, dGeomID other, bool within_a_pass);
 
   PassStats& stats_;
-  const ColliderOptions options_;
   std::unique_ptr<Collider> collider_;
   MeshStore meshes_;
   Members members_;
@@ -93,7 +95,9 @@ class KnownPairs {
   PairScene scene_;  // that is being built
   std::uint64_t pass_ = 0;
   std::uint64_t look_ = 0;
+  bool skips_given_up_ = false;
   std::string why_given_up_;
+  std::int64_t given_up_ = 0;
 };
 
 }  // namespace ode_ext

@@ -8,15 +8,6 @@
 
 namespace ode_ext {
 
-namespace {
-
-void give_up(Answer& answer, std::uint64_t look) {
-  answer.valid = false;
-  answer.given_up = look;
-}
-
-}  // namespace
-
 void PairScene::begin() {
   scene_.objects.clear();
   scene_.pairs.clear();
@@ -39,6 +30,7 @@ void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_colli
   if (can_collide) {
     scene_.pairs.push_back({object_of(first), object_of(second)});
     pending_.push_back(&answer);
+    answer.given_up = 0;
   }
   // That there are no contacts is the answer of most pairs, and of those of which nothing can be
   // said. So it stands, unless the scene fails, and most are not touched again.
@@ -58,7 +50,7 @@ const PairContacts& PairScene::collide(const void* identity, Collider& collider,
                                        std::uint64_t pass, PassMemory* memory) {
   const auto captured = capture_pass(identity, members_, scene_.pairs);
   const PairContacts& found = collide_with_room(collider, meshes, pass, memory);
-  capture_contacts(captured, found);
+  if (collider.report().given_up.empty()) capture_contacts(captured, found);
   return found;
 }
 
@@ -85,8 +77,15 @@ void PairScene::set_objects(MeshStore& meshes) {
                               reinterpret_cast<std::uintptr_t>(member->geom)});
 }
 
-void PairScene::store(const PairContacts& found, std::span<const std::size_t> given_up,
-                      std::uint64_t look) {
+void PairScene::give_up(std::size_t pair, std::uint64_t pass) {
+  Answer& answer = *pending_[pair];
+  answer.valid = false;
+  answer.given_up = pass;
+  for (std::size_t k = 0; k < 2; ++k)
+    answer.given_up_meshes[k] = members_[scene_.pairs[pair][k]]->mesh.get();
+}
+
+void PairScene::store(const PairContacts& found) {
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     if (i + kAhead < pending_.size() && found.ranges[i + kAhead].count != 0)
       pending_[i + kAhead]->prefetch();
@@ -96,15 +95,7 @@ void PairScene::store(const PairContacts& found, std::span<const std::size_t> gi
     pending_[i]->contacts.assign(first, first + range.count);
     ++colliding_;
   }
-  for (const std::size_t i : given_up) give_up(*pending_[i], look);
   pending_.clear();
-}
-
-bool PairScene::give_up_if_single(std::uint64_t look) {
-  if (pending_.size() != 1) return false;
-  give_up(*pending_[0], look);
-  pending_.clear();
-  return true;
 }
 
 void PairScene::drop() {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "collide/collider.h"
@@ -25,10 +24,11 @@ class PairScene {
   // dropped then.
   const PairContacts& collide(const void* identity, Collider& collider, MeshStore& meshes,
                               std::uint64_t pass, PassMemory* memory);
-  // Stores what was found, and of which pairs nothing is known, since the device has no room.
-  void store(const PairContacts& found, std::span<const std::size_t> given_up, std::uint64_t look);
-  // Whether it is of one pair, which the device has no room for: that is noted then.
-  bool give_up_if_single(std::uint64_t look);
+  // The device has no room for a pair of it: its answer does not stand.
+  void give_up(std::size_t pair, std::uint64_t pass);
+  // Stores what was found of the others.
+  void store(const PairContacts& found);
+  std::size_t size() const { return pending_.size(); }
   // It will not be collided: its answers do not stand.
   void drop();
   // Answers with contacts, those that were there before among them.

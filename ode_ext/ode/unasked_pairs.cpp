@@ -36,7 +36,7 @@ bool UnaskedPairs::wakes_by_question() {
 }
 
 void UnaskedPairs::compute(KnownPairs& known) {
-  known.begin_batch();
+  known.begin_batch(true);
   const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
     return known.members().note(known.members().seen(geom), geom, as.data, as.mesh, as.given,
                                 known.pass());

@@ -38,8 +38,11 @@ const char* what_to_try(int code) {
 }  // namespace
 
 bool is_out_of_memory(int code) {
-  return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_RESOURCES ||
-         code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
+  return is_no_room(code) || code == CL_OUT_OF_RESOURCES || code == CL_OUT_OF_HOST_MEMORY;
+}
+
+bool is_no_room(int code) {
+  return code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_INVALID_BUFFER_SIZE;
 }
 
 const char* opencl_error_name(int code) {

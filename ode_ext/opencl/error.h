@@ -20,6 +20,9 @@ class DeviceError : public std::runtime_error {
 
 // Codes that say "too large", of which less at a time may be the cure.
 bool is_out_of_memory(int code);
+// Whether it says that what is asked for has no room. CL_OUT_OF_RESOURCES may say so, or that a
+// kernel crashed.
+bool is_no_room(int code);
 
 const char* opencl_error_name(int code);  // "CL_OUT_OF_RESOURCES"; never null
 
