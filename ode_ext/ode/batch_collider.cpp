@@ -256,18 +256,22 @@ void BatchCollider::note_report() {
 void BatchCollider::announce_change(dTriMeshDataID data) {
   const std::lock_guard lock(announced_mutex_);
   announced_.try_emplace(data, false);
+  is_announced_ = true;
 }
 
 void BatchCollider::forget(dTriMeshDataID data) {
   const std::lock_guard lock(announced_mutex_);
   announced_[data] = true;
+  is_announced_ = true;
 }
 
 // Under the lock. What was gone and changed since is gone: nothing is known of it.
 void BatchCollider::hear_announcements() {
+  if (!is_announced_) return;
   std::unordered_map<dTriMeshDataID, bool> heard;
   {
     const std::lock_guard lock(announced_mutex_);
+    is_announced_ = false;
     heard.swap(announced_);
   }
   for (const auto& [data, is_gone] : heard) {

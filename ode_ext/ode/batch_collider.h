@@ -123,6 +123,7 @@ class BatchCollider {
   // does not wait for a batch.
   std::mutex announced_mutex_;
   std::unordered_map<dTriMeshDataID, bool> announced_;
+  std::atomic<bool> is_announced_{false};  // there are some: each question looks
 };
 
 }  // namespace ode_ext
