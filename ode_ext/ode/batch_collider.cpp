@@ -253,16 +253,19 @@ void BatchCollider::note_report() {
   stats_.deformed = static_cast<long long>(known_.meshes().take_deformed());
 }
 
-void BatchCollider::announce_change(dTriMeshDataID data) {
-  const std::lock_guard lock(announced_mutex_);
-  announced_.try_emplace(data, false);
-  is_announced_ = true;
-}
+void BatchCollider::announce_change(dTriMeshDataID data) { announce(data, false); }
+void BatchCollider::forget(dTriMeshDataID data) { announce(data, true); }
 
-void BatchCollider::forget(dTriMeshDataID data) {
-  const std::lock_guard lock(announced_mutex_);
-  announced_[data] = true;
-  is_announced_ = true;
+// Heard at once, so that what is gone takes no memory, or where another thread has the lock by who
+// takes it next.
+void BatchCollider::announce(dTriMeshDataID data, bool is_gone) {
+  {
+    const std::lock_guard lock(announced_mutex_);
+    announced_[data] |= is_gone;
+    is_announced_ = true;
+  }
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (lock) hear_announcements();
 }
 
 // Under the lock. What was gone and changed since is gone: nothing is known of it.

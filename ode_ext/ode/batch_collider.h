@@ -94,6 +94,7 @@ class BatchCollider {
   void note_success();
   void make_anew_what_keeps_failing();
   void hear_announcements();
+  void announce(dTriMeshDataID data, bool is_gone);
 
   // An answer after the program's callbacks had their say; without the lock.
   int export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2, int limit,
