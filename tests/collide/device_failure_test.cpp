@@ -2,6 +2,8 @@
 // A device that fails in any of its calls: the batch throws, and the next one is whole again.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+
 #include "collide/collider.h"
 #include "support/moving_scene.h"
 #include "support/test_scene.h"
@@ -59,35 +61,33 @@ class DeviceFailureInStep : public DeviceFailure, public testing::WithParamInter
 
 INSTANTIATE_TEST_SUITE_P(SharingMemoryOrNot, DeviceFailureInStep, testing::Bool());
 
-TEST_P(DeviceFailureInStep, IsReportedFromEveryCallAndThenForgotten) {
-  const TestScene scene = random_scene(20, 71);
+// How many calls were made to fail, of batches of so many pairs each.
+int fail_every_call_of(const ColliderOptions& options, int pairs,
+                       std::initializer_list<std::uint64_t> seeds) {
   int failures = 0;
-  for (const bool whole_steps : {true, false}) {  // the former makes a handful of calls
-    ColliderOptions all = options();
-    all.whole_steps = whole_steps;
-    Collider collider(all);
+  Collider collider(options);
+  for (const std::uint64_t seed : seeds) {
+    const TestScene scene = random_scene(pairs, seed);
     const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
-    const int of_it = fail_every_call(collider, scene.scene, expected, kCode, [] {});
-    EXPECT_GT(of_it, whole_steps ? 3 : 20);
-    failures += of_it;
+    failures += fail_every_call(collider, scene.scene, expected, kCode, [] {});
   }
-  EXPECT_GT(failures, 24);
+  return failures;
+}
+
+// A batch in one launch makes a handful of calls.
+TEST_P(DeviceFailureInStep, IsReportedFromEveryCallAndThenForgotten) {
+  ColliderOptions stepwise = options();
+  stepwise.whole_steps = false;
+  EXPECT_GT(fail_every_call_of(options(), 20, {71, 171, 271, 371, 471, 571}), 20);
+  EXPECT_GT(fail_every_call_of(stepwise, 20, {71}), 20);
 }
 
 TEST_P(DeviceFailureInStep, IsReportedFromEveryCallOfFewPairs) {
-  const TestScene scene = random_scene(3, 75);
-  int failures = 0;
-  for (const bool whole_steps : {true, false}) {
-    ColliderOptions few = options();
-    few.whole_steps = whole_steps;
-    few.initial_capacity = 1;  // it is run again too
-    Collider collider(few);
-    const Bits expected = bits_of(collider.collide(scene.scene, nullptr));
-    const int of_it = fail_every_call(collider, scene.scene, expected, kCode, [] {});
-    EXPECT_GT(of_it, whole_steps ? 3 : 5);
-    failures += of_it;
-  }
-  EXPECT_GT(failures, 20);
+  ColliderOptions few = options();
+  few.initial_capacity = 1;  // it is run again too
+  EXPECT_GT(fail_every_call_of(few, 3, {75, 175}), 5);
+  few.whole_steps = false;
+  EXPECT_GT(fail_every_call_of(few, 3, {75}), 5);
 }
 
 TEST_P(DeviceFailureInStep, IsReportedWhileMeshesAreUploaded) {
@@ -170,7 +170,8 @@ TEST_P(DeviceFailureInStep, OfMemoryIsMetWithSmallerTilesOrReported) {
     try {
       EXPECT_EQ(bits_of(collider.collide(scene.scene, nullptr)), expected);
       halved += collider.report().redone > 0 ? 1 : 0;
-    } catch (const DeviceError&) {  // of what all tiles have in common
+    } catch (const DeviceError& error) {  // of what all tiles have in common
+      EXPECT_EQ(error.code(), CL_OUT_OF_RESOURCES);
     }
     fired = fault_injector::calls_checked() >= n;
     fault_injector::disarm();

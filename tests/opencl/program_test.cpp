@@ -209,40 +209,44 @@ TEST(Kernel, EnqueuesNothingForNoGroups) {
   EXPECT_EQ(kernel.take_milliseconds(), 0);
 }
 
-// How many arguments a launch sets; of no groups it makes no other calls.
-int arguments_set(Kernel& kernel, const Buffer& buffer) {
-  fault_injector::disarm();
-  kernel.launch(0, 64, buffer);
-  return static_cast<int>(fault_injector::calls_checked());
+class KernelArguments : public testing::Test {
+ protected:
+  // How many a launch sets; of no groups it makes no other calls.
+  int set_for(const Buffer& buffer) {
+    fault_injector::disarm();
+    kernel_.launch(0, 64, buffer);
+    return static_cast<int>(fault_injector::calls_checked());
+  }
+  Buffer buffer_of(std::size_t words) {
+    Buffer buffer(device_);
+    buffer.reserve(4 * words);
+    return buffer;
+  }
+
+  Device device_{""};
+  Program program_{device_, kSource, ""};
+  Kernel kernel_{program_, "local_sizes"};
+  Buffer buffer_ = buffer_of(64), other_ = buffer_of(64);
+};
+
+TEST_F(KernelArguments, AreSetAgainOnlyWhereTheyAreOthers) {
+  EXPECT_EQ(set_for(buffer_), 1);
+  EXPECT_EQ(set_for(buffer_), 0);
+  EXPECT_EQ(set_for(other_), 1);
+  EXPECT_EQ(set_for(buffer_), 1);
 }
 
-TEST(Kernel, SetsArgumentsAgainOnlyWhereTheyAreOthers) {
-  Device device("");
-  Program program(device, kSource, "");
-  Kernel kernel(program, "local_sizes");
-  Buffer buffer(device), other(device);
-  buffer.reserve(4 * 64);
-  other.reserve(4 * 64);
-  EXPECT_EQ(arguments_set(kernel, buffer), 1);
-  EXPECT_EQ(arguments_set(kernel, buffer), 0);
-  EXPECT_EQ(arguments_set(kernel, other), 1);
-  EXPECT_EQ(arguments_set(kernel, buffer), 1);
-}
-
-TEST(Kernel, WritesToTheMemoryThatABufferHasNow) {
-  Device device("");
-  Program program(device, kSource, "");
-  Kernel kernel(program, "local_sizes");
+TEST_F(KernelArguments, AreTheMemoryThatABufferHasNow) {
   for (const Memory memory : {Memory::kDevice, Memory::kShared}) {
-    Buffer buffer(device, memory);
+    Buffer buffer(device_, memory);
     for (const std::size_t count : {64u, 4096u, 65536u}) {  // another each time, maybe in one place
       buffer.reserve(4 * count);
       buffer.fill_zero(4 * count);
-      EXPECT_EQ(arguments_set(kernel, buffer), 1);
-      kernel.launch(1, 64, buffer);
+      EXPECT_EQ(set_for(buffer), 1);
+      kernel_.launch(1, 64, buffer);
       std::uint32_t size = 0;
       buffer.read(&size, sizeof(size));
-      device.finish();
+      device_.finish();
       EXPECT_EQ(size, 64u);
       buffer.release();
       EXPECT_EQ(buffer.id(), 0u);
@@ -250,19 +254,11 @@ TEST(Kernel, WritesToTheMemoryThatABufferHasNow) {
   }
 }
 
-TEST(Kernel, SetsAnArgumentAgainThatCouldNotBeSet) {
-  Device device("");
-  Program program(device, kSource, "");
-  Kernel kernel(program, "local_sizes");
-  Buffer buffer(device), other(device);
-  buffer.reserve(4 * 64);
-  other.reserve(4 * 64);
-  kernel.launch(1, 64, buffer);
+TEST_F(KernelArguments, AreSetAgainWhereOneCouldNotBeSet) {
+  EXPECT_EQ(set_for(buffer_), 1);
   fault_injector::arm(1, CL_OUT_OF_RESOURCES);
-  EXPECT_THROW(kernel.launch(1, 64, other), DeviceError);
-  fault_injector::disarm();
-  EXPECT_EQ(arguments_set(kernel, buffer), 1);  // nobody knows which of the two it has
-  device.finish();
+  EXPECT_THROW(kernel_.launch(0, 64, other_), DeviceError);
+  EXPECT_EQ(set_for(buffer_), 1);  // nobody knows which of the two it has
 }
 
 TEST(Kernel, TellsTheTimeOfEachLaunchOnce) {
