@@ -14,8 +14,8 @@ namespace {
 // out to the last bit would be clear of ODE's boxes before it is clear of ours, and fall; so it is
 // left in by as much.
 double known_depth(double depth, const Mesh& a, const Mesh& b) {
-  return std::max(0.0, depth - 0x1p-24 * (length(Vec3d(farthest_corner(a.box))) +
-                                          length(Vec3d(farthest_corner(b.box)))));
+  return std::max(0.0, depth - 0x1p-24 * (length(Vec3d(farthest_corner(box_as_given(a)))) +
+                                          length(Vec3d(farthest_corner(box_as_given(b))))));
 }
 
 // The program's index of a triangle of the device's.
@@ -29,10 +29,11 @@ Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
                  const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
   const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
   const Scene::Object& b = scene.objects[pair[1]];
+  const Pose pose = frame_pose(b.pose, meshes.mesh(b.mesh));
   const auto vector = [](const ox_f32(&v)[3]) { return Vec3d(Vec3f{v[0], v[1], v[2]}); };
-  const Vec3d normal = b.pose.rotate(vector(contact.normal));
+  const Vec3d normal = pose.rotate(vector(contact.normal));
   Contact result;
-  result.position = b.pose.transform(vector(contact.position));
+  result.position = pose.transform(vector(contact.position));
   result.normal = (1.0 / length(normal)) * normal;
   result.depth =
       known_depth(static_cast<double>(contact.depth), meshes.mesh(scene.objects[pair[0]].mesh),
@@ -48,27 +49,30 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
   const Scene::Object& source = scene.objects[pair[side]];
   const Scene::Object& target = scene.objects[pair[1 - side]];
+  const Mesh& source_mesh = meshes.mesh(source.mesh);
   const Mesh& target_mesh = meshes.mesh(target.mesh);
+  const Pose source_pose = frame_pose(source.pose, source_mesh);
+  const Pose target_pose = frame_pose(target.pose, target_mesh);
   if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
   const std::uint32_t triangle = contact.triangle - meshes.range(target.mesh).triangle_first;
 
   // Out of the target is into the source; the normal is to point into the first object.
-  const Vec3d outward = target.pose.rotate(face_normal(target_mesh, triangle));
+  const Vec3d outward = target_pose.rotate(face_normal(target_mesh, triangle));
   const bool turned = (side == 0) == ((contact.side_kind & OX_HIT_REVERSED) != 0);
   Contact result;
-  result.position = source.pose.transform(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+  result.position = source_pose.transform(Vec3d(source_mesh.vertices[vertex]));
   result.normal = ((turned ? -1.0 : 1.0) / length(outward)) * outward;
   // Again in double precision: bodies come to rest 1e-9 m deep, where floats would push and let go
   // by turns. What the device took for inside, to within its rounding, stays a contact.
   const Vec3d corner =
-      target.pose.rotate(Vec3d(target_mesh.vertices[target_mesh.topology->triangles[triangle][0]]));
-  const Vec3d from = source.pose.rotate(Vec3d(meshes.mesh(source.mesh).vertices[vertex]));
+      target_pose.rotate(Vec3d(target_mesh.vertices[target_mesh.topology->triangles[triangle][0]]));
+  const Vec3d from = source_pose.rotate(Vec3d(source_mesh.vertices[vertex]));
   // Of places far from the origin the difference is exact, the sums are not.
-  const Vec3d apart = (corner - from) + (target.pose.position - source.pose.position);
+  const Vec3d apart = (corner - from) + (target_pose.position - source_pose.position);
   const double height = dot(apart, outward) / length(outward);
   const bool reversed = (contact.side_kind & OX_HIT_REVERSED) != 0;
-  result.depth = known_depth(reversed ? -height : height, meshes.mesh(source.mesh), target_mesh);
+  result.depth = known_depth(reversed ? -height : height, source_mesh, target_mesh);
   result.triangles[side] = meshes.owner_triangle(contact.vertex);
   result.triangles[1 - side] = target_mesh.topology->source_triangle[triangle];
   return result;

@@ -15,6 +15,7 @@
 #include "mesh/neighbours.h"
 #include "mesh/normals.h"
 #include "mesh/orientation.h"
+#include "mesh/origin.h"
 #include "mesh/vertex_chunks.h"
 #include "mesh/weld.h"
 
@@ -71,6 +72,8 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
   const auto topology = std::make_shared<MeshTopology>();
   mesh.topology = topology;
   mesh.vertices = std::move(welded.vertices);
+  if (!mesh.deformable) mesh.origin = exact_origin(box_of(mesh.vertices));
+  for (Vec3f& vertex : mesh.vertices) vertex = vertex - mesh.origin;
   topology->vertex_count = mesh.vertices.size();
   topology->triangles = std::move(welded.triangles);
   topology->source_triangle = std::move(welded.source_triangle);
@@ -118,6 +121,10 @@ Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle) {
   const Triangle& corners = mesh.topology->triangles[triangle];
   return face_normal(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                      mesh.vertices[corners[2]]);
+}
+
+Box box_as_given(const Mesh& mesh) {
+  return {mesh.box.lo + mesh.origin, mesh.box.hi + mesh.origin};
 }
 
 }  // namespace ode_ext

@@ -17,8 +17,11 @@ namespace ode_ext {
 // A topology and where its vertices are: a mesh as it was built, or a shape it has taken since.
 struct Mesh {
   std::shared_ptr<const MeshTopology> topology = std::make_shared<const MeshTopology>();
-  SourceTriangles source;       // what it was made of
-  std::vector<Vec3f> vertices;  // [m], local frame; as MeshTopology numbers them
+  SourceTriangles source;  // what it was made of
+  // Where the frame of all that follows begins in that of the source, whose axes it has [m]:
+  // origin.h; 0 for a deformable mesh, or its past would decide how its shapes are rounded.
+  Vec3f origin;
+  std::vector<Vec3f> vertices;  // [m], exact; as MeshTopology numbers them
   // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
   // normals of the faces are empty for a deformable mesh: the device makes them.
   std::vector<Vec3f> normals;
@@ -45,6 +48,9 @@ struct Mesh {
 
 // Unit; zero where the area is zero.
 Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
+
+// The box in the frame of the source, exact.
+Box box_as_given(const Mesh& mesh);
 
 struct MeshOptions {
   float open_thickness = 0;  // [m] bounds the exits of an open mesh; 0: its mean edge

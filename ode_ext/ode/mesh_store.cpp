@@ -15,17 +15,17 @@ namespace {
 
 // A mesh that nothing has come near for ten seconds at 60 Hz is worth rebuilding when it comes
 // back.
-constexpr std::uint64_t kPassesKept = 600;
+constexpr std::uint64_t kRoundsKept = 600;
 
 }  // namespace
 
 const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, int triangle_count,
-                                                      std::uint64_t look, std::uint64_t pass) {
+                                                      std::uint64_t look, std::uint64_t round) {
   const auto [place, is_new] = entries_.try_emplace(data);
   Entry& entry = place->second;
   if (is_new) entry.order = next_order_++;
   const bool looked = entry.last_look == look;
-  entry.last_pass = pass;
+  entry.last_round = round;
   if (has_triangles(entry, triangle_count) && !entry.changed && (looked || trust_)) {
     entry.last_look = look;
     return entry.mesh;
@@ -37,7 +37,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, int t
     resident_is_stale_ = true;  // whatever of this is done when memory runs out
     update(entry);
   }
-  entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(entry.mesh->box);
+  entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(box_as_given(*entry.mesh));
   entry.last_look =
       look;  // not before: where memory is short the mesh is not what it was taken for
   entry.changed = false;
@@ -88,10 +88,10 @@ bool MeshStore::has_triangles(const Entry& entry, int count) {
   return entry.mesh != nullptr && entry.mesh->source.size() == 3 * static_cast<std::size_t>(count);
 }
 
-std::shared_ptr<const Mesh> MeshStore::keep(dTriMeshDataID data, std::uint64_t pass) {
+std::shared_ptr<const Mesh> MeshStore::keep(dTriMeshDataID data, std::uint64_t round) {
   const auto found = entries_.find(data);
   if (found == entries_.end()) return nullptr;
-  found->second.last_pass = pass;
+  found->second.last_round = round;
   return found->second.mesh;
 }
 
@@ -131,7 +131,7 @@ void MeshStore::clear() {
   resident_is_stale_ = true;
 }
 
-bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t pass) {
+bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t round) {
   const auto drop_where = [&](const auto& is_spare) {
     bool any = false;
     for (auto& [data, entry] : entries_) {
@@ -141,17 +141,17 @@ bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint
     }
     return any;
   };
-  const bool any = drop_where([&](const Entry& entry) { return entry.last_pass < pass; }) ||
+  const bool any = drop_where([&](const Entry& entry) { return entry.last_round < round; }) ||
                    drop_where([](const Entry&) { return true; });
   if (any) resident_is_stale_ = true;
   return any;
 }
 
-void MeshStore::prune(std::uint64_t pass) {
+void MeshStore::prune(std::uint64_t round) {
   for (auto item = entries_.begin(); item != entries_.end();) {
     Entry& entry = item->second;
     const auto next = std::next(item);
-    if (entry.last_pass + kPassesKept < pass) {
+    if (entry.last_round + kRoundsKept < round) {
       if (entry.mesh != nullptr) resident_is_stale_ = true;
       drop(entry);
       if (!entry.deformable) entries_.erase(item);  // else it is to be known as such again

@@ -26,16 +26,16 @@ class MeshStore {
   // The mesh as it is now: its triangles are compared with those it was made of, and if they are
   // others it is rebuilt, or followed where it is deformable and only its vertices moved. Looks
   // once per mesh and value of `look`, and where it has not as many triangles as a geom says;
-  // `pass` is what prune goes by.
+  // `round` is what prune goes by (rounds.h).
   const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, int triangle_count,
-                                             std::uint64_t look, std::uint64_t pass);
+                                             std::uint64_t look, std::uint64_t round);
 
   // The mesh as of the last refresh; null if it is not known, was announced to have changed, or has
   // another number of triangles than `triangle_count`.
   std::shared_ptr<const Mesh> known(dTriMeshDataID data, int triangle_count) const;
 
-  // The mesh as of the last refresh, not looked at, but in use by this pass; null if not known.
-  std::shared_ptr<const Mesh> keep(dTriMeshDataID data, std::uint64_t pass);
+  // The mesh as of the last refresh, not looked at, but in use in this round; null if not known.
+  std::shared_ptr<const Mesh> keep(dTriMeshDataID data, std::uint64_t round);
   // Whether `mesh` is what was last read. Never dereferences the handle.
   bool is_as_known(dTriMeshDataID data, const std::shared_ptr<const Mesh>& mesh) const;
 
@@ -50,11 +50,11 @@ class MeshStore {
   void set_deformable(dTriMeshDataID data, bool deformable);
   void forget(dTriMeshDataID data);
   void clear();  // forgets all, but for which are deformable
-  // Forgets meshes that no pass has met for a long time.
-  void prune(std::uint64_t pass);
-  // Drops meshes that this pass has not met; where there are none, all but these. They are built
-  // again when they are met. False: there was none to drop.
-  bool make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t pass);
+  // Forgets meshes that no round has met for a long time.
+  void prune(std::uint64_t round);
+  // Drops meshes that this round has not met; where there are none, all but those in use. They are
+  // built again when they are met. False: there was none to drop.
+  bool make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t round);
 
   // All meshes in an order that does not change while only deformable ones move, which keep their
   // places; rigid ones of equal content are there once. And a place of one in it.
@@ -68,7 +68,7 @@ class MeshStore {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const MeshTopology> topology;  // of a deformable mesh, of all its shapes
     std::uint64_t last_look = 0;
-    std::uint64_t last_pass = 0;
+    std::uint64_t last_round = 0;
     std::uint64_t order = 0;
     bool changed = false;  // announced
     bool deformable = false;

@@ -13,14 +13,14 @@ inline double leading(double x) {
   return scaled - (scaled - x);
 }
 
-inline ox_object object_record(const Scene::Object& object) {
+inline ox_object object_record(const Scene& scene, const Scene::Object& object) {
+  const Pose pose = frame_pose(object.pose, *scene.meshes[object.mesh]);
   ox_object record{};
-  for (std::size_t k = 0; k < 9; ++k)
-    record.rotation[k] = static_cast<float>(object.pose.rotation[k]);
+  for (std::size_t k = 0; k < 9; ++k) record.rotation[k] = static_cast<float>(pose.rotation[k]);
   for (std::size_t k = 0; k < 3; ++k) {
-    const double high = leading(object.pose.position[k]);
+    const double high = leading(pose.position[k]);
     record.hi[k] = static_cast<float>(high);
-    record.lo[k] = static_cast<float>(object.pose.position[k] - high);
+    record.lo[k] = static_cast<float>(pose.position[k] - high);
   }
   record.mesh = object.mesh;
   return record;

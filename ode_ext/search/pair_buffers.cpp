@@ -14,7 +14,8 @@ PairBuffers::PairBuffers(Device& device)
 
 void PairBuffers::upload_objects(const Scene& scene) {
   host_objects_.clear();
-  for (const Scene::Object& object : scene.objects) host_objects_.push_back(object_record(object));
+  for (const Scene::Object& object : scene.objects)
+    host_objects_.push_back(object_record(scene, object));
   objects.upload(host_objects_);
 }
 

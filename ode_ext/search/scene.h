@@ -27,9 +27,14 @@ struct Pose {
   Vec3d transform(Vec3d p) const { return rotate(p) + position; }
 };
 
+// Of the frame in which a mesh has its vertices, where the mesh is at `pose`.
+inline Pose frame_pose(const Pose& pose, const Mesh& mesh) {
+  return {pose.transform(Vec3d(mesh.origin)), pose.rotation};
+}
+
 struct Scene {
   struct Object {
-    Pose pose;
+    Pose pose;                   // of what the mesh was made of
     std::uint32_t mesh;          // index into meshes
     std::uint64_t identity = 0;  // the same from pass to pass; 0: none, nothing is remembered of it
   };

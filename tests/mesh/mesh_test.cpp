@@ -102,8 +102,10 @@ TEST(BuildMesh, KnowsTheProgramsNumbersOfTheTriangles) {
 TEST(BuildMesh, MeasuresACube) {
   const Mesh mesh = build_mesh(shapes::box({1, 2, 3}, {3, 4, 5}));
   expect_whole(mesh);
-  EXPECT_EQ(mesh.box.lo, (Vec3f{1, 2, 3}));
-  EXPECT_EQ(mesh.box.hi, (Vec3f{3, 4, 5}));
+  EXPECT_EQ(mesh.box.lo, (Vec3f{-1, -1, -1}));
+  EXPECT_EQ(mesh.box.hi, (Vec3f{1, 1, 1}));
+  EXPECT_EQ(box_as_given(mesh).lo, (Vec3f{1, 2, 3}));
+  EXPECT_EQ(box_as_given(mesh).hi, (Vec3f{3, 4, 5}));
   EXPECT_GE(mesh.radius, std::sqrt(3.0));  // rounded up
   EXPECT_LT(mesh.radius, std::sqrt(3.0) * (1 + 0x1p-23));
   EXPECT_FLOAT_EQ(mesh.mean_edge, (2 + 2 + std::sqrt(8.0f)) / 3);
@@ -156,7 +158,7 @@ TEST(BuildMesh, TakesAMeshFarFromItsOrigin) {
   EXPECT_FALSE(mesh.topology->inverted);
   int corners = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3f from_middle = mesh.vertices[i] - far - Vec3f{4, 4, 4};
+    const Vec3f from_middle = mesh.vertices[i] + mesh.origin - far - Vec3f{4, 4, 4};
     if (length(from_middle) < 6.9f) continue;  // corners are at 4 * sqrt(3)
     EXPECT_NEAR(mesh.exits[i], 8 * std::sqrt(3.0f), 1e-5f);
     ++corners;

@@ -254,15 +254,21 @@ TEST_F(Flood, FindsACrateWhoseFirstCornerIsJustBelowTheSurface) {
   }
 }
 
-// Pairs round to more where meshes lie far from their own origin, or the other is much larger.
+// Pairs round to more where meshes reach from their own origin far out, or the other is much
+// larger; not where they only lie far out.
 TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
-  for (const double offset : {0.0, 1e2, 1e4}) {
+  const struct {
+    double offset;
+    bool reaches_back;
+  } cases[] = {{0, false}, {1e2, false}, {1e4, false}, {1e2, true}, {1e4, true}};
+  for (const auto& [offset, reaches_back] : cases) {
     const double scale = offset == 0 ? 1000 : 1;
     const Point far{offset, 0, 0};
     TestScene scene;
     for (const TestMesh& mesh : {jittered(make_icosphere(0.6, 2), 0.01, 1),
                                  jittered(make_torus(0.5, 0.2, 16, 10), 0.01, 2), make_l(1)})
-      scene.add_mesh(moved(mesh, far));
+      scene.add_mesh(reaches_back ? merged(moved(mesh, far), make_tetrahedron(0.1))
+                                  : moved(mesh, far));
     scene.add_mesh(scaled(make_cube(1, 4), scale));
     Random random(74);
     for (int i = 0; i < 150; ++i) {

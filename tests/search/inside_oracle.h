@@ -110,8 +110,11 @@ class InsideOracles {
   }
   // Of the pair's side, in the frame of the other; not by way of the world, which may be far.
   static Point in_target(const Scene& scene, std::uint32_t pair_side, Vec3f vertex) {
-    const Pose& ps = scene.objects[scene.pairs[pair_side >> 1][pair_side & 1]].pose;
-    const Pose& pt = scene.objects[scene.pairs[pair_side >> 1][1 - (pair_side & 1)]].pose;
+    const auto frame_of = [&](std::uint32_t side) {
+      const Scene::Object& object = scene.objects[scene.pairs[pair_side >> 1][side]];
+      return frame_pose(object.pose, *scene.meshes[object.mesh]);
+    };
+    const Pose ps = frame_of(pair_side & 1), pt = frame_of(1 - (pair_side & 1));
     const Vec3d d = ps.rotate(Vec3d(vertex)) + (ps.position - pt.position);
     const auto& r = pt.rotation;
     return {r[0] * d.x + r[3] * d.y + r[6] * d.z, r[1] * d.x + r[4] * d.y + r[7] * d.z,

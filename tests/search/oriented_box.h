@@ -65,9 +65,10 @@ inline double reach_of_pair(const TestScene& scene, std::size_t pair) {
 // [m]; negative where the boxes of the two meshes overlap, or are within reach of their rays.
 inline double gap_of_pair(const TestScene& scene, std::size_t pair) {
   const Point& origin = scene.pose_of(pair, 1).position;
-  return gap_between(
-             oriented_box(scene.built_mesh_of(pair, 0).box, scene.pose_of(pair, 0), origin),
-             oriented_box(scene.built_mesh_of(pair, 1).box, scene.pose_of(pair, 1), origin)) -
+  return gap_between(oriented_box(box_as_given(scene.built_mesh_of(pair, 0)),
+                                  scene.pose_of(pair, 0), origin),
+                     oriented_box(box_as_given(scene.built_mesh_of(pair, 1)),
+                                  scene.pose_of(pair, 1), origin)) -
          reach_of_pair(scene, pair);
 }
 
