@@ -91,11 +91,11 @@ Answer* Answers::find(dGeomID a, dGeomID b) {
   return &kept->answer;
 }
 
-void Answers::prune(std::uint64_t pass) {
-  if (pass < pruned_pass_ + kPassesRemembered) return;
-  pruned_pass_ = pass;
+void Answers::prune(std::uint64_t round) {
+  if (round < pruned_round_ + kRoundsRemembered) return;
+  pruned_round_ = round;
   const auto is_old = [&](const Slot& slot) {
-    return slot.kept->answer.last_pass + kPassesRemembered < pass;
+    return slot.kept->answer.last_round + kRoundsRemembered < round;
   };
   std::vector<Slot> kept;
   for (const Slot& slot : slots_)

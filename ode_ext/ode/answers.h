@@ -15,9 +15,9 @@
 
 namespace ode_ext {
 
-// Passes after which an answer nobody gathered or asked for is soon forgotten, and after which a
-// pair nobody asks for is no longer computed ahead.
-inline constexpr std::uint64_t kPassesRemembered = 8;
+// Rounds (rounds.h) after which an answer nobody gathered or asked for is soon forgotten, and after
+// as many passes that gathered it a pair nobody asks for is no longer computed ahead.
+inline constexpr std::uint64_t kRoundsRemembered = 8;
 
 // How many pairs ahead answers are fetched, which have left the caches since the last pass: about
 // what memory takes to come.
@@ -30,7 +30,7 @@ struct Answer {
   bool valid = false;
   std::uint64_t gathering = 0;       // the last gathering that met it; nested passes count
   std::uint64_t gathered_pass = 0;   // the last outermost pass that gathered it
-  std::uint64_t last_pass = 0;       // the last one that gathered it or in which it was asked for
+  std::uint64_t last_round = 0;      // the last one that gathered it or in which it was asked for
   std::uint64_t passes_unasked = 0;  // that gathered it since the program last asked
   std::uint64_t given_up = 0;        // the last one in which the device had no room for it; 0: none
   std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead
@@ -56,9 +56,9 @@ class Answers {
   Answer* find(dGeomID a, dGeomID b);
   // Into the caches: entry() of this pair is about to be called.
   void prefetch(dGeomID a, dGeomID b) const;
-  // Forgets those that no pass met of late, and moves the others together where few are left. Looks
-  // every so many passes.
-  void prune(std::uint64_t pass);
+  // Forgets those that no round met of late, and moves the others together where few are left.
+  // Looks every so many rounds.
+  void prune(std::uint64_t round);
   void clear();
   std::size_t size() const { return answers_.size() - free_.size(); }
 
@@ -82,7 +82,7 @@ class Answers {
   std::deque<Kept> answers_;
   std::vector<Kept*> free_;
   Kept* last_ = nullptr;  // that was found
-  std::uint64_t pruned_pass_ = 0;
+  std::uint64_t pruned_round_ = 0;
 };
 
 // An answer with what it is of, for the program's callbacks to be asked without the lock.

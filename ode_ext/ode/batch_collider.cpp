@@ -77,6 +77,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   known_.look_again();
+  if (depth_ == 1) known_.note_outermost(root);
   failed_ = false;
   asked_outside_ = 0;
   begin_stats(depth_ > 1);  // this pass is one of them
@@ -127,9 +128,10 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     ++gathered;
     familiar = familiar || answer.gathered_pass != 0;
     if (answer.gathered_pass != pass) ++answer.passes_unasked;
-    answer.gathered_pass = answer.last_pass = pass;
+    answer.gathered_pass = pass;
+    answer.last_round = known_.round();
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
-    if (answer.passes_unasked <= kPassesRemembered) {
+    if (answer.passes_unasked <= kRoundsRemembered) {
       known_.add(answer, pair);
     } else {
       unasked_.note(answer, pair, known_);
@@ -181,7 +183,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   bool was_unasked = false;
   if (known != nullptr) {
     was_unasked = !alone && known->noted_pass == pass;
-    known->last_pass = pass;
+    known->last_round = known_.round();
     known->passes_unasked = 0;
   }
   const auto holds_now = [&] { return known != nullptr && known_.holds(*known, g1, g2, !alone); };
@@ -200,7 +202,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     if (alone) make_anew_what_keeps_failing();
     count_outside(1);
     known = &known_.entry(g1, g2);
-    known->last_pass = pass;
+    known->last_round = known_.round();
     if (alone) known_.look_again();
     known_.begin_batch(false);
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});

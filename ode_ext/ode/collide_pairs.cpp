@@ -99,7 +99,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
     const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
     if (!can_collide(g1, g2)) continue;
     Answer& answer = known_.entry(g1, g2);
-    answer.last_pass = known_.pass();
+    answer.last_round = known_.round();
     answer.passes_unasked = 0;
     known_.add(answer, GatheredPair{{g1, g1}, {g2, g2}});
   }

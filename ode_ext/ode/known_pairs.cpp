@@ -38,10 +38,10 @@ const PairMember* KnownPairs::current_member(Answer& answer, dGeomID geom, dGeom
                                              bool within_a_pass) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
   const std::shared_ptr<const Mesh> mesh =
-      within_a_pass ? meshes_.refresh(data, dGeomTriMeshGetTriangleCount(geom), look_, pass_)
+      within_a_pass ? meshes_.refresh(data, dGeomTriMeshGetTriangleCount(geom), look_, round())
                     : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
-  return Members::find_same(seen(answer, geom, other), data, mesh.get(), pose_of(geom), pass_);
+  return Members::find_same(seen(answer, geom, other), data, mesh.get(), pose_of(geom), round());
 }
 
 AnswerCopy KnownPairs::copy_of(const Answer& answer) const {
@@ -72,11 +72,12 @@ void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
 }
 
 PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed) {
-  seen.now.last_pass = pass_;
+  seen.now.last_round = round();
   if (seen.now.stamp != 0 && seen.now.scene == scene_.number()) return seen.now;
   const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
-  const auto& mesh = meshes_.refresh(data, dGeomTriMeshGetTriangleCount(placed.geom), look_, pass_);
-  PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), pass_);
+  const auto& mesh =
+      meshes_.refresh(data, dGeomTriMeshGetTriangleCount(placed.geom), look_, round());
+  PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), round());
   member.scene = scene_.number();
   if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
   if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
@@ -102,7 +103,7 @@ void KnownPairs::compute(PassMemory* memory) {
   };
   const PairContacts* collided = nullptr;
   try {
-    collided = &scene_.collide(this, *collider_, meshes_, pass_, memory);
+    collided = &scene_.collide(this, *collider_, meshes_, round(), memory);
   } catch (const DeviceError& error) {
     give_up_those_reported();
     if (!is_no_room(error.code()) || scene_.size() != 1) throw;
@@ -121,9 +122,9 @@ void KnownPairs::compute(PassMemory* memory) {
 }
 
 void KnownPairs::prune() {
-  answers_.prune(pass_);
-  members_.prune(pass_);
-  meshes_.prune(pass_);
+  answers_.prune(round());
+  members_.prune(round());
+  meshes_.prune(round());
 }
 
 void KnownPairs::clear() {

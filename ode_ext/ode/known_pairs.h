@@ -16,6 +16,7 @@
 #include "ode/pair_gather.h"
 #include "ode/pair_scene.h"
 #include "ode/pass_stats.h"
+#include "ode/rounds.h"
 
 namespace ode_ext {
 
@@ -40,6 +41,9 @@ class KnownPairs {
     ++pass_;
     members_.let_go();
   }
+  // By which all that is known ages.
+  std::uint64_t round() const { return rounds_.number(); }
+  void note_outermost(const PassRoot& root) { rounds_.note_pass(root); }
   // Meshes are read anew when this number changes.
   std::uint64_t look() const { return look_; }
   void look_again() { ++look_; }
@@ -76,7 +80,7 @@ class KnownPairs {
   // Answers of the batch with contacts, those that were there before among them.
   long long colliding() const { return scene_.colliding(); }
 
-  // Forgets what no pass met of late; all.
+  // Forgets what no round met of late; all.
   void prune();
   void clear();
 
@@ -93,6 +97,7 @@ class KnownPairs {
   Members members_;
   Answers answers_;
   PairScene scene_;  // that is being built
+  Rounds rounds_;
   std::uint64_t pass_ = 0;
   std::uint64_t look_ = 0;
   bool skips_given_up_ = false;

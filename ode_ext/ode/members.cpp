@@ -35,7 +35,7 @@ bool is_as(const PairMember& member, dTriMeshDataID data, const Mesh* mesh, cons
 
 PairMember& Members::note(Seen& seen, dGeomID geom, dTriMeshDataID data,
                           const std::shared_ptr<const Mesh>& mesh, const Pose& given,
-                          std::uint64_t pass) {
+                          std::uint64_t round) {
   auto& [now, before] = seen;
   if (!is_as(now, data, mesh.get(), given)) {
     const bool is_back = is_as(before, data, mesh.get(), given);
@@ -56,14 +56,14 @@ PairMember& Members::note(Seen& seen, dGeomID geom, dTriMeshDataID data,
     // What was edited does not come back, and need not be kept alive.
     if (before.data == now.data && before.mesh != now.mesh) before = {};
   }
-  now.last_pass = pass;
+  now.last_round = round;
   return now;
 }
 
 const PairMember* Members::find_same(Seen& seen, dTriMeshDataID data, const Mesh* mesh,
-                                     const Pose& given, std::uint64_t pass) {
+                                     const Pose& given, std::uint64_t round) {
   auto& [now, before] = seen;
-  now.last_pass = pass;
+  now.last_round = round;
   if (is_as(now, data, mesh, given)) return &now;
   return is_as(before, data, mesh, given) ? &before : nullptr;
 }
@@ -90,11 +90,11 @@ void Members::let_go() {
   destroyed_.clear();
 }
 
-void Members::prune(std::uint64_t pass) {
-  if (pass < pruned_pass_ + kPassesRemembered) return;
-  pruned_pass_ = pass;
+void Members::prune(std::uint64_t round) {
+  if (round < pruned_round_ + kRoundsRemembered) return;
+  pruned_round_ = round;
   const auto is_old = [&](const auto& item) {
-    return item.second.now.last_pass + kPassesRemembered < pass;
+    return item.second.now.last_round + kRoundsRemembered < round;
   };
   if (std::erase_if(map_, is_old) != 0) ++generation_;
 }

@@ -23,10 +23,10 @@ struct PairMember {
   Pose given;             // as ODE has it
   bool is_placed = true;  // a pose that contacts can be computed of
   std::uint64_t stamp = 0;
-  std::uint64_t last_pass = 0;  // that it was seen in
-  std::uint64_t scene = 0;      // the last one that it was seen for,
-  std::uint64_t object_of = 0;  // the last one that it is an object of,
-  std::uint32_t object = 0;     // and which
+  std::uint64_t last_round = 0;  // that it was seen in
+  std::uint64_t scene = 0;       // the last one that it was seen for,
+  std::uint64_t object_of = 0;   // the last one that it is an object of,
+  std::uint32_t object = 0;      // and which
 };
 
 class Members {
@@ -41,15 +41,15 @@ class Members {
   std::uint64_t generation() const { return generation_; }
   // The geom as it is now.
   PairMember& note(Seen& seen, dGeomID geom, dTriMeshDataID data,
-                   const std::shared_ptr<const Mesh>& mesh, const Pose& given, std::uint64_t pass);
+                   const std::shared_ptr<const Mesh>& mesh, const Pose& given, std::uint64_t round);
   // The geom, if it is now as it was when last noted, or as the time before: a program may move a
   // geom, collide it, and move it back. Null: it is not.
   static const PairMember* find_same(Seen& seen, dTriMeshDataID data, const Mesh* mesh,
-                                     const Pose& given, std::uint64_t pass);
+                                     const Pose& given, std::uint64_t round);
   // As it was with this stamp, one of the last two.
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
-  // Forgets those that nobody asked for of late. Looks every so many passes.
-  void prune(std::uint64_t pass);
+  // Forgets those that nobody asked for of late. Looks every so many rounds.
+  void prune(std::uint64_t round);
   // A mesh that is destroyed: geoms that had it let go of it, a few meshes later or when let_go is
   // called, since that takes a look at all geoms.
   void forget(dTriMeshDataID data);
@@ -63,7 +63,7 @@ class Members {
   std::unordered_map<dGeomID, Seen> map_;
   std::unordered_set<dTriMeshDataID> destroyed_;  // that geoms may still have
   std::uint64_t generation_ = 1;
-  std::uint64_t pruned_pass_ = 0;
+  std::uint64_t pruned_round_ = 0;
   std::uint64_t stamps_ = 0;  // given so far
 };
 

@@ -32,6 +32,14 @@ struct PassRoot {
   bool operator==(const PassRoot&) const = default;
 };
 
+// Some order of them.
+struct RootLess {
+  bool operator()(const PassRoot& a, const PassRoot& b) const {
+    const std::less<> less;
+    return a.first != b.first ? less(a.first, b.first) : less(a.second, b.second);
+  }
+};
+
 // False if there are not two meshes below the root. Spaces that cannot be listed (ODE's quadtrees)
 // may hold any.
 bool may_hold_mesh_pair(const PassRoot& root);

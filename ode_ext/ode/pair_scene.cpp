@@ -47,16 +47,16 @@ std::uint32_t PairScene::object_of(PairMember& member) {
 }
 
 const PairContacts& PairScene::collide(const void* identity, Collider& collider, MeshStore& meshes,
-                                       std::uint64_t pass, PassMemory* memory) {
+                                       std::uint64_t round, PassMemory* memory) {
   const auto captured = capture_pass(identity, members_, scene_.pairs);
-  const PairContacts& found = collide_with_room(collider, meshes, pass, memory);
+  const PairContacts& found = collide_with_room(collider, meshes, round, memory);
   if (collider.report().given_up.empty()) capture_contacts(captured, found);
   return found;
 }
 
 // All meshes that are known stay on the device, those of this scene or not, as long as it has room.
 const PairContacts& PairScene::collide_with_room(Collider& collider, MeshStore& meshes,
-                                                 std::uint64_t pass, PassMemory* memory) {
+                                                 std::uint64_t round, PassMemory* memory) {
   for (;;) {
     set_objects(meshes);
     try {
@@ -64,7 +64,7 @@ const PairContacts& PairScene::collide_with_room(Collider& collider, MeshStore& 
     } catch (const DeviceError& error) {
       std::unordered_set<const Mesh*> used;
       for (const PairMember* member : members_) used.insert(member->mesh.get());
-      if (!is_out_of_memory(error.code()) || !meshes.make_room(used, pass)) throw;
+      if (!is_out_of_memory(error.code()) || !meshes.make_room(used, round)) throw;
     }
   }
 }

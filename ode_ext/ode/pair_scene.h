@@ -23,7 +23,7 @@ class PairScene {
   // `identity`: by which a capture knows whose it is. Throws DeviceError; the scene is to be
   // dropped then.
   const PairContacts& collide(const void* identity, Collider& collider, MeshStore& meshes,
-                              std::uint64_t pass, PassMemory* memory);
+                              std::uint64_t round, PassMemory* memory);
   // The device has no room for a pair of it: its answer does not stand.
   void give_up(std::size_t pair, std::uint64_t pass);
   // Stores what was found of the others.
@@ -36,7 +36,7 @@ class PairScene {
 
  private:
   std::uint32_t object_of(PairMember& member);
-  const PairContacts& collide_with_room(Collider& collider, MeshStore& meshes, std::uint64_t pass,
+  const PairContacts& collide_with_room(Collider& collider, MeshStore& meshes, std::uint64_t round,
                                         PassMemory* memory);
   void set_objects(MeshStore& meshes);
 

@@ -19,12 +19,6 @@ std::size_t bytes_of(const PassMemory& memory) {
 
 }  // namespace
 
-bool SpaceMemories::RootLess::operator()(const PassRoot& a, const PassRoot& b) const {
-  const std::less<> less;
-  if (a.first != b.first) return less(a.first, b.first);
-  return less(a.second, b.second);
-}
-
 bool SpaceMemories::Entry::knows(std::span<const GatheredPair> pairs) const {
   return std::ranges::any_of(pairs, [&](const GatheredPair& pair) {
     return std::ranges::find(sample, GeomPair{pair.first.geom, pair.second.geom}) != sample.end();

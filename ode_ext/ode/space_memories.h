@@ -30,9 +30,6 @@ class SpaceMemories {
 
  private:
   using GeomPair = std::array<dGeomID, 2>;
-  struct RootLess {
-    bool operator()(const PassRoot& a, const PassRoot& b) const;
-  };
   struct Entry {
     PassMemory memory;
     std::uint64_t last_pass = 0;

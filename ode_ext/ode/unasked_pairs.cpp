@@ -21,10 +21,10 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
   for (const PlacedGeom& placed : {pair.first, pair.second}) {
     const auto [place, is_new] = members_.try_emplace(placed.geom);
     if (!is_new) continue;
-    known.members().seen(placed.geom).now.last_pass = known.pass();  // it may be asked for again
+    known.members().seen(placed.geom).now.last_round = known.round();  // it may be asked for again
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     place->second.data = data;
-    place->second.mesh = known.meshes().keep(data, known.pass());
+    place->second.mesh = known.meshes().keep(data, known.round());
     place->second.given = pose_of(placed);
   }
   pairs_.push_back({pair.first.geom, pair.second.geom});
@@ -39,7 +39,7 @@ void UnaskedPairs::compute(KnownPairs& known) {
   known.begin_batch(true);
   const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
     return known.members().note(known.members().seen(geom), geom, as.data, as.mesh, as.given,
-                                known.pass());
+                                known.round());
   };
   for (const auto& [first, second] : pairs_) {
     const PairMember &a = members_.at(first), &b = members_.at(second);

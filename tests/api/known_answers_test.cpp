@@ -15,9 +15,9 @@ dGeomID handle(std::size_t i) { return reinterpret_cast<dGeomID>(0x1000 + 64 * i
 
 class KnownAnswers : public ::testing::Test {
  protected:
-  Answer& entry(std::size_t i, std::uint64_t last_pass) {
+  Answer& entry(std::size_t i, std::uint64_t last_round) {
     Answer& answer = answers_.entry(handle(i), handle(i + 1));
-    answer.last_pass = last_pass;
+    answer.last_round = last_round;
     answer.gathering = i;
     return answer;
   }
@@ -58,7 +58,7 @@ TEST_F(KnownAnswers, ThatAreForgottenAreNotFoundAfterThoseTheyFollowed) {
   for (std::size_t i = 0; i < 4; ++i) entry(i, 100);
   for (int walk = 0; walk < 2; ++walk)
     for (std::size_t i = 0; i < 4; ++i) ASSERT_NE(find(i), nullptr);
-  find(1)->last_pass = 1;
+  find(1)->last_round = 1;
   answers_.prune(100);
   EXPECT_EQ(answers_.size(), 3u);
   ASSERT_NE(find(0), nullptr);
