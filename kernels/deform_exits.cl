@@ -15,7 +15,7 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
                      __global const ox_meshlet* meshlets,
                      __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
                      uint vertex) {
-  const ox_cast cast = ox_cast_from(origin, direction);
+  const ox_cast cast = ox_cast_from((float3)(0.0f), origin, direction);
   __global const ox_mesh* shape = &move->shape;
   float front_t = INFINITY;
   float back_t = INFINITY;

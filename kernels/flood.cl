@@ -246,24 +246,27 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
 
 // Whether a vertex is so near the surface that rounding may say on which side.
 static bool ox_is_near_surface(const ox_flood_state* s, uint vertex) {
-  const float3 p =
-      ox_transform(s->pair, s->pair_side & 1u, vload3(0, s->scene->vertices[vertex].position));
+  const uint side = s->pair_side & 1u;
+  const float3 p = ox_place(s->pair, side, vload3(0, s->scene->vertices[vertex].position));
   const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
-  return ox_closest_triangle(&s->scene->surfaces, s->target, p, near, 0.0f) != OX_NONE;
+  return ox_closest_triangle(&s->scene->surfaces, s->target, ox_base(s->pair, 1u - side), p, near,
+                             0.0f) != OX_NONE;
 }
 
 // Whether a vertex that is not near the surface is inside of a closed target.
 static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   const uint side = s->pair_side & 1u;
   __global const ox_vertex* vertex = s->scene->vertices + index;
-  float3 p = ox_transform(s->pair, side, vload3(0, vertex->position));
+  const float3 base = ox_base(s->pair, 1u - side);
+  float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
   // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
   // larger by so much. Rays of vertices start as far out of their own mesh.
   const float out = OX_INFLATION * s->pair->epsilon;
   if (side == 0u) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
-  return ox_winds_about(p, (float3)(0.0f), s->pair->epsilon, s->target, &s->scene->surfaces) ||
+  return ox_winds_about(base, p, (float3)(0.0f), s->pair->epsilon, s->target,
+                        &s->scene->surfaces) ||
          (side != 0u &&
-          ox_closest_triangle(&s->scene->surfaces, s->target, p, out, 0.0f) != OX_NONE);
+          ox_closest_triangle(&s->scene->surfaces, s->target, base, p, out, 0.0f) != OX_NONE);
 }
 
 // Of vertices that hang together without a crossing, so that they are all on one side, one of which

@@ -9,8 +9,9 @@
 #include "lib/closest.h"
 #include "lib/vertex_ray.h"
 
-static bool ox_is_behind(__global const ox_triangle* triangle, float3 p, float margin) {
-  return ox_dot(vload3(0, triangle->normal), p - vload3(0, triangle->a)) <= margin;
+static bool ox_is_behind(__global const ox_triangle* triangle, float3 base, float3 p,
+                         float margin) {
+  return ox_dot(vload3(0, triangle->normal), p - (vload3(0, triangle->a) - base)) <= margin;
 }
 
 static void ox_cast_rays(const ox_scene* scene) {
@@ -31,12 +32,12 @@ static void ox_cast_rays(const ox_scene* scene) {
     if (ray.memory == OX_RAY_CONTAINED) {
       // Its ray leaves by a face on one side of it, and the closest may be on the other. In a solid
       // that cuts itself that may be a wall in front of which it is: not by that does it come out.
-      const float3 p = ox_transform(pair, side, vload3(0, scene->vertices[ray.vertex].position));
+      const float3 p = ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position));
       const uint closest =
-          ox_closest_triangle(&scene->surfaces, target, p,
+          ox_closest_triangle(&scene->surfaces, target, vertex_ray.base, p,
                               outcome.triangle == OX_NONE ? INFINITY : outcome.t, pair->epsilon);
-      if (closest != OX_NONE &&
-          ox_is_behind(scene->surfaces.triangles + closest, p, pair->margin)) {
+      if (closest != OX_NONE && ox_is_behind(scene->surfaces.triangles + closest, vertex_ray.base,
+                                             p, OX_MARGIN * pair->epsilon)) {
         outcome.triangle = closest;
         outcome.kind = OX_HIT_INSIDE;
       }

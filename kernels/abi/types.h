@@ -88,14 +88,16 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_MESH_TWO_SIDED 4u   // deformable and open: a sheet, with no inside
 
 // A geom of this batch. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
-// position to twice the float precision, so that differences hold far from the origin.
+// position to twice the float precision, so that differences hold far from the origin, and
+// rotation + rotation_rest the rotation, so that they can be turned.
 typedef struct {
   ox_f32 rotation[9];
+  ox_f32 rotation_rest[9];
   ox_f32 hi[3];
   ox_f32 lo[3];
   ox_u32 mesh;
 } ox_object;
-OX_STATIC_ASSERT(sizeof(ox_object) == 64, ox_object_is_64_bytes);
+OX_STATIC_ASSERT(sizeof(ox_object) == 100, ox_object_is_100_bytes);
 
 // A mesh: where its parts start in the concatenated arrays, and its bounds in its own frame [m].
 typedef struct {
@@ -112,9 +114,10 @@ typedef struct {
   ox_f32 radius;     // of the vertices about the box's centre
   ox_f32 mean_edge;  // [m]
   ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 span;       // the longest diagonal of the box of a meshlet; inf: deformable [m]
   ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 92, ox_mesh_is_92_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -237,19 +240,26 @@ OX_STATIC_ASSERT(sizeof(ox_triangle) == 64, ox_triangle_is_64_bytes);
 // found by paper/chunk_tasks.cl. Side 0 takes points of A into the frame of B, side 1 points of B
 // into the frame of A: target = rotation[side] * source + offset[side]. rotation[1] is the
 // transpose of rotation[0].
+//
+// That is as good as floats are over all of both meshes. Of what is compared closely coordinates
+// are taken from a base in the frame of each mesh: of one that is much larger than the other, from
+// where the other lies; mostly from the origin. (target - base[1 - side]) = rotation[side] *
+// (source - base[side]) + base_offset[side].
 typedef struct {
   ox_f32 rotation[2][9];
   ox_f32 offset[2][3];
-  ox_f32 epsilon;  // [m] what rounding can do to a coordinate of this pair
+  ox_f32 base[2][3];
+  ox_f32 base_offset[2][3];
+  ox_f32 epsilon;  // [m] what rounding can do to a coordinate from the base
   ox_u32 mesh[2];
   // Paper: [m] per side, how far a vertex of the source moved in the frame of the target at most
   // since the last pass; infinite: not known.
   ox_f32 displacement[2];
   ox_u32 near;    // whether the oriented boxes of the meshes overlap; else the rest may be void
-  ox_f32 margin;  // [m] farther apart nothing of it meets
+  ox_f32 margin;  // [m] what is farther apart by coordinates from the origins does not meet
   ox_f32 snap;    // lib/general_position.h
 } ox_pair;
-OX_STATIC_ASSERT(sizeof(ox_pair) == 128, ox_pair_is_128_bytes);
+OX_STATIC_ASSERT(sizeof(ox_pair) == 176, ox_pair_is_176_bytes);
 
 // What has been found of a pair so far.
 typedef struct {

@@ -15,12 +15,14 @@ static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair) {
   return list;
 }
 
-static inline void ox_store_contact(const ox_fields* list, uint i, __global ox_contact* contact) {
+// From the origin of B on.
+static inline void ox_store_contact(const ox_fields* list, uint i, __global const ox_pair* pair,
+                                    __global ox_contact* contact) {
   contact->side_kind = ox_words_of(list, OX_CANDIDATE_SIDE_KIND)[i];
   contact->vertex = ox_words_of(list, OX_CANDIDATE_VERTEX)[i];
   contact->triangle = ox_words_of(list, OX_CANDIDATE_TRIANGLE)[i];
   contact->depth = ox_floats_of(list, OX_CANDIDATE_DEPTH)[i];
-  vstore3(ox_vector_of(list, OX_CANDIDATE_POSITION, i), 0, contact->position);
+  vstore3(ox_vector_of(list, OX_CANDIDATE_POSITION, i) + ox_base(pair, 1u), 0, contact->position);
   vstore3(ox_vector_of(list, OX_CANDIDATE_NORMAL, i), 0, contact->normal);
   for (uint k = 0u; k < 2u; ++k)
     contact->feature[k] = ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i];

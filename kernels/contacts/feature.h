@@ -20,8 +20,10 @@ static inline uint ox_feature_count(const ox_scene* scene) {
 static inline uint ox_side_of(uint flags) { return flags & OX_FEATURE_SIDE; }
 static inline bool ox_is_vertex(uint flags) { return (flags & OX_FEATURE_VERTEX) != 0u; }
 
+// A point as mesh `side` has it in the frame of B, from the base there: so are all of regions.
 static inline float3 ox_in_b(const ox_scene* scene, uint pair, uint side, float3 p) {
-  return side == 0u ? ox_transform(scene->pairs + pair, 0u, p) : p;
+  return side == 0u ? ox_place(scene->pairs + pair, 0u, p)
+                    : ox_from_base(scene->pairs + pair, 1u, p);
 }
 
 static inline float3 ox_vertex_of(const ox_scene* scene, uint pair, uint side, uint vertex) {

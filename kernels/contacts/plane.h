@@ -199,14 +199,15 @@ static inline ox_plane ox_plane_of_edges(const ox_scene* scene, uint pair, uint 
   return ox_plane_of_ridges(scene, pair, &a, &b, INFINITY);
 }
 
-// The farthest that mesh `side` reaches along a direction of the frame of B [m]; or something
-// beyond `limit`.
+// The farthest that mesh `side` reaches along a direction of the frame of B, from its base on [m];
+// or something beyond `limit`.
 static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, float3 direction,
                                    float limit) {
   __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
   const float3 d = side == 0u ? ox_rotate(scene->pairs + pair, 1u, direction) : direction;
+  const float3 base = ox_base(scene->pairs + pair, side);
   const float origin =
-      side == 0u ? ox_dot(direction, vload3(0, scene->pairs[pair].offset[0])) : 0.0f;
+      side == 0u ? ox_dot(direction, vload3(0, scene->pairs[pair].base_offset[0])) : 0.0f;
   float farthest = -INFINITY;
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u && !(farthest + origin > limit)) {
@@ -214,9 +215,9 @@ static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, 
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = scene->surfaces.meshlets + mesh->meshlet_first + (child >> 1);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
-        const ox_floats along = d.x * ox_load(block, m->vertex[0]) +
-                                d.y * ox_load(block, m->vertex[1]) +
-                                d.z * ox_load(block, m->vertex[2]);
+        const ox_floats along = d.x * (ox_load(block, m->vertex[0]) - base.x) +
+                                d.y * (ox_load(block, m->vertex[1]) - base.y) +
+                                d.z * (ox_load(block, m->vertex[2]) - base.z);
         farthest = ox_max(farthest, ox_greatest_of(&along));
       }
       continue;
@@ -226,9 +227,9 @@ static inline float ox_reach_along(const ox_scene* scene, uint pair, uint side, 
     ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats along =
-          d.x * (d.x > 0.0f ? ox_load(block, node->hi[0]) : ox_load(block, node->lo[0])) +
-          d.y * (d.y > 0.0f ? ox_load(block, node->hi[1]) : ox_load(block, node->lo[1])) +
-          d.z * (d.z > 0.0f ? ox_load(block, node->hi[2]) : ox_load(block, node->lo[2]));
+          d.x * (ox_load(block, d.x > 0.0f ? node->hi[0] : node->lo[0]) - base.x) +
+          d.y * (ox_load(block, d.y > 0.0f ? node->hi[1] : node->lo[1]) - base.y) +
+          d.z * (ox_load(block, d.z > 0.0f ? node->hi[2] : node->lo[2]) - base.z);
       const ox_ints is_beyond = along > farthest;
       const uint beyond = ox_mask_of(&is_beyond) & ox_present_children(node, block);
       ox_push_children(node, block, beyond, &along, &walk, &best);

@@ -132,7 +132,8 @@ static void ox_reduce_candidates(const ox_scene* scene) {
     if (deformable && scene->max_deformable == 0u) {
       const uint room = ox_place_contacts(scene, count, scene->pair_ranges + p);
       for (uint i = 0u; i < room; ++i)
-        ox_store_contact(&mine, i, scene->contacts + scene->pair_ranges[p].first + i);
+        ox_store_contact(&mine, i, scene->pairs + p,
+                         scene->contacts + scene->pair_ranges[p].first + i);
       continue;
     }
     const float merge = OX_MERGE * ox_min(a->radius, b->radius);
@@ -151,7 +152,8 @@ static void ox_reduce_candidates(const ox_scene* scene) {
     }
     const uint room = ox_place_contacts(scene, n, scene->pair_ranges + p);
     for (uint k = 0u; k < room; ++k)
-      ox_store_contact(&mine, taken[k], scene->contacts + scene->pair_ranges[p].first + k);
+      ox_store_contact(&mine, taken[k], scene->pairs + p,
+                       scene->contacts + scene->pair_ranges[p].first + k);
   }
 }
 

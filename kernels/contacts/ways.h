@@ -31,9 +31,13 @@ static inline __global const ox_mesh* ox_target_of(const ox_region_view* r, uint
   return r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
 }
 
-// A point of the frame of B in that of the mesh which mesh `side` is in.
+// A point of the frame of B in that of the mesh which mesh `side` is in; from their bases.
 static inline float3 ox_in_target(const ox_region_view* r, uint side, float3 p) {
-  return side == 0u ? p : ox_transform(r->scene->pairs + r->pair, 1u, p);
+  return side == 0u ? p : ox_transform_from_base(r->scene->pairs + r->pair, 1u, p);
+}
+
+static inline float3 ox_target_base(const ox_region_view* r, uint side) {
+  return ox_base(r->scene->pairs + r->pair, 1u - side);
 }
 
 // Whether a point of mesh `side` is still inside the other where a plane takes it: another part of
@@ -45,7 +49,7 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
   const float epsilon = r->scene->pairs[r->pair].epsilon;
   const float3 away = ox_way_of(side, plane->normal);
   const float3 there = p + (depth + OX_MARGIN * epsilon) * away;
-  return ox_winds_about(ox_in_target(r, side, there),
+  return ox_winds_about(ox_target_base(r, side), ox_in_target(r, side, there),
                         side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away), epsilon,
                         target, &r->scene->surfaces);
 }
@@ -54,8 +58,8 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
 // bound; else OX_PLANE_NONE. GRAPP's ray looks along the normal of the vertex alone.
 static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float3 p, float bound) {
   const uint triangle =
-      ox_closest_triangle(&r->scene->surfaces, ox_target_of(r, side), ox_in_target(r, side, p),
-                          bound, r->scene->pairs[r->pair].epsilon);
+      ox_closest_triangle(&r->scene->surfaces, ox_target_of(r, side), ox_target_base(r, side),
+                          ox_in_target(r, side, p), bound, r->scene->pairs[r->pair].epsilon);
   return triangle == OX_NONE ? ox_no_plane()
                              : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
 }

@@ -19,6 +19,14 @@ static inline float ox_distance2_to_segment(float3 p, float3 a, float3 b) {
   return ox_dot(off, off);
 }
 
+// An end of the edge of a crossing, from the base of its mesh on.
+static inline float3 ox_vertex_from_base(const ox_scene* scene, __global const ox_edge_crossing* c,
+                                         uint end) {
+  const uint vertex = scene->edges[c->edge].vertex[end];
+  return ox_from_base(scene->pairs + (c->pair_side >> 1), c->pair_side & 1u,
+                      vload3(0, scene->vertices[vertex].position));
+}
+
 // The stretch of an edge that is inside, from a crossing on to the next or to its end.
 static inline float3 ox_end_inside(const ox_scene* scene, uint head,
                                    __global const ox_edge_crossing* c, float3 start,
@@ -31,12 +39,12 @@ static inline float3 ox_end_inside(const ox_scene* scene, uint head,
     const float after = leaves ? c->t - scene->crossings[i].t : scene->crossings[i].t - c->t;
     if (after >= 0.0f) nearest = ox_min(nearest, after);
   }
-  const float3 end =
-      vload3(0, scene->vertices[scene->edges[c->edge].vertex[leaves ? 0u : 1u]].position);
+  const float3 end = ox_vertex_from_base(scene, c, leaves ? 0u : 1u);
   return nearest == INFINITY ? end : start + (leaves ? -nearest : nearest) * direction;
 }
 
-// Whether the target of a side of a pair goes on for `distance` about a point of it, in its frame.
+// Whether the target of a side of a pair goes on for `distance` about a point of it, from its base
+// on.
 // Of its border what crosses the source is looked at; a target that does not cross it is within it,
 // border and all.
 static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, float distance) {
@@ -49,15 +57,14 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, f
     __global const ox_edge_crossing* c = scene->crossings + i;
     __global const ox_edge* edge = scene->edges + c->edge;
     if (edge->triangle[1] != OX_NONE) continue;
-    const float3 from = vload3(0, scene->vertices[edge->vertex[0]].position);
-    const float3 along = vload3(0, scene->vertices[edge->vertex[1]].position) - from;
+    const float3 from = ox_vertex_from_base(scene, c, 0u);
+    const float3 along = ox_vertex_from_base(scene, c, 1u) - from;
     const float length = sqrt(ox_dot(along, along));
     const float3 direction = length > 0.0f ? along / length : along;
     const float3 start = from + c->t * direction;
     // As mostly: the crossing itself is near, or not even the rest of the edge is.
     if (ox_distance2_to_segment(p, start, start) < distance * distance) return false;
-    const float3 last =
-        vload3(0, scene->vertices[edge->vertex[c->leaves != 0u ? 0u : 1u]].position);
+    const float3 last = ox_vertex_from_base(scene, c, c->leaves != 0u ? 0u : 1u);
     if (ox_distance2_to_segment(p, start, last) >= distance * distance) continue;
     const float3 end = ox_end_inside(scene, found->head[side], c, start, direction);
     if (ox_distance2_to_segment(p, start, end) < distance * distance) return false;

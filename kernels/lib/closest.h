@@ -44,13 +44,13 @@ static inline float ox_unit_scale(__global const ox_mesh* mesh) {
   return as_float(0x7f000000u - (as_uint(mesh->extent) & 0x7f800000u));
 }
 
-// The vertices of a meshlet as seen from a point, all lengths times `scale`.
-static inline void ox_vertices_from(__global const ox_meshlet* m, float3 p, float scale,
-                                    ox_moved_vertices* seen) {
+// The vertices of a meshlet as seen from a point, from `base` on, all lengths times `scale`.
+static inline void ox_vertices_from(__global const ox_meshlet* m, float3 base, float3 p,
+                                    float scale, ox_moved_vertices* seen) {
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_points from = {(ox_load(block, m->vertex[0]) - p.x) * scale,
-                            (ox_load(block, m->vertex[1]) - p.y) * scale,
-                            (ox_load(block, m->vertex[2]) - p.z) * scale};
+    const ox_points from = {(ox_load(block, m->vertex[0]) - base.x - p.x) * scale,
+                            (ox_load(block, m->vertex[1]) - base.y - p.y) * scale,
+                            (ox_load(block, m->vertex[2]) - base.z - p.z) * scale};
     ox_set_vertices(seen, block, &from);
   }
 }
@@ -112,15 +112,16 @@ static inline void ox_note_closest(ox_closest* closest, uint triangle, float dis
   }
 }
 
-static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_mesh* mesh, float3 p,
-                                float scale, ox_closest* closest) {
+static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
+                                float3 base, float3 p, float scale, ox_closest* closest) {
+  const float3 place = p + base;
   ox_box_walk walk = ox_begin_box_walk(mesh);
   while (walk.count != 0u) {
     const uint child = walk.child[--walk.count];
     if ((child & OX_CHILD_MESHLET) != 0u) {
       __global const ox_meshlet* m = surfaces->meshlets + mesh->meshlet_first + (child >> 1);
       ox_moved_vertices seen;
-      ox_vertices_from(m, p, scale, &seen);
+      ox_vertices_from(m, base, p, scale, &seen);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2, height2;
         ox_distances2(m, &seen, block, &distance2, &height2);
@@ -143,12 +144,12 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
     ox_best_child best = {OX_NONE, 0.0f};
     for (uint block = 0u; block < OX_BLOCKS; ++block) {
       const ox_floats zero = (ox_floats)(0.0f);
-      const ox_points before = {ox_load(block, node->lo[0]) - p.x,
-                                ox_load(block, node->lo[1]) - p.y,
-                                ox_load(block, node->lo[2]) - p.z};
-      const ox_points behind = {p.x - ox_load(block, node->hi[0]),
-                                p.y - ox_load(block, node->hi[1]),
-                                p.z - ox_load(block, node->hi[2])};
+      const ox_points before = {ox_load(block, node->lo[0]) - place.x,
+                                ox_load(block, node->lo[1]) - place.y,
+                                ox_load(block, node->lo[2]) - place.z};
+      const ox_points behind = {place.x - ox_load(block, node->hi[0]),
+                                place.y - ox_load(block, node->hi[1]),
+                                place.z - ox_load(block, node->hi[2])};
       const ox_points off = {OX_GREATER(OX_GREATER(before.x, behind.x), zero),
                              OX_GREATER(OX_GREATER(before.y, behind.y), zero),
                              OX_GREATER(OX_GREATER(before.z, behind.z), zero)};
@@ -164,12 +165,13 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
   }
 }
 
-// Within `bound` [m]; OX_NONE: none is. `tie` [m]: by how much distances may be off. Where the
-// nearest point is on an edge or a vertex its triangles are as near as one another, and neither
-// rounding nor the order in which they are met is to say which: so the least distance is found
-// first, and where several are as near they are met once more.
+// To a point, from `base` on, in the frame of the mesh, within `bound` [m]; OX_NONE: none is. `tie`
+// [m]: by how much distances may be off. Where the nearest point is on an edge or a vertex its
+// triangles are as near as one another, and neither rounding nor the order in which they are met
+// is to say which: so the least distance is found first, and where several are as near they are met
+// once more.
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
-                                       float3 p, float bound, float tie) {
+                                       float3 base, float3 p, float bound, float tie) {
   const float scale = ox_unit_scale(mesh);
   ox_closest closest;
   closest.triangle = OX_NONE;
@@ -178,10 +180,10 @@ static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global con
   closest.near2 = ox_as_near2(bound * scale * bound * scale, closest.tie);
   closest.height2 = -1.0f;
   closest.is_least_known = false;
-  ox_walk_near(surfaces, mesh, p, scale, &closest);
+  ox_walk_near(surfaces, mesh, base, p, scale, &closest);
   if (closest.second2 <= closest.near2) {
     closest.is_least_known = true;
-    ox_walk_near(surfaces, mesh, p, scale, &closest);
+    ox_walk_near(surfaces, mesh, base, p, scale, &closest);
   }
   return closest.triangle;
 }

@@ -155,12 +155,13 @@ static inline void ox_place_meshlet(const ox_scene* scene, uint p, uint side, ui
     placed->box = ox_box_of_points(&placed->points);
     placed->slab = ox_slab_there(pair, 0u, m, pair->margin);
   } else {
-    placed->box.lo = vload3(0, m->lo) - pair->epsilon;  // the grid moves them by less
-    placed->box.hi = vload3(0, m->hi) + pair->epsilon;
-    placed->slab.normal = vload3(0, m->slab_normal);
-    placed->slab.lo = m->slab_lo - 2.0f * pair->epsilon;
-    placed->slab.hi = m->slab_hi + 2.0f * pair->epsilon;
+    placed->box.lo = ox_from_base(pair, 1u, vload3(0, m->lo)) - pair->epsilon;
+    placed->box.hi = ox_from_base(pair, 1u, vload3(0, m->hi)) + pair->epsilon;
+    placed->slab = ox_slab_of(pair, m);
   }
+  const float to_base = ox_dot(placed->slab.normal, ox_base(pair, 1u));
+  placed->slab.lo -= to_base;
+  placed->slab.hi -= to_base;
 }
 
 // False: they lie apart.

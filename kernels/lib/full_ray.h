@@ -73,13 +73,14 @@ static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global co
 // A ray that tells whether its origin is inside: in any direction, but two of which graze by a
 // coincidence only, or the other way if that is rather that of `away`. k below OX_ASKING_RAYS.
 #define OX_ASKING_RAYS 3u
-static inline ox_query ox_asking_query(uint k, float3 origin, float3 away, float epsilon) {
+static inline ox_query ox_asking_query(uint k, float3 base, float3 origin, float3 away,
+                                       float epsilon) {
   ox_query query;
   query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
                     : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
                               : (float3)(0.3319f, -0.6203f, -0.7107f);
   if (ox_dot(query.direction, away) < 0.0f) query.direction = -query.direction;
-  query.cast = ox_cast_from(origin, query.direction);
+  query.cast = ox_cast_from(base, origin, query.direction);
   query.epsilon = epsilon;
   query.t_max = INFINITY;
   query.behind = 0.0f;
@@ -92,8 +93,8 @@ static inline ox_query ox_asking_query(uint k, float3 origin, float3 away, float
 static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global const ox_mesh* mesh,
                                 const ox_surfaces* surfaces, uint* work) {
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
-    const ox_query query =
-        ox_asking_query(k, grazing->cast.origin, (float3)(0.0f), grazing->epsilon);
+    const ox_query query = ox_asking_query(k, grazing->cast.base, grazing->cast.origin,
+                                           (float3)(0.0f), grazing->epsilon);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, OX_NONE, work);
     if (!ox_grazes(&nearest, query.epsilon)) return nearest.back_t < nearest.front_t;
   }
@@ -129,12 +130,12 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
 // Whether a point that is not near the surface is inside a closed mesh, which may cut itself: the
 // surface winds about it. What is met first tells if that is a back face; behind a front face there
 // may be the wall of another part that the point is in. Rays go the way of `away`, to where less is
-// to be met; 0: any way.
-static inline bool ox_winds_about(float3 point, float3 away, float epsilon,
+// to be met; 0: any way. The point is from a base on, in the frame of the mesh.
+static inline bool ox_winds_about(float3 base, float3 point, float3 away, float epsilon,
                                   __global const ox_mesh* mesh, const ox_surfaces* surfaces) {
   uint work = 0u;
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
-    const ox_query query = ox_asking_query(k, point, away, epsilon);
+    const ox_query query = ox_asking_query(k, base, point, away, epsilon);
     const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
     if (ox_grazes(&nearest, epsilon)) continue;
     if (nearest.back_t < nearest.front_t) return true;
@@ -145,7 +146,7 @@ static inline bool ox_winds_about(float3 point, float3 away, float epsilon,
 
 // The ray of a vertex, in the frame of the target.
 typedef struct {
-  float3 origin, direction;
+  float3 base, origin, direction;  // the origin from the base on
   float ahead;  // [m] how far before its vertex it starts: as in general position
   float exit;   // [m] where it leaves its own mesh
   float epsilon;
@@ -161,7 +162,8 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   ox_vertex_ray ray;
   ray.direction = ox_rotate(pair, side, vload3(0, vertex->direction));
   ray.ahead = OX_INFLATION * pair->epsilon;
-  ray.origin = ox_transform(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
+  ray.base = ox_base(pair, 1u - side);
+  ray.origin = ox_place(pair, side, vload3(0, vertex->position)) - ray.ahead * ray.direction;
   ray.epsilon = pair->epsilon;
   ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;
   ray.exit = vertex->exit;
@@ -195,7 +197,7 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
     query.direction = way == 0u ? ray->direction : -ray->direction;
     const float3 origin =
         way == 0u ? ray->origin : ray->origin + 2.0f * ray->ahead * ray->direction;
-    query.cast = ox_cast_from(origin, query.direction);
+    query.cast = ox_cast_from(ray->base, origin, query.direction);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, seed, work);
     bool inside = false;
     if (closed && !ray->known && ox_grazes(&nearest, query.epsilon))

@@ -29,13 +29,14 @@ typedef struct {
 static inline void ox_place_generally(__global const ox_pair* pair, uint side,
                                       __global const ox_meshlet* meshlet, ox_general_points* p) {
   __global const float* r = pair->rotation[0];
-  __global const float* o = pair->offset[0];
+  __global const float* o = pair->base_offset[0];
+  __global const float* base = pair->base[side];
   const float out = OX_INFLATION * pair->epsilon;
   const float snap = pair->snap;
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    ox_floats x = ox_load(block, meshlet->vertex[0]);
-    ox_floats y = ox_load(block, meshlet->vertex[1]);
-    ox_floats z = ox_load(block, meshlet->vertex[2]);
+    ox_floats x = ox_load(block, meshlet->vertex[0]) - base[0];
+    ox_floats y = ox_load(block, meshlet->vertex[1]) - base[1];
+    ox_floats z = ox_load(block, meshlet->vertex[2]) - base[2];
     if (side == 0u) {
       const ox_floats nx = -ox_load(block, meshlet->normal[0]);
       const ox_floats ny = -ox_load(block, meshlet->normal[1]);

@@ -44,15 +44,25 @@ static inline ox_box ox_box_there(__global const ox_pair* pair, uint side,
   return box;
 }
 
-// The slab of a meshlet of the source in the frame of the target. Turned and measured along, a
-// coordinate takes less than 32 roundings, of which epsilon is 16 (pair_step.cl).
+// [m] what rounding can do to a height along a normal, from the origin on: turned and measured
+// along, a coordinate takes less than 32 roundings. The margin is four times 16 (pair_step.cl).
+#define OX_SLAB_ROUNDING(pair) (0.5f * (pair)->margin)
+
+// The slab of a meshlet of the source in the frame of the target.
 static inline ox_slab ox_slab_there(__global const ox_pair* pair, uint side,
                                     __global const ox_meshlet* meshlet, float margin) {
   ox_slab slab;
   slab.normal = ox_rotate(pair, side, vload3(0, meshlet->slab_normal));
   const float moved = ox_dot(slab.normal, vload3(0, pair->offset[side]));
-  slab.lo = meshlet->slab_lo + moved - margin - 2.0f * pair->epsilon;
-  slab.hi = meshlet->slab_hi + moved + margin + 2.0f * pair->epsilon;
+  slab.lo = meshlet->slab_lo + moved - margin - OX_SLAB_ROUNDING(pair);
+  slab.hi = meshlet->slab_hi + moved + margin + OX_SLAB_ROUNDING(pair);
+  return slab;
+}
+
+// The slab of a meshlet of B in its own frame.
+static inline ox_slab ox_slab_of(__global const ox_pair* pair, __global const ox_meshlet* meshlet) {
+  const ox_slab slab = {vload3(0, meshlet->slab_normal), meshlet->slab_lo - OX_SLAB_ROUNDING(pair),
+                        meshlet->slab_hi + OX_SLAB_ROUNDING(pair)};
   return slab;
 }
 

@@ -84,7 +84,7 @@ static inline void ox_put_best_last(ox_box_walk* walk, const ox_best_child* best
 static inline uint ox_entered_children(const ox_cast* cast, __global const ox_meshlet_node* node,
                                        uint block, float from, float limit, float* entry) {
   const float3 inverse = cast->inverse;
-  const float3 origin = cast->origin;
+  const float3 origin = cast->start;
   const bool turned_x = inverse.x < 0.0f;
   const bool turned_y = inverse.y < 0.0f;
   const bool turned_z = inverse.z < 0.0f;

@@ -18,15 +18,15 @@ static inline void ox_det2_lanes(const ox_floats* a, const ox_floats* b, const o
 static inline void ox_shear_vertices(const ox_cast* cast, __global const ox_meshlet* m,
                                      ox_moved_vertices* seen) {
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const float ox = ox_axis(cast->origin, cast->kx);
-    const float oy = ox_axis(cast->origin, cast->ky);
-    const float oz = ox_axis(cast->origin, cast->kz);
+    const float bx = ox_axis(cast->base, cast->kx), ox = ox_axis(cast->origin, cast->kx);
+    const float by = ox_axis(cast->base, cast->ky), oy = ox_axis(cast->origin, cast->ky);
+    const float bz = ox_axis(cast->base, cast->kz), oz = ox_axis(cast->origin, cast->kz);
     const ox_floats sx = -cast->sx;
     const ox_floats sy = -cast->sy;
     ox_points p;
-    p.z = ox_load(block, m->vertex[cast->kz]) - oz;
-    p.x = fma(sx, p.z, ox_load(block, m->vertex[cast->kx]) - ox);
-    p.y = fma(sy, p.z, ox_load(block, m->vertex[cast->ky]) - oy);
+    p.z = ox_load(block, m->vertex[cast->kz]) - bz - oz;
+    p.x = fma(sx, p.z, ox_load(block, m->vertex[cast->kx]) - bx - ox);
+    p.y = fma(sy, p.z, ox_load(block, m->vertex[cast->ky]) - by - oy);
     ox_set_vertices(seen, block, &p);
   }
 }

@@ -12,7 +12,9 @@
 #include "lib/transform.h"
 
 typedef struct {
-  float3 origin;
+  float3 base;     // in the frame of the mesh: where coordinates are taken from
+  float3 origin;   // from there
+  float3 start;    // and from the origin of the mesh, as boxes are
   float3 inverse;  // of the direction, for the boxes; never infinite
   uint kx, ky, kz;
   float sx, sy, sz;
@@ -28,7 +30,7 @@ static inline float ox_reciprocal(float d) {
   return 1.0f / d;
 }
 
-static inline ox_cast ox_cast_from(float3 origin, float3 direction) {
+static inline ox_cast ox_cast_from(float3 base, float3 origin, float3 direction) {
   ox_cast cast;
   const float3 size = fabs(direction);
   uint kz = size.x > size.y ? 0u : 1u;
@@ -41,7 +43,9 @@ static inline ox_cast ox_cast_from(float3 origin, float3 direction) {
     kx = ky;
     ky = swap;
   }
+  cast.base = base;
   cast.origin = origin;
+  cast.start = origin + base;
   cast.inverse =
       (float3)(ox_reciprocal(direction.x), ox_reciprocal(direction.y), ox_reciprocal(direction.z));
   cast.kx = kx;
@@ -62,13 +66,14 @@ static inline float ox_det2(float a, float b, float c, float d) {
   return fma(a, b, -p) - fma(c, d, -q);
 }
 
-// Whether the line of the ray meets the triangle; then *t is the distance (may be negative, always
-// finite) and *back whether the ray leaves through it (direction . normal > 0).
+// Whether the line of the ray meets the triangle, its corners as its mesh has them; then *t is the
+// distance (may be negative, always finite) and *back whether the ray leaves through it (direction
+// . normal > 0).
 static inline bool ox_meets(const ox_cast* cast, float3 a, float3 b, float3 c, float* t,
                             bool* back) {
-  const float3 oa = a - cast->origin;
-  const float3 ob = b - cast->origin;
-  const float3 oc = c - cast->origin;
+  const float3 oa = a - cast->base - cast->origin;
+  const float3 ob = b - cast->base - cast->origin;
+  const float3 oc = c - cast->base - cast->origin;
   const float az = ox_axis(oa, cast->kz);
   const float bz = ox_axis(ob, cast->kz);
   const float cz = ox_axis(oc, cast->kz);

@@ -23,8 +23,26 @@ static inline float3 ox_rotate(__global const ox_pair* pair, uint side, float3 v
                   ox_dot(vload3(2, rotation), v));
 }
 
+// From the origins of both meshes.
 static inline float3 ox_transform(__global const ox_pair* pair, uint side, float3 p) {
   return ox_rotate(pair, side, p) + vload3(0, pair->offset[side]);
+}
+
+// From their bases (abi/types.h).
+static inline float3 ox_transform_from_base(__global const ox_pair* pair, uint side, float3 p) {
+  return ox_rotate(pair, side, p) + vload3(0, pair->base_offset[side]);
+}
+
+static inline float3 ox_base(__global const ox_pair* pair, uint side) {
+  return vload3(0, pair->base[side]);
+}
+
+// A point as a mesh has it, from its base on, and in the frame of the other mesh, from the other's.
+static inline float3 ox_from_base(__global const ox_pair* pair, uint side, float3 p) {
+  return p - ox_base(pair, side);
+}
+static inline float3 ox_place(__global const ox_pair* pair, uint side, float3 p) {
+  return ox_transform_from_base(pair, side, ox_from_base(pair, side, p));
 }
 
 // Half extents of a turned box.

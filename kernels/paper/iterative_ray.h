@@ -17,7 +17,7 @@ typedef struct {
 } ox_crossing;
 
 static inline float2 ox_sheared(const ox_cast* cast, float3 corner) {
-  const float3 p = corner - cast->origin;
+  const float3 p = corner - cast->base - cast->origin;
   const float z = ox_axis(p, cast->kz);
   return (float2)(fma(-cast->sx, z, ox_axis(p, cast->kx)), fma(-cast->sy, z, ox_axis(p, cast->ky)));
 }
@@ -77,7 +77,7 @@ static inline bool ox_cast_iteratively(const ox_scene* scene, const ox_vertex_ra
                                        uint* triangle, ox_outcome* outcome, uint* work) {
   __global const ox_triangle* triangles = scene->surfaces.triangles;
   const float epsilon = ray->epsilon;
-  const ox_cast cast = ox_cast_from(ray->origin, ray->direction);
+  const ox_cast cast = ox_cast_from(ray->base, ray->origin, ray->direction);
   const ox_crossing crossing =
       ox_walk(&cast, scene, mesh->triangle_first + *triangle, walk_limit, work);
   *triangle = crossing.triangle;

@@ -207,7 +207,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
         append_vertices(mesh);
       },
       [&] {
-        append_meshlets(mesh, first, meshlets_);
+        record.span = append_meshlets(mesh, first, meshlets_);
         append_triangles(mesh, first);
       });
   return record;

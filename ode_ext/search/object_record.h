@@ -16,7 +16,11 @@ inline double leading(double x) {
 inline ox_object object_record(const Scene& scene, const Scene::Object& object) {
   const Pose pose = frame_pose(object.pose, *scene.meshes[object.mesh]);
   ox_object record{};
-  for (std::size_t k = 0; k < 9; ++k) record.rotation[k] = static_cast<float>(pose.rotation[k]);
+  for (std::size_t k = 0; k < 9; ++k) {
+    const double high = leading(pose.rotation[k]);
+    record.rotation[k] = static_cast<float>(high);
+    record.rotation_rest[k] = static_cast<float>(pose.rotation[k] - high);
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     const double high = leading(pose.position[k]);
     record.hi[k] = static_cast<float>(high);

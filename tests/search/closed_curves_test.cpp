@@ -110,6 +110,24 @@ TEST(ClosedCurves, AreThoseOfCoincidentSurfacesToo) {
   EXPECT_EQ(curves.others, 0u) << "of " << curves.pairs;
 }
 
+TEST(ClosedCurves, AreThoseOfSmallMeshesAndLargeOnes) {
+  TestScene scene = scene_of_closed_meshes();
+  const Point far{1e4, -1e4, 1e3};
+  for (std::uint32_t i = 0; i < 6; ++i) scene.add_mesh(far_out(TestMesh(scene.meshes[i]), far));
+  Random random(83);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    TestPose a = random.pose(0.5), b = random.pose(0.5);
+    b.position = b.position - rotate(b, far);
+    if (i % 2 == 0)
+      scene.add_pair(i % 6, a, 6 + i / 6 % 6, b);
+    else
+      scene.add_pair(6 + i / 6 % 6, b, i % 6, a);
+  }
+  const Curves curves = find_curves(scene);
+  EXPECT_GT(curves.pairs, 1000u);
+  EXPECT_EQ(curves.others, 0u) << "of " << curves.pairs;
+}
+
 TEST(ClosedCurves, AreThoseOfMeshesFarFromTheOrigin) {
   TestScene scene = scene_of_closed_meshes();
   Random random(82);

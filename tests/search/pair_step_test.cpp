@@ -73,6 +73,69 @@ TEST(PairStep, RelatesTheFramesToWithinItsEpsilon) {
   }
 }
 
+// A point of one side in the other's frame, as a record takes it from base to base.
+Point from_bases(const ox_pair& pair, std::size_t side, const Point& p) {
+  const Point q = p - point_of(pair.base[side]);
+  const ox_f32* r = pair.rotation[side];
+  Point sum = point_of(pair.base_offset[side]) + point_of(pair.base[1 - side]);
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t k = 0; k < 3; ++k) sum[row] += double{r[3 * row + k]} * q[k];
+  return sum;
+}
+
+TEST(PairStep, MeasuresFromWhereASmallMeshIsInALargeOne) {
+  Random random(4);
+  for (const double far : {1e3, 1e5}) {
+    const Point place{far, -far, 0.1 * far};
+    TestScene scene;
+    const std::uint32_t small = scene.add_mesh(make_icosphere(0.5, 1));
+    const std::uint32_t large = scene.add_mesh(far_out(make_waves(8, 16), place));
+    for (int i = 0; i < 100; ++i) {
+      TestPose a = random.pose(0.3), b = random.pose(1);
+      const Point world{1e4, 2e4, -3e4};
+      a.position = a.position + world;
+      b.position = b.position + world - rotate(b, place);
+      if (i % 2 == 0)
+        scene.add_pair(small, a, large, b);
+      else
+        scene.add_pair(large, b, small, a);
+    }
+    const StepRecords records = Rig::shared().run_pair_step(scene.scene);
+    int near = 0;
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const ox_pair& pair = records.pairs[i];
+      if (pair.near == 0) continue;
+      ++near;
+      EXPECT_LT(double{pair.epsilon}, 0x1p-20 * 6);  // a few meters
+      EXPECT_GT(double{pair.margin}, 0x1p-20 * far);
+      const std::size_t side = i % 2;  // the small one's
+      const TestPose &of_small = scene.pose_of(i, side), &of_large = scene.pose_of(i, 1 - side);
+      for (int k = 0; k < 10; ++k) {
+        const Point p{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
+                      random.uniform(-0.5, 0.5)};
+        const Point there =
+            rotate_back(of_large, rotate(of_small, p) + (of_small.position - of_large.position));
+        // Half of epsilon is left to the coordinates that are added. (And doubles so far out hold
+        // the positions themselves to 2^-37.)
+        EXPECT_LT(distance(from_bases(pair, side, p), there), 0.5 * double{pair.epsilon});
+        EXPECT_LT(distance(from_bases(pair, 1 - side, there), p), 0.5 * double{pair.epsilon});
+      }
+    }
+    EXPECT_GT(near, 50);
+  }
+}
+
+TEST(PairStep, MeasuresMeshesOfOneSizeFromTheirOrigins) {
+  const TestScene scene = spread_scene(100, 5);
+  const StepRecords records = Rig::shared().run_pair_step(scene.scene);
+  for (const ox_pair& pair : records.pairs)
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(pair.base[side][k], 0);
+        EXPECT_EQ(pair.base_offset[side][k], pair.offset[side][k]);
+      }
+}
+
 TEST(PairStep, DropsExactlyThePairsWhoseBoxesAreApart) {
   const TestScene scene = spread_scene(600, 2);
   int apart = 0, overlapping = 0, undecided = 0;

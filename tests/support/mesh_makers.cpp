@@ -264,6 +264,14 @@ TestMesh make_sheet(double size, int n) {
   return mesh;
 }
 
+TestMesh make_waves(double size, int n) {
+  TestMesh mesh = make_sheet(size, n);
+  for (std::size_t i = 0; i + 2 < mesh.vertices.size(); i += 3)
+    mesh.vertices[i + 2] =
+        0.2f * std::sin(1.5f * mesh.vertices[i]) * std::cos(mesh.vertices[i + 1]);
+  return mesh;
+}
+
 TestMesh make_triangle(double size) {
   TestMesh mesh;
   add_vertex(mesh, {-size / 2, -size / 2, 0});
@@ -312,6 +320,10 @@ TestMesh merged(const TestMesh& a, const TestMesh& b) {
   const auto first = static_cast<unsigned>(a.vertex_count());
   for (const unsigned i : b.indices) mesh.indices.push_back(first + i);
   return mesh;
+}
+
+TestMesh far_out(const TestMesh& mesh, const Point& far) {
+  return merged(moved(mesh, far), moved(make_tetrahedron(0.1), -1 * far));
 }
 
 TestMesh unshared(const TestMesh& mesh) {

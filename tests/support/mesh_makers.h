@@ -54,6 +54,7 @@ TestMesh make_l(double size);  // a concave prism: a 2 x 2 square less one quart
 // A bar along x with `teeth` >= 1 teeth up +z, as wide as the gaps and the bar is thick; about 0.
 TestMesh make_comb(int teeth, double width, double height, double depth);
 TestMesh make_sheet(double size, int n);  // open, in z = 0, facing +z
+TestMesh make_waves(double size, int n);  // such a sheet with hills, 0.2 high and deep
 TestMesh make_triangle(double size);      // one triangle in z = 0, facing +z
 // Triangles as large as all of it, in a cube of 2 m about 0, each of corners of its own.
 TestMesh make_soup(int triangles, std::uint64_t seed);
@@ -62,7 +63,9 @@ TestMesh inverted(TestMesh mesh);  // every triangle wound the other way
 TestMesh scaled(TestMesh mesh, double factor);
 TestMesh moved(TestMesh mesh, const Point& offset);     // in its own frame, rounded to float
 TestMesh merged(const TestMesh& a, const TestMesh& b);  // b's triangles follow a's
-TestMesh unshared(const TestMesh& mesh);                // every triangle with corners of its own
+// The same, far out in a mesh that a tetrahedron on the other side of its origin makes as large.
+TestMesh far_out(const TestMesh& mesh, const Point& far);
+TestMesh unshared(const TestMesh& mesh);  // every triangle with corners of its own
 
 // Largest extent of the bounding box [m].
 double mesh_size(const TestMesh& mesh);

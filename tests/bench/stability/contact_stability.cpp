@@ -40,6 +40,7 @@ const std::vector<Trial>& trials() {
       {"slide", "A box slides over many triangles and does not feel their edges", run_slide},
       {"throws", "Non-convex bodies that meet gain no energy", run_throws},
       {"rest", "Single bodies lie still", run_rest},
+      {"terrain", "Stones lie still on hills, wherever these are in their mesh", run_terrain},
       {"settled", "A thousand objects lie in a bowl", run_settled},
   };
   return all;

@@ -22,6 +22,7 @@ void run_slope(const TrialOptions& options, Report& report);
 void run_slide(const TrialOptions& options, Report& report);
 void run_throws(const TrialOptions& options, Report& report);
 void run_rest(const TrialOptions& options, Report& report);
+void run_terrain(const TrialOptions& options, Report& report);
 void run_settled(const TrialOptions& options, Report& report);
 
 // A line on stderr: what is being run.
