@@ -72,8 +72,10 @@ typedef struct dBatchColliderParams {
   int max_contacts;   /**< contacts kept per pair, 1..64 (default 16) */
   int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh, 1..64; 0
                                       (default): all of them */
-  dReal open_thickness;        /**< [m] how far below an open surface it is solid; 0 (default): the
-                                      mean edge length of the mesh */
+  dReal open_thickness;        /**< [m] how far vertices of an open mesh look for a surface behind
+                                      them, and how thick sheets are; 0 (default): the mean edge
+                                      length of the mesh. A closed body may be as deep behind an
+                                      open surface as it goes itself */
   int trust_meshes;            /**< nonzero: meshes change only where the program says so through
                            dBatchColliderTriMeshDataUpdate / ...Destroyed; saves comparing every
                            mesh in every pass with what it was (default 0) */

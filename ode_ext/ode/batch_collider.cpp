@@ -77,7 +77,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   known_.look_again();
-  if (depth_ == 1) known_.note_outermost(root);
+  if (depth_ == 1 && may_hold_pair) known_.note_outermost(root, pairs.size());
   failed_ = false;
   asked_outside_ = 0;
   begin_stats(depth_ > 1);  // this pass is one of them
@@ -229,9 +229,13 @@ int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2,
                          g2, limit, contacts, skip);
 }
 
-bool BatchCollider::holds(dGeomID g1, dGeomID g2) {
+bool BatchCollider::holds(dGeomID g1, dGeomID g2, bool waits) {
   const HeldMessages held;
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_, std::defer_lock);
+  if (waits)
+    lock.lock();
+  else if (!lock.try_lock())
+    return false;
   hear_announcements();
   Answer* known = known_.find(g1, g2);
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());

@@ -47,7 +47,7 @@ class BatchCollider {
   // An answer to dCollide(g1, g2), computed now if there is none. -1: ODE's own collider is to
   // answer.
   int answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
-  bool holds(dGeomID g1, dGeomID g2);
+  bool holds(dGeomID g1, dGeomID g2, bool waits);
 
   // The ids of contacts of any pairs; returns how many are known. Nothing is computed, and no geom
   // dereferenced.

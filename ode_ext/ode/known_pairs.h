@@ -43,7 +43,7 @@ class KnownPairs {
   }
   // By which all that is known ages.
   std::uint64_t round() const { return rounds_.number(); }
-  void note_outermost(const PassRoot& root) { rounds_.note_pass(root); }
+  void note_outermost(const PassRoot& root, std::size_t pairs) { rounds_.note_pass(root, pairs); }
   // Meshes are read anew when this number changes.
   std::uint64_t look() const { return look_; }
   void look_again() { ++look_; }

@@ -13,9 +13,11 @@
 namespace ode_ext {
 namespace {
 
-// A mesh that nothing has come near for ten seconds at 60 Hz is worth rebuilding when it comes
-// back.
-constexpr std::uint64_t kRoundsKept = 600;
+// A mesh that nothing has come near for 100 seconds at 60 Hz, 6 at 1 kHz, is worth rebuilding when
+// it comes back: that takes a second for a million triangles.
+constexpr std::uint64_t kRoundsKept = 6000;
+// Of all meshes, which may be thousands that no pass meets.
+constexpr std::uint64_t kRoundsBetweenLooks = 64;
 
 }  // namespace
 
@@ -148,6 +150,8 @@ bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint
 }
 
 void MeshStore::prune(std::uint64_t round) {
+  if (round < pruned_round_ + kRoundsBetweenLooks) return;
+  pruned_round_ = round;
   for (auto item = entries_.begin(); item != entries_.end();) {
     Entry& entry = item->second;
     const auto next = std::next(item);
@@ -168,6 +172,7 @@ const std::vector<std::shared_ptr<const Mesh>>& MeshStore::resident() {
   std::sort(ordered.begin(), ordered.end(),
             [](const Entry* a, const Entry* b) { return a->order < b->order; });
   resident_.clear();
+  ++resident_number_;
   index_.clear();
   for (const Entry* entry : ordered) {
     const auto place = static_cast<std::uint32_t>(resident_.size());

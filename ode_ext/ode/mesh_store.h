@@ -50,7 +50,7 @@ class MeshStore {
   void set_deformable(dTriMeshDataID data, bool deformable);
   void forget(dTriMeshDataID data);
   void clear();  // forgets all, but for which are deformable
-  // Forgets meshes that no round has met for a long time.
+  // Forgets meshes that no round has met for a long time. Looks every so many rounds.
   void prune(std::uint64_t round);
   // Drops meshes that this round has not met; where there are none, all but those in use. They are
   // built again when they are met. False: there was none to drop.
@@ -59,6 +59,8 @@ class MeshStore {
   // All meshes in an order that does not change while only deformable ones move, which keep their
   // places; rigid ones of equal content are there once. And a place of one in it.
   const std::vector<std::shared_ptr<const Mesh>>& resident();
+  // Another one for each list that resident() gives.
+  std::uint64_t resident_number() const { return resident_number_; }
   std::uint32_t index_of(const Mesh* mesh) const { return index_.at(mesh); }
 
   std::size_t size() const { return entries_.size(); }
@@ -89,6 +91,8 @@ class MeshStore {
   std::vector<std::shared_ptr<const Mesh>> resident_;
   std::unordered_map<const Mesh*, std::uint32_t> index_;
   bool resident_is_stale_ = false;
+  std::uint64_t resident_number_ = 0;
+  std::uint64_t pruned_round_ = 0;
   std::uint64_t next_order_ = 0;
   std::uint64_t deformed_ = 0;
   SourceTriangles source_;

@@ -70,7 +70,9 @@ const PairContacts& PairScene::collide_with_room(Collider& collider, MeshStore& 
 }
 
 void PairScene::set_objects(MeshStore& meshes) {
-  scene_.meshes = meshes.resident();
+  const auto& resident = meshes.resident();
+  if (meshes_number_ != meshes.resident_number()) scene_.meshes = resident;
+  meshes_number_ = meshes.resident_number();
   scene_.objects.clear();
   for (const PairMember* member : members_)
     scene_.objects.push_back({member->pose, meshes.index_of(member->mesh.get()),

@@ -41,6 +41,7 @@ class PairScene {
   void set_objects(MeshStore& meshes);
 
   Scene scene_;
+  std::uint64_t meshes_number_ = 0;  // of its meshes (MeshStore::resident_number)
   std::uint64_t number_ = 0;
   std::vector<const PairMember*> members_;  // its objects
   std::vector<Answer*> pending_;            // of its pairs

@@ -60,15 +60,14 @@ int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contac
   if (passing != nullptr) return passing->answer(g1, g2, limit, contacts, skip);
   const auto colliders = live_colliders();
   if (colliders.empty()) return -1;
-  const auto latest_that = [&](auto is_so) {
-    return std::find_if(colliders.rbegin(), colliders.rend(), is_so);
-  };
-  auto one = latest_that([&](const auto& collider) { return collider->holds(g1, g2); });
   const auto last = of_this_thread<LastPass>().collider.lock();
-  if (one == colliders.rend())
-    one = latest_that([&](const auto& collider) { return collider == last; });
-  if (one == colliders.rend()) one = colliders.rbegin();
-  return (*one)->answer(g1, g2, limit, contacts, skip);
+  const bool is_alive = std::find(colliders.begin(), colliders.end(), last) != colliders.end();
+  const auto& likely = is_alive ? last : colliders.back();
+  if (likely->holds(g1, g2, true)) return likely->answer(g1, g2, limit, contacts, skip);
+  const auto one = std::find_if(colliders.rbegin(), colliders.rend(), [&](const auto& collider) {
+    return collider != likely && collider->holds(g1, g2, false);
+  });
+  return (one != colliders.rend() ? *one : likely)->answer(g1, g2, limit, contacts, skip);
 }
 
 }  // namespace ode_ext

@@ -28,9 +28,10 @@ void for_each_collider(Visit visit) {
 // Of the passes that this thread makes, the last is by this collider.
 void note_pass_here(const std::shared_ptr<BatchCollider>& collider);
 
-// Answers dCollide(g1, g2) for two meshes: by the collider whose pass runs on this thread, else by
-// the latest that holds the pair, else by that of the thread's last pass, else by the latest
-// created. -1: ODE's own collider is to answer.
+// Answers dCollide(g1, g2) for two meshes: by the collider whose pass runs on this thread; else by
+// that of the thread's last pass, or the latest created if it made none; but by the latest other
+// one that holds the pair if that does not and the other is not at work. -1: ODE's own collider is
+// to answer.
 int answer_from_registry(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip);
 
 }  // namespace ode_ext

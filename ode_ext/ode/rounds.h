@@ -1,32 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The time by which what is known ages. A program may collide many spaces in turn, or a space with
-// each of many geoms: what it knows of one is as fresh when it comes back to it as if that were the
-// only one.
+// The time by which what is known ages. A program may collide many spaces in turn, each once or
+// several times, or a space with each of many geoms: what it knows of one is as fresh when it comes
+// back to it as if that were the only one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <set>
+#include <utility>
 
 #include "ode/pair_gather.h"
 
 namespace ode_ext {
 
-// Passes within one round, where none of them is of a root that was there: a program that makes a
-// space for every pass would never end it.
+// A round is no longer than this. A program that makes a space for every pass would never end it,
+// nor one whose spaces go; and what a round may bring is kept for several.
 inline constexpr std::size_t kPassesInARound = 1024;
+inline constexpr std::size_t kPairsInARound = std::size_t{1} << 18;
 
 class Rounds {
  public:
-  // A round ends where a root comes again.
-  void note_pass(const PassRoot& root) {
-    if (roots_.size() < kPassesInARound && roots_.insert(root).second) return;
-    ++number_;
-    roots_ = {root};
+  // A pass that gathered so many pairs. A round ends where a root comes again that was in it, and
+  // all roots of the round before have come.
+  void note_pass(const PassRoot& root, std::size_t pairs) {
+    if ((missing_.empty() && roots_.contains(root)) || passes_ >= kPassesInARound ||
+        pairs_ >= kPairsInARound) {
+      ++number_;
+      passes_ = pairs_ = 0;
+      missing_ = std::exchange(roots_, {});
+    }
+    roots_.insert(root);
+    missing_.erase(root);
+    ++passes_;
+    pairs_ += pairs;
   }
   std::uint64_t number() const { return number_; }
 
  private:
-  std::set<PassRoot, RootLess> roots_;  // of this round
+  std::set<PassRoot, RootLess> roots_;    // of this round
+  std::set<PassRoot, RootLess> missing_;  // of the round before
+  std::size_t passes_ = 0, pairs_ = 0;    // of this round
   std::uint64_t number_ = 1;
 };
 

@@ -95,6 +95,7 @@ bool collide_by_a_free_collider(const PassRoot& root, void* data, dNearCallback*
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     bool all_are_passing = true;
     for (const auto& collider : live_colliders()) {
+      if (collider->is_passing()) continue;  // to try it would be to wait for its batch
       const int result = try_it(handle_of(collider));
       if (result >= 0) return result == 1;
       all_are_passing = all_are_passing && collider->is_passing();

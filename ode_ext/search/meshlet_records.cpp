@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "mesh/measures.h"
-
 namespace ode_ext {
 namespace {
 
@@ -81,13 +79,6 @@ void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) 
   }
 }
 
-double diagonal_of(const ox_meshlet& record) {
-  Vec3d size;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    size[axis] = double{record.hi[axis]} - double{record.lo[axis]};
-  return length(size);
-}
-
 // Any normal gives a slab that holds the meshlet; the mean of its triangles' by area a thin one.
 void store_slab(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   Vec3d sum{};
@@ -121,11 +112,9 @@ void store_firsts(const Mesh& mesh, const Meshlet& meshlet, std::vector<bool>& i
 
 }  // namespace
 
-float append_meshlets(const Mesh& mesh, const MeshRange& range,
-                      MappedRecords<ox_meshlet>& records) {
+void append_meshlets(const Mesh& mesh, const MeshRange& range, MappedRecords<ox_meshlet>& records) {
   std::vector<bool> is_first(mesh.vertices.size());
   for (const std::uint32_t vertex : mesh.topology->components) is_first[vertex] = true;
-  double longest = mesh.deformable ? INFINITY : 0;
   for (const Meshlet& meshlet : mesh.topology->meshlets.meshlets) {
     ox_meshlet record{};
     store_indices(mesh, meshlet, range, record);
@@ -133,11 +122,9 @@ float append_meshlets(const Mesh& mesh, const MeshRange& range,
     if (!mesh.deformable) {
       store_places(mesh, meshlet, record);
       store_slab(mesh, meshlet, record);
-      longest = std::max(longest, diagonal_of(record));
     }
     records.push_back(record);
   }
-  return rounded_up(longest);
 }
 
 }  // namespace ode_ext

@@ -17,7 +17,7 @@ struct MeshRange {
 };
 
 // Appends those of a mesh. The deform step makes of a deformable one's what depends on where its
-// vertices are. Returns the longest diagonal of the box of one, infinite if it is deformable [m].
-float append_meshlets(const Mesh& mesh, const MeshRange& range, MappedRecords<ox_meshlet>& records);
+// vertices are.
+void append_meshlets(const Mesh& mesh, const MeshRange& range, MappedRecords<ox_meshlet>& records);
 
 }  // namespace ode_ext

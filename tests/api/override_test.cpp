@@ -113,6 +113,21 @@ TEST_F(ApiOverride, LetsTheLatestColliderThatHoldsThePairAnswerAfterThePass) {
   EXPECT_EQ(many.stats().pairs_alone, 0);
 }
 
+// The later one knows the pair as it was when it last looked.
+TEST_F(ApiOverride, LetsTheColliderOfTheLastPassAnswerThoughALaterOneHoldsThePair) {
+  const dSpaceID edited = world.space(SpaceKind::Simple);
+  OdeMesh& ball = world.mesh(make_icosphere(0.6, 2));
+  const dGeomID a = world.geom(world.mesh(make_cube(1)), {}, edited);
+  const dGeomID b = world.geom(ball, at(0.1, 0.2, 0.9), edited);
+  const BatchCollider first, second;
+  second.pass(edited);
+  const Contacts before = collide(a, b);
+  for (float& coordinate : ball.edit().vertices) coordinate *= 0.9f;
+  first.pass(edited);
+  EXPECT_EQ(difference(collide(a, b), fresh_answer(a, b)), "");
+  EXPECT_NE(difference(collide(a, b), before), "");
+}
+
 TEST_F(ApiOverride, LetsTheLatestCreatedAnswerAPairThatNobodyHolds) {
   const BatchCollider one(at_most(1)), many(at_most(16));
   collide(pile.geoms[0], pile.geoms[1]);

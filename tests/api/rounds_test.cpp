@@ -10,32 +10,70 @@ namespace {
 
 PassRoot ith_root(std::uintptr_t i) { return {reinterpret_cast<dGeomID>(16 * (i + 1)), nullptr}; }
 
-TEST(Rounds, EndWhereARootComesAgain) {
+TEST(Rounds, EndWhereARootComesAgainAndAllOthersHaveCome) {
   Rounds rounds;
-  rounds.note_pass(ith_root(0));
-  rounds.note_pass(ith_root(1));
-  rounds.note_pass({ith_root(0).first, ith_root(1).first});
+  rounds.note_pass(ith_root(0), 1);
+  rounds.note_pass(ith_root(1), 1);
+  rounds.note_pass({ith_root(0).first, ith_root(1).first}, 1);
   const std::uint64_t first = rounds.number();
-  rounds.note_pass(ith_root(1));
+  rounds.note_pass(ith_root(1), 1);
   EXPECT_EQ(rounds.number(), first + 1);
-  rounds.note_pass(ith_root(0));
+  rounds.note_pass(ith_root(0), 1);
+  rounds.note_pass(ith_root(0), 1);  // the pair of both is to come yet
   EXPECT_EQ(rounds.number(), first + 1);
-  rounds.note_pass(ith_root(0));
+  rounds.note_pass({ith_root(0).first, ith_root(1).first}, 1);
+  EXPECT_EQ(rounds.number(), first + 1);
+  rounds.note_pass(ith_root(0), 1);
   EXPECT_EQ(rounds.number(), first + 2);
+}
+
+// Sensors that are asked between one space and the next, each world stepped several times.
+TEST(Rounds, AreAsLongAsTheLongestWayRound) {
+  for (const int repeats : {1, 10}) {
+    Rounds rounds;
+    const auto go_round = [&] {
+      for (std::uintptr_t i = 0; i < 50; ++i)
+        for (int k = 0; k < repeats; ++k) {
+          rounds.note_pass(ith_root(i), 1);
+          rounds.note_pass(ith_root(100), 1);
+        }
+    };
+    for (int i = 0; i < 8; ++i) go_round();  // it takes a few to find out
+    const std::uint64_t before = rounds.number();
+    for (int i = 0; i < 20; ++i) go_round();
+    EXPECT_LE(rounds.number(), before + 20) << repeats;
+    EXPECT_GE(rounds.number(), before + 15) << repeats;
+  }
+}
+
+TEST(Rounds, EndThoughTheRootsOfTheLastDoNotCome) {
+  Rounds rounds;
+  for (std::uintptr_t i = 0; i < 100; ++i) rounds.note_pass(ith_root(i), 1);
+  for (std::size_t i = 0; i < 2 * kPassesInARound; ++i) rounds.note_pass(ith_root(0), 1);
+  const std::uint64_t before = rounds.number();
+  for (int i = 0; i < 10; ++i) rounds.note_pass(ith_root(0), 1);
+  EXPECT_EQ(rounds.number(), before + 10);
+}
+
+TEST(Rounds, BringNoMorePairsThanMemoryHasRoomFor) {
+  Rounds rounds;
+  const std::uint64_t first = rounds.number();
+  for (std::uintptr_t i = 0; i < 100; ++i) rounds.note_pass(ith_root(i), kPairsInARound / 10);
+  EXPECT_GE(rounds.number(), first + 9);
 }
 
 TEST(Rounds, OfOneSpaceAreItsPasses) {
   Rounds rounds;
-  rounds.note_pass(ith_root(0));
+  rounds.note_pass(ith_root(0), 1);
   const std::uint64_t first = rounds.number();
-  for (int i = 0; i < 100; ++i) rounds.note_pass(ith_root(0));
+  for (int i = 0; i < 100; ++i) rounds.note_pass(ith_root(0), 1);
   EXPECT_EQ(rounds.number(), first + 100);
 }
 
 TEST(Rounds, EndThoughNoRootComesAgain) {
   Rounds rounds;
   const std::uint64_t first = rounds.number();
-  for (std::uintptr_t i = 0; i < 10 * kPassesInARound; ++i) rounds.note_pass(ith_root(i));
+  for (std::uintptr_t i = 0; i < 10 * kPassesInARound; ++i) rounds.note_pass(ith_root(i), 1);
   EXPECT_EQ(rounds.number(), first + 9);
 }
 
