@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pair step (GRAPP section 3.1): is this pair worth looking at?
 //
-// in    objects, meshes, pair_objects (2 object indices per pair)
+// in    objects, meshes, meshlet_nodes, pair_objects (2 object indices per pair)
 // out   pairs: whether the oriented boxes overlap; if so the relative transform
 //       found, pair_ranges: cleared
 // item  1 pair (grid-stride)
 // may overflow: none
 #include "lib/append.h"
+#include "lib/bases.h"
 #include "lib/general_position.h"
-
-// What rounding can do to a coordinate, in parts of how large coordinates are.
-#define OX_ROUNDING 0x1p-20f
-// So many times as near coordinates have to be from bases as from origins for these to be taken:
-// a bit or two are not worth another frame.
-#define OX_WORTH_A_BASE 16.0f
 
 // Separating axes of two oriented boxes (Gottschalk 1996) in the frame of B. Rounding is covered by
 // epsilon on every axis; near-parallel edges give a short axis, on which both sides shrink alike
@@ -52,51 +47,6 @@ static bool ox_boxes_overlap(__global const ox_pair* pair, __global const ox_mes
   return true;
 }
 
-// A difference or a product, and what it was rounded by.
-typedef struct {
-  float3 value, rest;
-} ox_twofold;
-
-// Knuth's.
-static ox_twofold ox_sum(float3 a, float3 b) {
-  ox_twofold sum;
-  sum.value = a + b;
-  const float3 part = sum.value - a;
-  sum.rest = (a - (sum.value - part)) + (b - part);
-  return sum;
-}
-
-// From b to a.
-static ox_twofold ox_apart(__global const ox_object* a, __global const ox_object* b) {
-  const ox_twofold high = ox_sum(vload3(0, a->hi), -vload3(0, b->hi));
-  ox_twofold both = ox_sum(high.value, vload3(0, a->lo) - vload3(0, b->lo));
-  both.rest += high.rest;
-  return both;
-}
-
-// What x * v.x + y * v.y + z * v.z, in this order, is rounded by.
-static float3 ox_rest_of_sum(float3 x, float3 y, float3 z, float3 v) {
-  const float3 px = x * v.x;
-  const float3 py = y * v.y;
-  const float3 pz = z * v.z;
-  const ox_twofold first = ox_sum(px, py);
-  const ox_twofold all = ox_sum(first.value, pz);
-  return fma(x, (float3)(v.x), -px) + fma(y, (float3)(v.y), -py) + fma(z, (float3)(v.z), -pz) +
-         first.rest + all.rest;
-}
-
-// What is missing from d turned into the frame of an object, as ox_relate does.
-static float3 ox_rest_of_turned(__global const ox_object* object, ox_twofold d) {
-  const float3 x = vload3(0, object->rotation);
-  const float3 y = vload3(1, object->rotation);
-  const float3 z = vload3(2, object->rotation);
-  __global const float* rest = object->rotation_rest;
-  const float3 of_rotation =
-      vload3(0, rest) * d.value.x + vload3(1, rest) * d.value.y + vload3(2, rest) * d.value.z;
-  return ox_rest_of_sum(x, y, z, d.value) + (x * d.rest.x + y * d.rest.y + z * d.rest.z) +
-         of_rotation;
-}
-
 static void ox_relate(__global const ox_object* a, __global const ox_object* b,
                       __global ox_pair* pair) {
   const float3 a0 = vload3(0, a->rotation);
@@ -117,34 +67,8 @@ static void ox_relate(__global const ox_object* a, __global const ox_object* b,
   vstore3((float3)(row0.z, row1.z, row2.z), 2, pair->rotation[1]);
   // The high parts of neighbours differ exactly (Sterbenz), so nothing is lost far from the origin.
   const ox_twofold d = ox_apart(a, b);
-  vstore3(b0 * d.value.x + b1 * d.value.y + b2 * d.value.z, 0, pair->offset[0]);
-  vstore3(-(a0 * d.value.x + a1 * d.value.y + a2 * d.value.z), 0, pair->offset[1]);
-  for (uint side = 0u; side < 2u; ++side) {
-    vstore3((float3)(0.0f), 0, pair->base[side]);
-    vstore3(vload3(0, pair->offset[side]), 0, pair->base_offset[side]);
-  }
-}
-
-// Bases where one mesh is small beside the other: its origin, and the place of that in the other.
-// What meets it lies within its extent of there, but for the span of a meshlet. Returns how large
-// coordinates from there are; that gains enough to count.
-static float ox_choose_bases(__global const ox_object* a, __global const ox_object* b,
-                             __global const ox_mesh* mesh_a, __global const ox_mesh* mesh_b,
-                             float size, __global ox_pair* pair) {
-  const uint small = mesh_a->extent <= mesh_b->extent ? 0u : 1u;
-  const uint large = 1u - small;
-  __global const ox_object* there = small == 0u ? b : a;
-  const float extent = small == 0u ? mesh_a->extent : mesh_b->extent;
-  const float span = small == 0u ? mesh_b->span : mesh_a->span;
-  const float size_from_base = 2.0f * extent + span + pair->margin;
-  if (!(OX_WORTH_A_BASE * size_from_base <= size)) return size;
-  const ox_twofold d = small == 0u ? ox_apart(a, b) : ox_apart(b, a);
-  const float3 base = vload3(0, pair->offset[small]);
-  const float3 rest = ox_rest_of_turned(there, d);
-  vstore3(base, 0, pair->base[large]);
-  vstore3(rest, 0, pair->base_offset[small]);
-  vstore3(-ox_rotate(pair, large, rest), 0, pair->base_offset[large]);
-  return size_from_base + fabs(rest.x) + fabs(rest.y) + fabs(rest.z);
+  vstore3(ox_turned_back(b->rotation, d.value), 0, pair->offset[0]);
+  vstore3(-ox_turned_back(a->rotation, d.value), 0, pair->offset[1]);
 }
 
 static void ox_begin_found(__global ox_found* found) {
@@ -186,7 +110,7 @@ static void ox_relate_pairs(const ox_scene* scene) {
     const bool both_open = ((mesh_a->flags | mesh_b->flags) & OX_MESH_CLOSED) == 0u;
     const float reach = both_open ? ox_max(mesh_a->reach, mesh_b->reach) : 0.0f;
     if (!ox_boxes_overlap(pair, mesh_a, mesh_b, apart + reach)) continue;
-    const float size_from_base = ox_choose_bases(a, b, mesh_a, mesh_b, size, pair);
+    const float size_from_base = ox_choose_bases(scene, a, b, size, pair);
     pair->epsilon = OX_ROUNDING * size_from_base;
     pair->snap = ox_snap_of(size_from_base + OX_MARGIN * pair->epsilon);
     pair->near = 1u;

@@ -114,10 +114,9 @@ typedef struct {
   ox_f32 radius;     // of the vertices about the box's centre
   ox_f32 mean_edge;  // [m]
   ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
-  ox_f32 span;       // the longest diagonal of the box of a meshlet; inf: deformable [m]
   ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 92, ox_mesh_is_92_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
 
 typedef struct {
   ox_f32 position[3];
@@ -225,7 +224,7 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet_node) % 64 == 0, ox_meshlet_nodes_are_aligned
 // facet OX_WITHIN_FACET | the triangle across it, or OX_NONE (mesh/edges.h), over all meshes.
 typedef struct {
   ox_f32 a[3];
-  ox_u32 padding;
+  ox_u32 facet;  // its number within the mesh (mesh/facets.h)
   ox_f32 b[3];
   ox_u32 side_ab;
   ox_f32 c[3];
@@ -306,7 +305,8 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 #define OX_HIT_KIND 3u
 #define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side
 #define OX_HIT_SIDE 8u      // of side 1
-#define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own
+#define OX_HIT_POINT 16u    // not of a vertex: position and normal are its own,
+#define OX_HIT_IN_A 32u     // the position in the frame of A, not of B
 
 // A vertex that is inside, and what its ray meets.
 typedef struct {
@@ -354,7 +354,7 @@ typedef struct {
   ox_u32 triangle;
   ox_f32 depth;
   ox_f32 position[3];
-  ox_f32 normal[3];
+  ox_f32 normal[3];  // in the frame of B
   ox_u32 feature[2];
   ox_u32 region;  // OX_REGION_KEY: which contacts of a pair are of one. Numbers are as they come
 } ox_contact;

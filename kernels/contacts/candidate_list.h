@@ -15,14 +15,18 @@ static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair) {
   return list;
 }
 
-// From the origin of B on.
+// Its position in the frame of the mesh whose base is its origin: far out in the other it would be
+// rounded.
 static inline void ox_store_contact(const ox_fields* list, uint i, __global const ox_pair* pair,
                                     __global ox_contact* contact) {
-  contact->side_kind = ox_words_of(list, OX_CANDIDATE_SIDE_KIND)[i];
+  const float3 position = ox_vector_of(list, OX_CANDIDATE_POSITION, i);
+  const float3 base = ox_base(pair, 1u);
+  const bool is_in_a = base.x != 0.0f || base.y != 0.0f || base.z != 0.0f;
+  contact->side_kind = ox_words_of(list, OX_CANDIDATE_SIDE_KIND)[i] | (is_in_a ? OX_HIT_IN_A : 0u);
   contact->vertex = ox_words_of(list, OX_CANDIDATE_VERTEX)[i];
   contact->triangle = ox_words_of(list, OX_CANDIDATE_TRIANGLE)[i];
   contact->depth = ox_floats_of(list, OX_CANDIDATE_DEPTH)[i];
-  vstore3(ox_vector_of(list, OX_CANDIDATE_POSITION, i) + ox_base(pair, 1u), 0, contact->position);
+  vstore3(is_in_a ? ox_transform_from_base(pair, 1u, position) : position, 0, contact->position);
   vstore3(ox_vector_of(list, OX_CANDIDATE_NORMAL, i), 0, contact->normal);
   for (uint k = 0u; k < 2u; ++k)
     contact->feature[k] = ox_words_of(list, OX_CANDIDATE_FEATURE + k)[i];

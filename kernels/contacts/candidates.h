@@ -50,11 +50,11 @@ static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice*
 static inline bool ox_is_on_rim(const ox_region_view* r, __global const ox_feature* f,
                                 const ox_plane* plane) {
   if (ox_is_vertex(f->flags) || plane->kind == OX_PLANE_EDGES) return false;
-  __global const uint* facets = r->scene->facets;
-  const uint facet = facets[plane->id[0]];
+  const uint facet = ox_facet_of(r->scene, plane->id[0]);
   const uint of = plane->kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
-  if (ox_side_of(f->flags) != of) return facets[f->triangle] == facet;
-  return facets[f->at[0]] == facet || (f->at[1] != OX_NONE && facets[f->at[1]] == facet);
+  if (ox_side_of(f->flags) != of) return ox_facet_of(r->scene, f->triangle) == facet;
+  return ox_facet_of(r->scene, f->at[0]) == facet ||
+         (f->at[1] != OX_NONE && ox_facet_of(r->scene, f->at[1]) == facet);
 }
 
 static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_choice* choice,
@@ -65,10 +65,10 @@ static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_c
   const float depth = ox_plane_depth(&choice->plane, side, position);
   // Where a crossing lies depends on how much larger A was made.
   const float grown = OX_INFLATION * m->region->scene->pairs[m->region->pair].epsilon;
-  __global const uint* facets = m->region->scene->facets;
+  const ox_scene* scene = m->region->scene;
   // Of the triangles of a facet the one that it met.
   const bool met = f->triangle != OX_NONE && ox_side_of(f->flags) == side &&
-                   facets[f->triangle] == facets[choice->plane.id[0]];
+                   ox_facet_of(scene, f->triangle) == ox_facet_of(scene, choice->plane.id[0]);
   const uint target = met ? f->triangle : choice->plane.id[0];
   if (ox_is_vertex(f->flags))
     ox_add_candidate(m, choice, side, position, ox_max(depth, 0.0f), 0u, f->source, target,

@@ -15,7 +15,7 @@ static inline ox_face ox_no_face(void) {
 // facet the first triangle is kept.
 static inline uint ox_add_face(const ox_scene* scene, __global const ox_region* region, uint owner,
                                uint side, uint triangle) {
-  const uint key = scene->facets[triangle] << 1 | side;
+  const uint key = ox_facet_of(scene, triangle) << 1 | side;
   const uint count = OX_FACES_PER_FEATURE * region->count;
   __global volatile ox_face* faces = scene->faces + OX_FACES_PER_FEATURE * region->first;
   for (uint place = mul_hi(key * 0x9e3779b1u, count);;  // multiplicative (Knuth)

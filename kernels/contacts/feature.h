@@ -35,6 +35,10 @@ static inline float3 ox_normal_of(const ox_scene* scene, uint pair, uint side, u
   return side == 0u ? ox_rotate(scene->pairs + pair, 0u, n) : n;
 }
 
+static inline uint ox_facet_of(const ox_scene* scene, uint triangle) {
+  return scene->surfaces.triangles[triangle].facet;
+}
+
 // How far, at most, a corner of `other` rises over the plane of a triangle of the same mesh [m].
 static inline float ox_rise(const ox_scene* scene, uint triangle, uint other) {
   __global const ox_triangle* t = scene->surfaces.triangles + triangle;

@@ -42,7 +42,8 @@ static inline ox_feature_key ox_key_of_feature(const ox_scene* scene, uint entry
   const uint side = ox_side_of(f->flags);
   if (by == OX_ENTRY_EDGE) return ox_edge_key(f->pair, side, f->source);
   if (by == OX_ENTRY_VERTEX) return ox_inside_key(f->pair, side, f->source);
-  return ox_facets_key(f->pair, side, scene->facets[f->at[by]], scene->facets[f->triangle]);
+  return ox_facets_key(f->pair, side, ox_facet_of(scene, f->at[by]),
+                       ox_facet_of(scene, f->triangle));
 }
 
 static inline uint ox_hash_of(ox_feature_key key) {

@@ -49,8 +49,8 @@ static inline float3 ox_corner(__global const ox_triangle* t, uint k) {
 static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint side,
                                         uint triangle) {
   const uint mesh = scene->pairs[pair].mesh[side];
-  const float3 normal =
-      ox_normal_of(scene, pair, side, scene->meshes[mesh].triangle_first + scene->facets[triangle]);
+  const float3 normal = ox_normal_of(
+      scene, pair, side, scene->meshes[mesh].triangle_first + ox_facet_of(scene, triangle));
   ox_plane plane;
   plane.kind = side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B;
   plane.id[0] = triangle;

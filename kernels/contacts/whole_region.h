@@ -57,7 +57,8 @@ static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 no
 }
 
 static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint second, uint facet) {
-  return scene->facets[first] == facet || (second != OX_NONE && scene->facets[second] == facet);
+  return ox_facet_of(scene, first) == facet ||
+         (second != OX_NONE && ox_facet_of(scene, second) == facet);
 }
 
 // The edges of the facet of a triangle, as far as a walk over few of its triangles finds them: a
@@ -82,7 +83,7 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_ed
 // The edges of the facet of a triangle: those near it, and those at features.
 static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
   const ox_scene* scene = r->scene;
-  const uint facet = scene->facets[triangle];
+  const uint facet = ox_facet_of(scene, triangle);
   __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
   ox_add_rim_near(r, triangle, set);
   for (uint k = 0u; k < r->count; ++k) {
@@ -131,7 +132,7 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
       for (uint k = 0u; k < 2u; ++k) {
         if (ridge.face[k] == OX_NONE ||
             (from.kind != OX_PLANE_EDGES &&
-             r->scene->facets[ridge.face[k]] == r->scene->facets[from.id[0]]))
+             ox_facet_of(r->scene, ridge.face[k]) == ox_facet_of(r->scene, from.id[0])))
           continue;
         const ox_plane plane = ox_plane_of_face(r->scene, r->pair, 1u - side, ridge.face[k]);
         ox_try_whole(r, &plane, search, best);

@@ -131,6 +131,7 @@ typedef struct {
   ox_general_points points;
   ox_box box;
   ox_slab slab;
+  bool is_far;  // it does not meet the other mesh (lib/bases.h)
   bool has_triangles;
   ox_general_triangles triangles;
   ox_general_planes planes;
@@ -159,6 +160,9 @@ static inline void ox_place_meshlet(const ox_scene* scene, uint p, uint side, ui
     placed->box.hi = ox_from_base(pair, 1u, vload3(0, m->hi)) + pair->epsilon;
     placed->slab = ox_slab_of(pair, m);
   }
+  const float largest = ox_largest_of(pair->snap);
+  const float3 far = OX_GREATER(placed->box.hi, -placed->box.lo);
+  placed->is_far = OX_GREATER(OX_GREATER(far.x, far.y), far.z) > largest;
   const float to_base = ox_dot(placed->slab.normal, ox_base(pair, 1u));
   placed->slab.lo -= to_base;
   placed->slab.hi -= to_base;
@@ -173,6 +177,7 @@ static inline bool ox_place_meshlets(const ox_scene* scene, const ox_meshlet_pai
   placed->pair = both->pair;
   ox_placed_meshlet* a = &placed->of[0];
   ox_placed_meshlet* b = &placed->of[1];
+  if (a->is_far || b->is_far) return false;
   return ox_note_beyond(&a->points, &b->box, &b->slab) &&
          ox_note_beyond(&b->points, &a->box, &a->slab);
 }

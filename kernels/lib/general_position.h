@@ -10,6 +10,9 @@
 
 #include "lib/transform.h"
 
+// What rounding can do to a coordinate, in parts of how large coordinates are (pair_step.cl).
+#define OX_ROUNDING 0x1p-20f
+
 // [m] how far each vertex of A is moved out along its normal. A face at it moves by the cosine
 // between them: 0.58 at the corner of a cube, 1.15 epsilons. The grid takes half of one from what
 // touches, a quarter for each mesh, and the roundings of a coordinate a fraction of another: the
@@ -30,6 +33,9 @@ static inline float ox_snap_of(float largest) {
   const uint bits = as_uint(2.0f * largest) + 0x007fffffu;
   return 1.5f * as_float(bits & 0x7f800000u);
 }
+
+// [m] what the largest coordinate may be: half of P.
+static inline float ox_largest_of(float snap) { return snap / 3.0f; }
 
 // [m] the grid: 1.5 P has the exponent of P.
 static inline float ox_grid_of(float snap) {

@@ -7,6 +7,7 @@
 #ifndef ODE_EXT_KERNELS_LIB_NEAREST_H
 #define ODE_EXT_KERNELS_LIB_NEAREST_H
 
+#include "lib/general_position.h"
 #include "lib/ray_triangle.h"
 
 // A ray, and how far it counts.
@@ -110,17 +111,22 @@ static inline void ox_consider(const ox_query* query, __global const ox_triangle
     ox_consider_met(query, triangles, k, t, back, nearest);
 }
 
-// How far it is worth looking: within epsilon of the nearest hit another may decide what the
+// [m] what rounding can do to how far something is: to what is farther than the pair is large, as
+// what a ray meets of a large mesh, more than to coordinates.
+static inline float ox_blur_of(float epsilon, float t) { return ox_max(epsilon, OX_ROUNDING * t); }
+
+// How far it is worth looking: within rounding of the nearest hit another may decide what the
 // nearest means. What lies beyond changes nothing.
 static inline float ox_limit(const ox_query* query, const ox_nearest* nearest) {
   const float first = query->known ? nearest->back_t : ox_min(nearest->front_t, nearest->back_t);
-  return ox_min(query->t_max, first + query->epsilon);
+  return ox_min(query->t_max, first + ox_blur_of(query->epsilon, first));
 }
 
 // A front and a back face at one distance: the ray grazes a ridge from outside, or leaves and
 // enters again in a valley from inside.
 static inline bool ox_grazes(const ox_nearest* nearest, float epsilon) {
-  return nearest->back != OX_NONE && fabs(nearest->back_t - nearest->front_t) <= epsilon;
+  return nearest->back != OX_NONE &&
+         fabs(nearest->back_t - nearest->front_t) <= ox_blur_of(epsilon, nearest->back_t);
 }
 
 // What a vertex's ray came to.

@@ -36,7 +36,6 @@ typedef struct {
   __global const ox_edge* edges;
   __global const uint* ring_starts;
   __global const ox_neighbour* rings;
-  __global const uint* facets;
   ox_surfaces surfaces;
   // The pairs.
   __global const ox_object* objects;
@@ -66,28 +65,28 @@ typedef struct {
 } ox_scene;
 
 // In the order of BatchData::launch (search/batch_data.h).
-#define OX_SCENE_PARAMETERS                                                                       \
-  __global volatile uint *counters, __global const ox_list *lists, uint modes, uint max_contacts, \
-      uint max_deformable, uint pair_count, __global const ox_mesh *meshes,                       \
-      __global const ox_chunk *chunks, __global const ox_vertex *vertices,                        \
-      __global const ox_edge *edges, __global const uint *ring_starts,                            \
-      __global const ox_neighbour *rings, __global const uint *facets,                            \
-      __global const ox_triangle *triangles, __global const ox_meshlet *meshlets,                 \
-      __global const ox_meshlet_node *meshlet_nodes, __global const ox_object *objects,           \
-      __global const uint *pair_objects, __global ox_pair *pairs, __global ox_found *found,       \
-      __global ox_range *pair_ranges, __global ox_meshlet_task *meshlet_tasks,                    \
-      __global ox_meshlet_pair *meshlet_pairs, __global ox_edge_crossing *crossings,              \
-      __global uint *flood_words, __global ox_chunk_task *tasks, __global ox_ray *rays,           \
-      __global ox_hit *hits, __global ox_contact *contacts, __global struct ox_feature *features, \
-      __global uint *parents, __global uint *slots, __global struct ox_region *regions,           \
-      __global float *members, __global struct ox_face *faces, __global float *planes,            \
-      __global uint *edge_planes, __global float *candidates
+#define OX_SCENE_PARAMETERS                                                                        \
+  __global volatile uint *counters, __global const ox_list *lists, uint modes, uint max_contacts,  \
+      uint max_deformable, uint pair_count, __global const ox_mesh *meshes,                        \
+      __global const ox_chunk *chunks, __global const ox_vertex *vertices,                         \
+      __global const ox_edge *edges, __global const uint *ring_starts,                             \
+      __global const ox_neighbour *rings, __global const ox_triangle *triangles,                   \
+      __global const ox_meshlet *meshlets, __global const ox_meshlet_node *meshlet_nodes,          \
+      __global const ox_object *objects, __global const uint *pair_objects,                        \
+      __global ox_pair *pairs, __global ox_found *found, __global ox_range *pair_ranges,           \
+      __global ox_meshlet_task *meshlet_tasks, __global ox_meshlet_pair *meshlet_pairs,            \
+      __global ox_edge_crossing *crossings, __global uint *flood_words,                            \
+      __global ox_chunk_task *tasks, __global ox_ray *rays, __global ox_hit *hits,                 \
+      __global ox_contact *contacts, __global struct ox_feature *features, __global uint *parents, \
+      __global uint *slots, __global struct ox_region *regions, __global float *members,           \
+      __global struct ox_face *faces, __global float *planes, __global uint *edge_planes,          \
+      __global float *candidates
 
 #define OX_SCENE                                                                                   \
   {                                                                                                \
     counters, lists, modes, max_contacts, max_deformable, 0u, pair_count, (uint)get_global_id(0),  \
         (uint)get_global_size(0), false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, meshes,   \
-        chunks, vertices, edges, ring_starts, rings, facets, {triangles, meshlets, meshlet_nodes}, \
+        chunks, vertices, edges, ring_starts, rings, {triangles, meshlets, meshlet_nodes},         \
         objects, pair_objects, pairs, found, pair_ranges, meshlet_tasks, meshlet_pairs, crossings, \
         flood_words, tasks, rays, hits, contacts, features, parents, slots, regions, members,      \
         faces, planes, edge_planes, candidates                                                     \

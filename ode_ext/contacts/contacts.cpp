@@ -24,16 +24,16 @@ std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
   return meshes.mesh(mesh).topology->source_triangle[triangle - meshes.range(mesh).triangle_first];
 }
 
-// One that has its position and normal with it, in the frame of the second object.
+// One that has its position and normal with it.
 Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
                  const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
   const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
-  const Scene::Object& b = scene.objects[pair[1]];
-  const Pose pose = frame_pose(b.pose, meshes.mesh(b.mesh));
+  const Scene::Object& frame = scene.objects[pair[(contact.side_kind & OX_HIT_IN_A) != 0 ? 0 : 1]];
   const auto vector = [](const ox_f32(&v)[3]) { return Vec3d(Vec3f{v[0], v[1], v[2]}); };
-  const Vec3d normal = pose.rotate(vector(contact.normal));
+  const Vec3d normal = scene.objects[pair[1]].pose.rotate(vector(contact.normal));
   Contact result;
-  result.position = pose.transform(vector(contact.position));
+  result.position =
+      frame_pose(frame.pose, meshes.mesh(frame.mesh)).transform(vector(contact.position));
   result.normal = (1.0 / length(normal)) * normal;
   result.depth =
       known_depth(static_cast<double>(contact.depth), meshes.mesh(scene.objects[pair[0]].mesh),

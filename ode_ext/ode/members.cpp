@@ -102,7 +102,8 @@ void Members::prune(std::uint64_t round) {
 bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
   const auto position = [](const PairMember& m) {
-    return std::tie(m.pose.position.x, m.pose.position.y, m.pose.position.z);
+    const Vec3d p = frame_pose(m.pose, *m.mesh).position;
+    return std::tuple(p.x, p.y, p.z);
   };
   if (position(a) != position(b)) return position(a) < position(b);
   const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));

@@ -10,8 +10,9 @@
 namespace ode_ext {
 namespace {
 
-// A hundredth of the last digit of a float, in which the device has rotations.
-constexpr double kNotWorthTurning = 1e-9;
+// What the roundings of a product of rotations in double precision leave. The device has a rotation
+// to 2^-48, and turns distances of kilometres by it.
+constexpr double kNotWorthTurning = 1e-14;
 
 Vec3d row(const Matrix& matrix, std::size_t i) {
   return {matrix[3 * i], matrix[3 * i + 1], matrix[3 * i + 2]};

@@ -21,13 +21,13 @@ struct BatchData {
     kernel.launch(size.groups, size.local, lists.counters(), lists.lists(), settings.modes,
                   settings.max_contacts, settings.max_contacts_deformable, pairs.count,
                   meshes.records(), meshes.chunks(), meshes.vertices(), meshes.edges(),
-                  meshes.ring_starts(), meshes.rings(), meshes.facets(), meshes.triangles(),
-                  meshes.meshlets(), meshes.meshlet_nodes(), pairs.objects, pairs.members,
-                  pairs.pairs, pairs.found, pairs.ranges, lists.meshlets(), lists.meshlet_pairs(),
-                  lists.crossings(), lists.flood_words(), lists.tasks(), lists.rays(), lists.hits(),
-                  lists.contacts(), lists.features(), lists.feature_parents(),
-                  lists.feature_slots(), lists.regions(), lists.members(), lists.faces(),
-                  lists.planes(), lists.edge_planes(), lists.candidates(), args...);
+                  meshes.ring_starts(), meshes.rings(), meshes.triangles(), meshes.meshlets(),
+                  meshes.meshlet_nodes(), pairs.objects, pairs.members, pairs.pairs, pairs.found,
+                  pairs.ranges, lists.meshlets(), lists.meshlet_pairs(), lists.crossings(),
+                  lists.flood_words(), lists.tasks(), lists.rays(), lists.hits(), lists.contacts(),
+                  lists.features(), lists.feature_parents(), lists.feature_slots(), lists.regions(),
+                  lists.members(), lists.faces(), lists.planes(), lists.edge_planes(),
+                  lists.candidates(), args...);
   }
 
   DeviceMeshes meshes;

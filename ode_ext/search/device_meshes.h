@@ -46,7 +46,6 @@ class DeviceMeshes {
   const Buffer& rings() const { return parts_.rings; }
   const Buffer& meshlets() const { return parts_.meshlets; }
   const Buffer& meshlet_nodes() const { return parts_.meshlet_nodes; }
-  const Buffer& facets() const { return parts_.facets; }
   const Buffer& topologies() const { return parts_.topologies; }
 
  private:

@@ -88,6 +88,8 @@ ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle, const MeshRange&
   record.side_ab = over_all(sides[0], first);
   record.side_bc = over_all(sides[1], first);
   record.side_ca = over_all(sides[2], first);
+  const std::vector<std::uint32_t>& facets = mesh.topology->facets;
+  record.facet = facets.empty() ? triangle : facets[triangle];
   if (mesh.deformable) return record;
   const Triangle& corners = mesh.topology->triangles[triangle];
   const bool flat = mesh.face_normals[triangle] == Vec3f{};
@@ -139,12 +141,11 @@ MeshBuffers::MeshBuffers(Device& device)
       rings(device, Memory::kShared),
       meshlets(device, Memory::kShared),
       meshlet_nodes(device, Memory::kShared),
-      facets(device, Memory::kShared),
       topologies(device, Memory::kShared) {}
 
 void MeshBuffers::release() {
   for (Buffer* buffer : {&chunks, &vertices, &triangles, &edges, &ring_starts, &rings, &meshlets,
-                         &meshlet_nodes, &facets, &topologies})
+                         &meshlet_nodes, &topologies})
     buffer->release();
 }
 
@@ -168,7 +169,6 @@ MeshRecords::MeshRecords(MeshBuffers& buffers, const MeshCounts& kept, const Mes
       rings_(buffers.rings, 2 * kept.edges, 2 * more.edges),
       meshlets_(buffers.meshlets, kept.meshlets, more.meshlets),
       meshlet_nodes_(buffers.meshlet_nodes, kept.meshlet_nodes, more.meshlet_nodes),
-      facets_(buffers.facets, kept.triangles, more.triangles),
       topologies_(buffers.topologies, kept.topology_words, more.topology_words) {}
 
 MeshRange MeshRecords::next() const {
@@ -207,7 +207,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
         append_vertices(mesh);
       },
       [&] {
-        record.span = append_meshlets(mesh, first, meshlets_);
+        append_meshlets(mesh, first, meshlets_);
         append_triangles(mesh, first);
       });
   return record;
@@ -221,11 +221,8 @@ void MeshRecords::append_vertices(const Mesh& mesh) {
 }
 
 void MeshRecords::append_triangles(const Mesh& mesh, const MeshRange& first) {
-  const std::vector<std::uint32_t>& facets = mesh.topology->facets;
-  for (std::uint32_t t = 0; t < mesh.topology->triangles.size(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.topology->triangles.size(); ++t)
     triangles_.push_back(to_record(mesh, t, first));
-    facets_.push_back(facets.empty() ? t : facets[t]);
-  }
 }
 
 void MeshRecords::append_edges(const MeshTopology& mesh, const MeshRange& first) {
@@ -263,7 +260,6 @@ MeshCounts MeshRecords::close() {
   rings_.close();
   meshlets_.close();
   meshlet_nodes_.close();
-  facets_.close();
   topologies_.close();
   return {chunks_.size(),   vertices_.size(),      triangles_.size(), edges_.size(),
           meshlets_.size(), meshlet_nodes_.size(), topologies_.size()};

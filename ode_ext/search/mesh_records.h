@@ -33,8 +33,6 @@ struct MeshBuffers {
   // Of vertex v: rings[ring_starts[v]] to before ring_starts[v + 1].
   Buffer ring_starts, rings;
   Buffer meshlets, meshlet_nodes;
-  // Of each triangle, over all triangles: the number of its facet within its mesh.
-  Buffer facets;
   Buffer topologies;  // of deformable meshes: search/deform_topology.h
 };
 
@@ -66,7 +64,6 @@ class MeshRecords {
   MappedRecords<ox_neighbour> rings_;
   MappedRecords<ox_meshlet> meshlets_;
   MappedRecords<ox_meshlet_node> meshlet_nodes_;
-  MappedRecords<ox_u32> facets_;
   MappedRecords<ox_u32> topologies_;
 };
 

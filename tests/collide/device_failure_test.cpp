@@ -135,7 +135,7 @@ void fail_while_buffers_grow(ColliderOptions options, bool whole_steps, int ever
 }
 
 TEST_P(DeviceFailureInStep, IsReportedWhileBuffersGrow) {
-  fail_while_buffers_grow(options(), false, 17, 40);
+  fail_while_buffers_grow(options(), false, 13, 40);
 }
 
 TEST_P(DeviceFailureInStep, IsReportedWhileTheBufferOfContactsGrows) {

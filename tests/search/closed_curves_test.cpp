@@ -60,16 +60,18 @@ Curves find_curves(const TestScene& scene) {
   device.finish();
   std::size_t triangle_count = 0;
   for (const auto& mesh : meshes) triangle_count += mesh->topology->triangles.size();
-  std::vector<ox_u32> facets(triangle_count);
-  data.meshes.facets().read(facets.data(), triangle_count * sizeof(ox_u32));
+  std::vector<ox_triangle> device_triangles(triangle_count);
+  data.meshes.triangles().read(device_triangles.data(), triangle_count * sizeof(ox_triangle));
   device.finish();
   std::map<std::tuple<ox_u32, ox_u32, ox_u32>, int> counts;  // pair, facet of A, of B
   for (const ox_edge_crossing& crossing : crossings) {
     const ox_edge& edge = device_edges.at(crossing.edge);
-    if (facets[edge.triangle[0]] == facets[edge.triangle[1]]) continue;
+    if (device_triangles[edge.triangle[0]].facet == device_triangles[edge.triangle[1]].facet)
+      continue;
     for (const ox_u32 at : edge.triangle) {
       const bool side = (crossing.pair_side & 1u) != 0;
-      const ox_u32 own = facets[at], crossed = facets[crossing.triangle];
+      const ox_u32 own = device_triangles[at].facet,
+                   crossed = device_triangles[crossing.triangle].facet;
       ++counts[{crossing.pair_side >> 1, side ? crossed : own, side ? own : crossed}];
     }
   }

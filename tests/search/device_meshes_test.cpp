@@ -81,8 +81,6 @@ class Meshes : public testing::TestWithParam<bool> {
         less(*side, *side != OX_NONE && (*side & OX_WITHIN_FACET) != 0 ? range.triangle_first
                                                                        : range.edge_first);
     all["triangles"] = bytes_of(triangles);
-    all["facets"] =
-        bytes_of(read<ox_u32>(meshes.facets(), range.triangle_first, built.triangles.size()));
 
     auto edges = read<ox_edge>(meshes.edges(), range.edge_first, edge_count);
     for (ox_edge& edge : edges)

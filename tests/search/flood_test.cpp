@@ -254,22 +254,26 @@ TEST_F(Flood, FindsACrateWhoseFirstCornerIsJustBelowTheSurface) {
   }
 }
 
-// Pairs round to more where meshes reach from their own origin far out, or the other is much
-// larger; not where they only lie far out.
+// Pairs round to more where both meshes reach from their own origins far out, or one is much larger
+// and made of large triangles; not where one reaches far out, or only lies there.
 TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
+  enum Reach { kNeither, kOne, kBoth };
   const struct {
     double offset;
-    bool reaches_back;
-  } cases[] = {{0, false}, {1e2, false}, {1e4, false}, {1e2, true}, {1e4, true}};
-  for (const auto& [offset, reaches_back] : cases) {
+    Reach reach;
+  } cases[] = {{0, kNeither}, {1e2, kNeither}, {1e4, kNeither}, {1e2, kOne},
+               {1e4, kOne},   {1e2, kBoth},    {1e4, kBoth}};
+  for (const auto& [offset, reach] : cases) {
     const double scale = offset == 0 ? 1000 : 1;
     const Point far{offset, 0, 0};
     TestScene scene;
     for (const TestMesh& mesh : {jittered(make_icosphere(0.6, 2), 0.01, 1),
                                  jittered(make_torus(0.5, 0.2, 16, 10), 0.01, 2), make_l(1)})
-      scene.add_mesh(reaches_back ? merged(moved(mesh, far), make_tetrahedron(0.1))
-                                  : moved(mesh, far));
-    scene.add_mesh(scaled(make_cube(1, 4), scale));
+      scene.add_mesh(reach == kNeither ? moved(mesh, far) : far_out(mesh, far));
+    // What makes the cube as large is where nothing meets it.
+    const TestMesh cube = scaled(make_cube(1, 4), scale);
+    scene.add_mesh(reach == kBoth ? merged(cube, moved(make_tetrahedron(0.1), {0, offset, 0}))
+                                  : cube);
     Random random(74);
     for (int i = 0; i < 150; ++i) {
       TestPose a = random.pose(0.4);
@@ -280,6 +284,12 @@ TEST_F(Flood, FindsTheVerticesInsideWhereRoundingIsCoarse) {
     hits_ = 0;
     find(scene.scene);
     EXPECT_GT(hits_, 100u) << offset;
+    const double epsilon = double{records_.pairs[0].epsilon};
+    if (reach == kBoth) {
+      EXPECT_GT(epsilon, 0x1p-20 * offset);
+    } else if (offset != 0) {
+      EXPECT_LT(epsilon, 0x1p-20 * 10);
+    }
   }
 }
 

@@ -106,7 +106,7 @@ TEST(PairStep, MeasuresFromWhereASmallMeshIsInALargeOne) {
       const ox_pair& pair = records.pairs[i];
       if (pair.near == 0) continue;
       ++near;
-      EXPECT_LT(double{pair.epsilon}, 0x1p-20 * 6);  // a few meters
+      EXPECT_LT(double{pair.epsilon}, 0x1p-20 * 8);  // a few meters
       EXPECT_GT(double{pair.margin}, 0x1p-20 * far);
       const std::size_t side = i % 2;  // the small one's
       const TestPose &of_small = scene.pose_of(i, side), &of_large = scene.pose_of(i, 1 - side);
@@ -129,7 +129,7 @@ TEST(PairStep, MeasuresMeshesOfOneSizeFromTheirOrigins) {
   const TestScene scene = spread_scene(100, 5);
   const StepRecords records = Rig::shared().run_pair_step(scene.scene);
   for (const ox_pair& pair : records.pairs)
-    for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t side = 0; side < 2 && pair.near != 0; ++side)
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_EQ(pair.base[side][k], 0);
         EXPECT_EQ(pair.base_offset[side][k], pair.offset[side][k]);
