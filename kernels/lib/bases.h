@@ -104,7 +104,7 @@ static inline float ox_choose_bases(const ox_scene* scene, __global const ox_obj
   __global const ox_mesh* small_mesh = is_small ? mesh_a : mesh_b;
   __global const ox_mesh* large_mesh = is_small ? mesh_b : mesh_a;
   const float limit = size / OX_WORTH_A_BASE - small_mesh->extent;
-  if (!(limit > 0.0f)) return size;
+  if (!(limit > 0.0f && limit < INFINITY)) return size;
   const float3 base = vload3(0, pair->offset[small]);
   const ox_box box = ox_target_box(pair, large, small_mesh);
   const float reach = ox_reach_in_box(scene, large_mesh, &box, base, limit);

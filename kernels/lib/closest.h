@@ -4,6 +4,7 @@
 #define ODE_EXT_KERNELS_LIB_CLOSEST_H
 
 #include "lib/corners.h"
+#include "lib/general_position.h"
 #include "lib/meshlet_tree.h"
 #include "lib/scene.h"
 
@@ -89,8 +90,10 @@ typedef struct {
   bool is_least_known;    // of all that are as near, the one that faces the point most is wanted
 } ox_closest;
 
+// Of a tie that is not 0 at least what rounding can do to the distance.
 static inline float ox_as_near2(float distance2, float tie) {
-  const float near = sqrt(distance2) + tie;
+  const float distance = sqrt(distance2);
+  const float near = distance + (tie > 0.0f ? ox_max(tie, OX_ROUNDING * distance) : 0.0f);
   return near * near;
 }
 

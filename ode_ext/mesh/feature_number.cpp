@@ -37,12 +37,11 @@ std::vector<std::uint32_t> triangles_at(const MeshTopology& built, std::uint32_t
   std::array<std::uint32_t, 2> corners{number, number};
   if (kind == FeatureKind::kEdge) corners = built.edges[number].vertices;
   std::vector<std::uint32_t> triangles;
-  for (std::size_t t = 0; t < built.triangles.size(); ++t) {
+  const VertexTriangles& at = built.vertex_triangles.of(built.vertex_count, built.triangles);
+  for (const std::uint32_t t : at.of(corners[0])) {
     const Triangle& triangle = built.triangles[t];
-    const auto has = [&](std::uint32_t corner) {
-      return std::find(triangle.begin(), triangle.end(), corner) != triangle.end();
-    };
-    if (has(corners[0]) && has(corners[1])) triangles.push_back(built.source_triangle[t]);
+    if (std::find(triangle.begin(), triangle.end(), corners[1]) != triangle.end())
+      triangles.push_back(built.source_triangle[t]);
   }
   std::sort(triangles.begin(), triangles.end());
   return triangles;

@@ -23,7 +23,7 @@ constexpr std::uint32_t to_feature(FeatureKind kind, std::uint64_t number) {
 std::uint32_t repeated(const MeshTopology& built, std::uint32_t feature, std::uint64_t times);
 
 // The triangles at a vertex or an edge, repeated or not, the program's indices, ascending; of a
-// facet none. Looks at every triangle of the mesh.
+// facet none.
 std::vector<std::uint32_t> triangles_at(const MeshTopology& built, std::uint32_t feature);
 
 }  // namespace ode_ext

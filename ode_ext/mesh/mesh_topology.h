@@ -13,6 +13,7 @@
 #include "mesh/source_triangles.h"
 #include "mesh/triangle.h"
 #include "mesh/vec.h"
+#include "mesh/vertex_triangles.h"
 
 namespace ode_ext {
 
@@ -54,6 +55,7 @@ struct MeshTopology {
   bool closed = false;      // every edge has exactly two triangles, of opposite direction
   bool inverted = false;    // the winding was turned: the closed mesh had a negative volume
   bool reoriented = false;  // the winding was made consistent: each part now faces outward
+  LazyVertexTriangles vertex_triangles;
 };
 
 }  // namespace ode_ext
