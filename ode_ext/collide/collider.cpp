@@ -24,6 +24,7 @@ const PairContacts& Collider::collide(const Scene& scene, PassMemory* memory) {
     upload(scene);
     if (paper_) paper_->begin_batch(batch);
     while (batch.workload.next()) collide_tile(batch);
+    if (!device_.is_idle()) device_.finish();  // uploads for what was then given up
   } catch (...) {
     drop(batch);
     throw;
