@@ -156,6 +156,7 @@ static inline void ox_place_meshlet(const ox_scene* scene, uint p, uint side, ui
     placed->box = ox_box_of_points(&placed->points);
     placed->slab = ox_slab_there(pair, 0u, m, pair->margin);
   } else {
+    // The grid moves them by less.
     placed->box.lo = ox_from_base(pair, 1u, vload3(0, m->lo)) - pair->epsilon;
     placed->box.hi = ox_from_base(pair, 1u, vload3(0, m->hi)) + pair->epsilon;
     placed->slab = ox_slab_of(pair, m);

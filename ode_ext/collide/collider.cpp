@@ -108,10 +108,7 @@ void Collider::launch_steps(Batch& batch) {
 void Collider::deliver(Batch& batch) {
   given_up_in_a_row_ = 0;
   batch.workload.report_tile();
-  if (report_.backtracked) {
-    result_.clear();
-    return;
-  }
+  if (report_.backtracked) return result_.clear();
   append_contacts(batch.scene, data_.meshes, batch.workload.tile().first, read_back_.ranges(data_),
                   read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
 }

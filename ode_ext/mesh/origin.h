@@ -9,7 +9,7 @@
 namespace ode_ext {
 
 // The middle of what is in the box, along each axis on which it lies so far out that it can be
-// subtracted from each coordinate exactly; 0 along the others, where it would gain a bit at most.
+// subtracted from each coordinate exactly; 0 along the others, where it would gain a bit or two.
 // [m]
 Vec3f exact_origin(const Box& box);
 

@@ -15,9 +15,10 @@
 
 namespace ode_ext {
 
-// Rounds (rounds.h) after which an answer nobody gathered or asked for is soon forgotten, and after
-// as many passes that gathered it a pair nobody asks for is no longer computed ahead.
+// Rounds (rounds.h) after which an answer nobody gathered or asked for is soon forgotten.
 inline constexpr std::uint64_t kRoundsRemembered = 8;
+// Passes that gather a pair nobody asks for, after which it is no longer computed ahead.
+inline constexpr std::uint64_t kPassesUnasked = 8;
 
 // How many pairs ahead answers are fetched, which have left the caches since the last pass: about
 // what memory takes to come.

@@ -131,7 +131,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     answer.gathered_pass = pass;
     answer.last_round = known_.round();
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
-    if (answer.passes_unasked <= kRoundsRemembered) {
+    if (answer.passes_unasked <= kPassesUnasked) {
       known_.add(answer, pair);
     } else {
       unasked_.note(answer, pair, known_);
