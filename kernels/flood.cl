@@ -7,20 +7,18 @@
 // not there, and where the flood gets round the border, to an end in front, all vertices are
 // looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
 // touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by; but of
-// those inside a closed target that are not extreme none: they bound nothing
-// (mesh/extreme_vertices.h). Where crossings hang together by one of these it is a hit as it is.
+// those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
 //       vertices, edges, rings, triangles, meshlets, meshlet_nodes
 // out   rays, of the sides that are flooded (lib/flooded.h)
-//       hits: of vertices that get none
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
 // room  flood_words: a table for each side (lib/flood_table.h)
 // item  1 side of a pair (of a queue)
-// may overflow: OX_LIST_RAYS, OX_LIST_HITS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
-#include "lib/bounding.h"
+// may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #include "lib/closest.h"
+#include "lib/flat.h"
 #include "lib/flood_table.h"
 #include "lib/flooded.h"
 #include "lib/general_position.h"
@@ -101,18 +99,8 @@ static uint ox_queued(const ox_flood_state* s, uint i) {
   return ox_queue(s->scene, &s->table)[i] & ~OX_QUEUE_BEGINS;
 }
 
-// Whether an edge between facets at a vertex crosses.
-static bool ox_is_at_crossing(const ox_flood_state* s, uint vertex) {
-  const ox_ring ring = ox_ring_of(s->scene, vertex);
-  for (uint i = ring.first; i < ring.end; ++i) {
-    const uint edge = s->scene->rings[i].edge;
-    if (!ox_is_flat_edge(s->source, edge) && ox_has_key(s, OX_KEY(edge, OX_KEY_EDGE))) return true;
-  }
-  return false;
-}
-
 // What hangs together lies in the queue one after the other; all of it names the first of it that
-// is not left out.
+// bounds anything.
 static void ox_cast_queue(const ox_flood_state* s) {
   uint first = OX_NONE;
   for (uint i = 0u; i < s->table.queued; ++i) {
@@ -122,14 +110,10 @@ static void ox_cast_queue(const ox_flood_state* s) {
       ox_append_ray(s->scene, s->pair_side, vertex);
       continue;
     }
-    const bool bounds = ox_vertex_bounds(s->scene, s->pair, vertex);
-    if (!bounds && !ox_is_at_crossing(s, vertex)) continue;
+    if (ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex)) continue;
     if (first == OX_NONE) first = vertex;
-    if (bounds)
-      ox_append_inside(s->scene, s->pair_side, vertex,
-                       i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
-    else
-      ox_append_joint(s->scene, s->pair_side, vertex, first);
+    ox_append_inside(s->scene, s->pair_side, vertex,
+                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
   }
 }
 
@@ -231,8 +215,7 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 // On from the next vertex of the queue over edges that do not cross.
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
   const uint vertex = ox_queued(s, (*next)++);
-  const ox_ring ring = ox_ring_of(s->scene, vertex);
-  for (uint i = ring.first; i < ring.end; ++i) {
+  for (uint i = s->scene->ring_starts[vertex]; i < s->scene->ring_starts[vertex + 1u]; ++i) {
     const ox_neighbour neighbour = s->scene->rings[i];
     if (ox_is_looked_at(s, neighbour.vertex)) continue;  // as mostly
     if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, 0u)) return false;

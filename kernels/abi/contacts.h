@@ -8,13 +8,11 @@
 // What the surfaces of a pair have in common: a crossing, where an edge of one
 // goes through a triangle of the other; or a vertex of one that is inside the other. Crossings come
 // first, in the order of their list, then vertices in that of theirs.
-#define OX_FEATURE_SIDE 1u             // of mesh B
-#define OX_FEATURE_LEAVES 2u           // of a crossing: the edge leaves the other mesh here
-#define OX_FEATURE_VERTEX 4u           // no crossing
-#define OX_FEATURE_FLAT 8u             // of a crossing: within a facet, where no curve is followed
-#define OX_FEATURE_REVERSED 16u        // of a vertex: it is behind the face whose normal is turned
-#define OX_FEATURE_BOUNDS_NOTHING 32u  // lib/bounding.h: of no contact, and no member of a region
-#define OX_FEATURE_VALLEY 64u          // of a crossing: at its edge the mesh is not convex
+#define OX_FEATURE_SIDE 1u       // of mesh B
+#define OX_FEATURE_LEAVES 2u     // of a crossing: the edge leaves the other mesh here
+#define OX_FEATURE_VERTEX 4u     // no crossing
+#define OX_FEATURE_FLAT 8u       // within a facet: of no contact, and no member of a region
+#define OX_FEATURE_REVERSED 16u  // of a vertex: it is behind the face whose normal is turned
 
 typedef struct ox_feature {
   ox_f32 position[3];  // in the frame of B
@@ -37,7 +35,7 @@ OX_STATIC_ASSERT(sizeof(ox_feature) == 64, ox_feature_is_64_bytes);
 // Features that hang together, along edges and along the curve in which the surfaces meet.
 typedef struct ox_region {
   ox_u32 pair;
-  ox_u32 first, count;  // room for so many members, and OX_PLANES_PER_FEATURE as many planes
+  ox_u32 first, count;  // of its members; of its planes the first is OX_PLANES_PER_FEATURE * first
   ox_u32 placed;        // of its members, so far
   ox_u32 planes;        // how many
   ox_u32 flags;         // OX_REGION_...
@@ -62,8 +60,8 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_PLANE 12u
 #define OX_MEMBER_WORDS 13u
 
-#define OX_MEMBER_BEGINS 128u   // it begins a unit
-#define OX_MEMBER_NEAREST 256u  // a unit: the face nearest to it has been proposed
+#define OX_MEMBER_BEGINS 64u    // it begins a unit
+#define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
 
 // A place in the table of the faces of a region, one of each facet.
 typedef struct ox_face {

@@ -151,10 +151,6 @@ typedef struct {
 } ox_neighbour;
 OX_STATIC_ASSERT(sizeof(ox_neighbour) == 8, ox_neighbour_is_8_bytes);
 
-// Where the neighbours of a vertex begin, with this bit if it is not extreme
-// (mesh/extreme_vertices.h).
-#define OX_RING_BOUNDS_NOTHING 0x80000000u
-
 // A meshlet (mesh/meshlets.h), component by component, as sixteen lanes want it. All indices
 // count over all meshes. Lanes beyond the vertices repeat the first, indices too.
 typedef struct {

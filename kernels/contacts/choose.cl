@@ -114,12 +114,12 @@ static void ox_choose_planes(const ox_scene* scene) {
   for (uint i = ox_next_item(scene, OX_QUEUE_REGIONS); i < region_count;
        i = ox_next_item(scene, OX_QUEUE_REGIONS)) {
     __global const ox_region* region = scene->regions + i;
-    if (region->placed == 0u) continue;  // within facets
+    if (region->count == 0u) continue;  // within facets
     ox_region_view view;
     view.scene = scene;
     view.index = i;
     view.pair = region->pair;
-    view.count = region->placed;
+    view.count = region->count;
     view.flags = region->flags;
     view.plane_count = region->planes;
     view.members = ox_members_of(scene, region);

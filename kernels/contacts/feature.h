@@ -6,7 +6,7 @@
 #include "abi/contacts.h"
 #include "contacts/constants.h"
 #include "lib/append.h"
-#include "lib/bounding.h"
+#include "lib/flat.h"
 #include "lib/general_position.h"
 
 static inline uint ox_crossing_count(const ox_scene* scene) {

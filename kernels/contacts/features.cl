@@ -14,17 +14,6 @@
 #include "contacts/mate.h"
 #include "contacts/region_fields.h"
 
-// What a crossing's edge says of it. In a valley it bounds nothing; of an open mesh the faces at an
-// edge need not be wound alike, and that is not known.
-static uint ox_flags_of_edge(const ox_scene* scene, uint pair, uint side, uint edge) {
-  __global const ox_pair* p = scene->pairs + pair;
-  __global const ox_mesh* mesh = ox_mesh_of(scene, p, side);
-  if (ox_is_flat_edge(mesh, edge)) return OX_FEATURE_FLAT | OX_FEATURE_BOUNDS_NOTHING;
-  if (!ox_is_valley(scene, pair, edge)) return 0u;
-  const bool is_known = (mesh->flags & OX_MESH_CLOSED) != 0u && ox_is_rigid_pair(scene, p);
-  return OX_FEATURE_VALLEY | (is_known ? OX_FEATURE_BOUNDS_NOTHING : 0u);
-}
-
 // out: features, each a tree of its own (parents); found: how many each pair has; tables, empty.
 static void ox_gather_features(const ox_scene* scene) {
   const uint crossed = ox_crossing_count(scene);
@@ -42,13 +31,14 @@ static void ox_gather_features(const ox_scene* scene) {
       const ox_edge_crossing crossing = scene->crossings[i];
       const uint side = crossing.pair_side & 1u;
       f.pair = crossing.pair_side >> 1;
-      f.flags = side | (crossing.leaves != 0u ? OX_FEATURE_LEAVES : 0u) |
-                ox_flags_of_edge(scene, f.pair, side, crossing.edge);
+      f.flags = side | (crossing.leaves != 0u ? OX_FEATURE_LEAVES : 0u);
       f.source = crossing.edge;
       f.triangle = crossing.triangle;
       f.t = crossing.t;
       f.at[0] = scene->edges[crossing.edge].triangle[0];
       f.at[1] = scene->edges[crossing.edge].triangle[1];
+      if (ox_is_flat_edge(ox_mesh_of(scene, scene->pairs + f.pair, side), crossing.edge))
+        f.flags |= OX_FEATURE_FLAT;
       f.mate[0] = i << 1;
       if (f.at[1] != OX_NONE) f.mate[1] = i << 1 | 1u;
       const float3 p = ox_vertex_of(scene, f.pair, side, scene->edges[crossing.edge].vertex[0]);
@@ -59,8 +49,8 @@ static void ox_gather_features(const ox_scene* scene) {
       __global const ox_hit* hit = scene->hits + (i - crossed);
       const uint side = hit->pair_side & 1u;
       f.pair = hit->pair_side >> 1;
-      const bool bounds = ox_vertex_bounds(scene, scene->pairs + f.pair, hit->vertex);
-      f.flags = side | OX_FEATURE_VERTEX | (bounds ? 0u : OX_FEATURE_BOUNDS_NOTHING) |
+      const bool is_flat = ox_is_flat_vertex(scene, scene->pairs + f.pair, side, hit->vertex);
+      f.flags = side | OX_FEATURE_VERTEX | (is_flat ? OX_FEATURE_FLAT : 0u) |
                 ((hit->kind & OX_HIT_REVERSED) != 0u ? OX_FEATURE_REVERSED : 0u);
       f.source = hit->vertex;
       f.triangle = hit->triangle;
@@ -152,8 +142,7 @@ __kernel void feature_link(OX_SCENE_PARAMETERS) {
 static void ox_join_neighbours(const ox_scene* scene, uint i) {
   __global const ox_feature* f = scene->features + i;
   const uint side = ox_side_of(f->flags);
-  const ox_ring ring = ox_ring_of(scene, f->source);
-  for (uint k = ring.first; k < ring.end; ++k) {
+  for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k) {
     const ox_neighbour neighbour = scene->rings[k];
     if (neighbour.vertex < f->source) continue;  // it asks too
     if (ox_find_feature(scene, ox_edge_key(f->pair, side, neighbour.edge)) != OX_NONE) continue;
@@ -228,30 +217,26 @@ __kernel void region_begin(OX_SCENE_PARAMETERS) {
 
 // Whether its mesh is not convex at an edge of a feature.
 static bool ox_is_in_valley(const ox_scene* scene, __global const ox_feature* f) {
-  if (!ox_is_vertex(f->flags)) return (f->flags & OX_FEATURE_VALLEY) != 0u;
+  if (!ox_is_vertex(f->flags)) return ox_is_valley(scene, f->pair, f->source);
   __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + f->pair, ox_side_of(f->flags));
-  const ox_ring ring = ox_ring_of(scene, f->source);
-  for (uint k = ring.first; k < ring.end; ++k) {
+  for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k) {
     const uint edge = scene->rings[k].edge;
     if (!ox_is_flat_edge(mesh, edge) && ox_is_valley(scene, f->pair, edge)) return true;
   }
   return false;
 }
 
-// out: how many features each region has that are members or, as crossings, name faces that are
-// planes for it; and what they say of it. One valley is enough.
+// out: how many members each region has, and what they say of it. One valley is enough.
 static void ox_count_members(const ox_scene* scene) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const uint flags = scene->features[i].flags;
     if ((flags & OX_FEATURE_FLAT) != 0u) continue;
-    const bool bounds = (flags & OX_FEATURE_BOUNDS_NOTHING) == 0u;
     const uint region = scene->features[ox_root_of(scene, i)].region;
     scene->features[i].region = region;
-    if (!ox_is_vertex(flags) || bounds) ox_fetch_add(scene, &scene->regions[region].count, 1u);
+    ox_fetch_add(scene, &scene->regions[region].count, 1u);
     const uint known = scene->regions[region].flags;
-    uint says = ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED;
-    if (bounds) says |= OX_REGION_OF(ox_side_of(flags));
+    uint says = OX_REGION_OF(ox_side_of(flags)) | (ox_is_vertex(flags) ? 0u : OX_REGION_CROSSED);
     if ((known & OX_REGION_VALLEY) == 0u && ox_is_in_valley(scene, scene->features + i))
       says |= OX_REGION_VALLEY;
     if ((known & says) != says) ox_fetch_or(scene, &scene->regions[region].flags, says);
@@ -278,22 +263,15 @@ __kernel void region_place(OX_SCENE_PARAMETERS) {
   ox_place_regions(&scene);
 }
 
-// out: members of each region, the features that can bound it, in any order; the table of faces
-// that are planes for it, and where in it the faces are that features are of.
+// out: members of each region, in any order; the table of faces that are planes for it, and where
+// in it the faces are that features are of.
 static void ox_fill_regions(const ox_scene* scene) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = scene->features + i;
-    const bool crossed = !ox_is_vertex(f->flags);
-    const bool bounds = (f->flags & OX_FEATURE_BOUNDS_NOTHING) == 0u;
-    if ((f->flags & OX_FEATURE_FLAT) != 0u || (!crossed && !bounds)) continue;
+    if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
     __global ox_region* region = scene->regions + f->region;
     const uint side = ox_side_of(f->flags);
-    const uint owner = f->region << 1 | (crossed ? 1u : 0u);
-    if (f->triangle != OX_NONE) f->face = ox_add_face(scene, region, owner, 1u - side, f->triangle);
-    for (uint k = 0u; k < 2u && crossed; ++k)
-      if (f->at[k] != OX_NONE) ox_add_face(scene, region, owner, side, f->at[k]);
-    if (!bounds) continue;
     const uint partner = f->partner;
     // A chord between two crossings begins where it enters.
     const bool begins = ox_is_vertex(f->flags) || (f->flags & OX_FEATURE_LEAVES) == 0u ||
@@ -311,6 +289,11 @@ static void ox_fill_regions(const ox_scene* scene) {
     ox_set_vector(&list, OX_MEMBER_END, place, end);
     ox_words_of(&list, OX_MEMBER_FLAGS)[place] = f->flags | (begins ? OX_MEMBER_BEGINS : 0u);
     ox_words_of(&list, OX_MEMBER_FEATURE)[place] = i;
+    const bool crossed = !ox_is_vertex(f->flags);
+    const uint owner = f->region << 1 | (crossed ? 1u : 0u);
+    if (f->triangle != OX_NONE) f->face = ox_add_face(scene, region, owner, 1u - side, f->triangle);
+    for (uint k = 0u; k < 2u && crossed; ++k)
+      if (f->at[k] != OX_NONE) ox_add_face(scene, region, owner, side, f->at[k]);
   }
 }
 
@@ -351,9 +334,8 @@ static void ox_propose_planes(const ox_scene* scene) {
       if (mate == OX_NONE) {
         scene->edge_planes[2u * i + k] = OX_NONE;
       } else if (ox_side_of(f->flags) == 0u) {  // of two mates that of A proposes
-        ox_plane plane = ox_no_plane();
-        if (((f->flags | scene->features[mate >> 1].flags) & OX_FEATURE_BOUNDS_NOTHING) == 0u)
-          plane = ox_plane_of_edges(scene, f->pair, f->source, scene->features[mate >> 1].source);
+        const ox_plane plane =
+            ox_plane_of_edges(scene, f->pair, f->source, scene->features[mate >> 1].source);
         scene->edge_planes[2u * i + k] = scene->edge_planes[mate] =
             ox_add_plane(scene, scene->regions + f->region, &plane, 0u);
       }

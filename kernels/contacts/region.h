@@ -38,8 +38,7 @@ static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, 
 static inline bool ox_vertex_looks_back(const ox_region_view* r, uint side, uint vertex,
                                         float3 direction) {
   const ox_scene* scene = r->scene;
-  const ox_ring ring = ox_ring_of(scene, vertex);
-  for (uint i = ring.first; i < ring.end; ++i) {
+  for (uint i = scene->ring_starts[vertex]; i < scene->ring_starts[vertex + 1u]; ++i) {
     __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
     for (uint k = 0u; k < 2u; ++k)
       if (edge->triangle[k] != OX_NONE &&

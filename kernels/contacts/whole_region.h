@@ -28,8 +28,7 @@ static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global 
   const ox_scene* scene = r->scene;
   if (ox_is_vertex(f->flags)) {
     __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
-    const ox_ring ring = ox_ring_of(scene, f->source);
-    for (uint k = ring.first; k < ring.end; ++k)
+    for (uint k = scene->ring_starts[f->source]; k < scene->ring_starts[f->source + 1u]; ++k)
       if (!ox_is_flat_edge(mesh, scene->rings[k].edge)) ox_add_edge(set, scene->rings[k].edge);
   } else if (ox_side_of(f->flags) == side) {
     ox_add_edge(set, f->source);
@@ -94,8 +93,7 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
       if (ox_are_at_facet(scene, f->at[0], f->at[1], facet)) ox_add_edge(set, f->source);
       continue;
     }
-    const ox_ring ring = ox_ring_of(scene, f->source);
-    for (uint i = ring.first; i < ring.end; ++i) {
+    for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
       const uint edge = scene->rings[i].edge;
       if (!ox_is_flat_edge(mesh, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
                                                           scene->edges[edge].triangle[1], facet))

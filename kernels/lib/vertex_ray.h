@@ -56,11 +56,4 @@ static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool 
   hit->from = from;
 }
 
-// A vertex inside that gets no ray: it bounds nothing. `from`: as in ox_hit.
-static inline void ox_append_joint(const ox_scene* scene, uint pair_side, uint vertex, uint from) {
-  const ox_ray ray = {pair_side, vertex, OX_RAY_INSIDE, OX_NONE};
-  const ox_outcome nothing = ox_miss();
-  ox_append_hit(scene, &ray, true, from, &nothing);
-}
-
 #endif

@@ -9,7 +9,6 @@
 #include "mesh/both.h"
 #include "mesh/bvh.h"
 #include "mesh/exit_distance.h"
-#include "mesh/extreme_vertices.h"
 #include "mesh/facets.h"
 #include "mesh/half_edges.h"
 #include "mesh/measures.h"
@@ -99,9 +98,6 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
         const std::vector<Neighbours> across = neighbours(triangles.size(), half_edges);
         if (!mesh.deformable) find_facets(across, mesh, *topology);
         edges = find_edges(mesh.vertices, half_edges, topology->facets);
-        if (!mesh.deformable)
-          mesh.extreme =
-              extreme_vertices(mesh.vertices, triangles, across, edges.apart, mesh.normals);
       });
   connect(std::move(edges), bvh, *topology);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape

@@ -27,8 +27,6 @@ struct Mesh {
   std::vector<Vec3f> normals;
   // Where a ray from the vertex along -normal leaves this mesh [m]; infinity if it never does.
   std::vector<float> exits;
-  // Of each vertex: extreme_vertices.h; empty for a deformable mesh.
-  std::vector<std::uint8_t> extreme;
   // Unit normal of each triangle; zero where its area is zero.
   std::vector<Vec3f> face_normals;
 

@@ -203,7 +203,7 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
       worthwhile_threads(built.triangles.size(), kTrianglesAThread),
       [&] {
         append_edges(built, first);
-        append_rings(mesh, first);
+        append_rings(built, first);
         append_vertices(mesh);
       },
       [&] {
@@ -241,14 +241,11 @@ void MeshRecords::append_edges(const MeshTopology& mesh, const MeshRange& first)
   append_all(mesh.flat_edges);
 }
 
-void MeshRecords::append_rings(const Mesh& mesh, const MeshRange& first) {
-  const MeshTopology& built = *mesh.topology;
-  const Rings rings = build_rings(built.vertex_count, built.edges, built.flat_edges);
+void MeshRecords::append_rings(const MeshTopology& mesh, const MeshRange& first) {
+  const Rings rings = build_rings(mesh.vertex_count, mesh.edges, mesh.flat_edges);
   const auto before = static_cast<ox_u32>(rings_.size());
-  for (std::size_t v = 0; v < built.vertex_count; ++v) {
-    const bool bounds = mesh.extreme.empty() || mesh.extreme[v] != 0;
-    ring_starts_.push_back((before + rings.starts[v]) | (bounds ? 0u : OX_RING_BOUNDS_NOTHING));
-  }
+  for (std::size_t v = 0; v < mesh.vertex_count; ++v)
+    ring_starts_.push_back(before + rings.starts[v]);
   for (const RingNeighbour& neighbour : rings.neighbours)
     rings_.push_back({first.vertex_first + neighbour.vertex, first.edge_first + neighbour.edge});
 }

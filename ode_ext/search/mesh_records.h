@@ -54,7 +54,7 @@ class MeshRecords {
   void append_vertices(const Mesh& mesh);
   void append_triangles(const Mesh& mesh, const MeshRange& first);
   void append_edges(const MeshTopology& mesh, const MeshRange& first);
-  void append_rings(const Mesh& mesh, const MeshRange& first);
+  void append_rings(const MeshTopology& mesh, const MeshRange& first);
 
   MappedRecords<ox_chunk> chunks_;
   MappedRecords<ox_vertex> vertices_;

@@ -28,14 +28,14 @@ StepRecords assembled(const TestScene& scene) {
 }
 
 // Side, the ends of the edge in its own frame, and the triangle crossed; of a vertex inside itself
-// twice, and none. What bounds nothing is of no contact, and left out.
+// twice, and none. What is within facets is of no contact, and left out.
 using FeatureKey = std::tuple<int, Point, Point, int>;
 using Regions = std::map<FeatureKey, std::size_t>;  // of features
 
 Regions regions_of(const TestScene& scene, const StepRecords& records, std::size_t pair) {
   Regions regions;
   for (const ox_feature& f : records.features) {
-    if (f.pair != pair || (f.flags & OX_FEATURE_BOUNDS_NOTHING) != 0) continue;
+    if (f.pair != pair || (f.flags & OX_FEATURE_FLAT) != 0) continue;
     const std::size_t side = f.flags & OX_FEATURE_SIDE;
     const std::uint32_t source = scene.objects[scene.pairs[pair][side]].mesh;
     const std::uint32_t target = scene.objects[scene.pairs[pair][1 - side]].mesh;
@@ -59,17 +59,7 @@ Regions regions_of(const TestScene& scene, const StepRecords& records, std::size
   return regions;
 }
 
-// The vertices of a mesh that are not extreme, nor within facets.
-std::set<Point> inner_vertices(const Mesh& mesh) {
-  std::set<Point> inner;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (mesh.extreme[v] == 0) inner.insert(point_of(mesh.vertices[v]));
-  return inner;
-}
-
-// The reference leaves out what is within facets alone; here valleys of solids too.
-Regions regions_of(const TestScene& scene, std::size_t pair, const ContactMesh& a,
-                   const ContactMesh& b, const ContactFeatures& found) {
+Regions regions_of(const ContactMesh& a, const ContactMesh& b, const ContactFeatures& found) {
   Regions regions;
   for (const ContactFeature& f : found.features) {
     if (f.flat) continue;
@@ -77,12 +67,9 @@ Regions regions_of(const TestScene& scene, std::size_t pair, const ContactMesh& 
     const auto side = static_cast<int>(f.side);
     if (!f.is_crossing()) {
       const Point& p = source.vertices[f.vertex];
-      if (!inner_vertices(scene.built_mesh_of(pair, f.side)).contains(p))
-        regions[{side, p, p, -1}] = f.region;
+      regions[{side, p, p, -1}] = f.region;
       continue;
     }
-    if (source.closed && source.edges[f.edge].rise > kInflation * pair_epsilon(scene, pair))
-      continue;
     const auto& ends = source.edges[f.edge].vertices;
     regions[{side, source.vertices[ends[0]], source.vertices[ends[1]],
              target.source_triangle[f.triangle]}] = f.region;
@@ -147,8 +134,8 @@ Agreement compare(const TestScene& scene, bool are_convex = false) {
       continue;
     }
     const ReferenceContacts expected = reference_contacts(meshes[a], pa, meshes[b], pb);
-    const auto same = matched(regions_of(scene, records, i),
-                              regions_of(scene, i, meshes[a], meshes[b], expected.found));
+    const auto same =
+        matched(regions_of(scene, records, i), regions_of(meshes[a], meshes[b], expected.found));
     if (!same) {
       ++agreement.other_features;
       continue;

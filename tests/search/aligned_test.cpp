@@ -69,7 +69,7 @@ TEST(Aligned, HitsFromInsideAndOnlyFromThere) {
         const TestPose &ps = scene.pose_of(i, side), &pt = scene.pose_of(i, 1 - side);
         const Mesh& source = scene.built_mesh_of(i, side);
         const oracle::Mesh& solid = solids[scene.objects[scene.pairs[i][1 - side]].mesh];
-        const auto roles = roles_of(source, scene.built_mesh_of(i, 1 - side));
+        const auto bounds = bounding_vertices(source, scene.built_mesh_of(i, 1 - side));
         for (std::uint32_t v = 0; v < source.vertices.size(); ++v) {
           const Point p = rotate_back(
               pt, rotate(ps, point_of(source.vertices[v])) + (ps.position - pt.position));
@@ -78,7 +78,7 @@ TEST(Aligned, HitsFromInsideAndOnlyFromThere) {
           if (distance < -doubt) {
             ++inside;
             // A flood leaves out what bounds nothing.
-            EXPECT_TRUE(flooded ? may_be_listed(roles[v], true, is_hit) : is_hit)
+            EXPECT_EQ(is_hit, !flooded || bounds[v])
                 << "pair " << i << " side " << side << ", deep " << -distance << ", flooded "
                 << flooded;
           } else if (distance > doubt) {

@@ -53,25 +53,13 @@ class InsideOracle {
   std::unique_ptr<oracle::TriangleTree> surface_;
 };
 
-// What a vertex is if it is inside: a hit if it is extreme, or else it bounds nothing; perhaps one
-// where faces turn at it, if crossings hang together by it; within a facet none.
-enum class Role { kWithinFacet, kNotExtreme, kExtreme };
-
-// Of each vertex. Beside a deformable mesh any may bound something.
-inline std::vector<Role> roles_of(const Mesh& mesh, const Mesh& other) {
-  if (mesh.deformable || other.deformable)
-    return std::vector<Role>(mesh.vertices.size(), Role::kExtreme);
-  std::vector<Role> roles(mesh.vertices.size(), Role::kWithinFacet);
+// Of each vertex whether a face turns at it: within a facet it bounds nothing. Beside a deformable
+// mesh any may.
+inline std::vector<bool> bounding_vertices(const Mesh& mesh, const Mesh& other) {
+  std::vector<bool> bounds(mesh.vertices.size(), mesh.deformable || other.deformable);
   for (const Edge& edge : mesh.topology->edges)
-    for (const std::uint32_t vertex : edge.vertices)
-      roles[vertex] = mesh.extreme[vertex] != 0 ? Role::kExtreme : Role::kNotExtreme;
-  return roles;
-}
-
-// Whether a vertex of that role may be a hit of a flood, or be none, by whether it is inside.
-inline bool may_be_listed(Role role, bool is_inside, bool is_listed) {
-  if (role == Role::kExtreme) return is_listed == is_inside;
-  return !is_listed || (role == Role::kNotExtreme && is_inside);
+    for (const std::uint32_t vertex : edge.vertices) bounds[vertex] = true;
+  return bounds;
 }
 
 // Pair << 1 | side, and the vertex, counted within its mesh.
@@ -86,8 +74,8 @@ class InsideOracles {
   }
 
   // What the records of a flood list beside what they should, which is the vertices inside that
-  // bound something, and some of the others; a line for each difference. Of open targets nothing
-  // is said, nor of vertices so near to the surface that either is right, which `near` counts.
+  // bound something; a line for each difference. Of open targets nothing is said, nor of vertices
+  // so near to the surface that either is right, which `near` counts.
   std::vector<std::string> differences(const Scene& scene, const StepRecords& records) {
     std::set<SideVertex> listed;
     for (const ox_hit& hit : records.hits)
@@ -99,7 +87,7 @@ class InsideOracles {
       const InsideOracle& target = of(scene.meshes[mesh_of(scene, i ^ 1)]);
       if (!target.closed()) continue;
       const double doubt = kDoubt * static_cast<double>(records.pairs[i >> 1].epsilon);
-      const auto roles = roles_of(*source, *scene.meshes[mesh_of(scene, i ^ 1)]);
+      const auto bounds = bounding_vertices(*source, *scene.meshes[mesh_of(scene, i ^ 1)]);
       for (std::uint32_t v = 0; v < source->vertices.size(); ++v) {
         const Point p = in_target(scene, i, source->vertices[v]);
         const bool maybe = target.may_be_inside(p, doubt);
@@ -107,13 +95,11 @@ class InsideOracles {
           ++near;
           continue;
         }
-        const bool inside = maybe && target.is_inside(p), is_listed = listed.contains({i, v});
-        if (!may_be_listed(roles[v], inside, is_listed))
+        const bool inside = maybe && bounds[v] && target.is_inside(p);
+        if (inside != listed.contains({i, v}))
           lines.push_back("pair " + std::to_string(i >> 1) + " side " + std::to_string(i & 1) +
                           " vertex " + std::to_string(v) +
-                          (!is_listed ? " is inside and not listed"
-                           : inside   ? " is listed and within a facet"
-                                      : " is listed and not inside"));
+                          (inside ? " is inside and not listed" : " is listed and not inside"));
       }
     }
     return lines;

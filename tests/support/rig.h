@@ -53,7 +53,7 @@ struct StepRecords {
   std::vector<ox_u32> features_of(const ox_region& region) const {
     std::vector<ox_u32> members;
     const Fields list{member_words.data() + OX_MEMBER_WORDS * region.first, region.count};
-    for (std::size_t i = 0; i < region.placed; ++i)
+    for (std::size_t i = 0; i < region.count; ++i)
       members.push_back(list.word(OX_MEMBER_FEATURE, i));
     return members;
   }

@@ -122,7 +122,7 @@ class Audit {
                                          *solids_[mesh_of(pair, 1)], scene_.pose_of(pair, 1));
     const Mesh& mesh = scene_.built_mesh_of(pair, side);
     const auto& vertices = mesh.vertices;
-    const auto roles = roles_of(mesh, scene_.built_mesh_of(pair, 1 - side));
+    const auto bounds = bounding_vertices(mesh, scene_.built_mesh_of(pair, 1 - side));
     for (std::uint32_t v = 0; v < vertices.size(); ++v) {
       const Point p =
           rotate_back(pt, rotate(ps, point_of(vertices[v])) + (ps.position - pt.position));
@@ -136,7 +136,7 @@ class Audit {
         continue;
       }
       counts_.inside += distance < 0;
-      if (!may_be_listed(roles[v], distance < 0, found))
+      if (found != (distance < 0 && bounds[v]))
         report("pair " + std::to_string(pair) + " side " + std::to_string(side) + ": vertex " +
                std::to_string(v) + " is " + std::to_string(1e6 * distance) +
                " um from the surface and " + (found ? "has a hit" : "has none"));
