@@ -169,5 +169,72 @@ TEST(Concave, ContactsAtTrianglesOfNoAreaAreThoseOfTheRoofWithoutThem) {
         }
 }
 
+struct Cuts {
+  int around, across;
+};
+
+// The inside of one ring against that of another: both surfaces are saddles there. The planes of
+// faces beside the place cut through the ring that they are of, so that points of the other have
+// less far to go past these, and are still inside.
+
+TEST(Concave, ContactsOfLinksOfAChainAreAsDeepAsTheyOverlapHoweverTheyAreCut) {
+  const double deep = 0.02;
+  for (const Cuts& cuts : {Cuts{16, 8}, Cuts{48, 24}, Cuts{96, 48}, Cuts{192, 96}}) {
+    SCOPED_TRACE(cuts.around);
+    const TestMesh link = make_torus(0.4, 0.1, cuts.around, cuts.across);
+    const Placed placed{link, link, at(0, 0, 0),
+                        turned({1, 0, 0}, std::numbers::pi / 2, {0.6 + deep, 0, 0})};
+    for (const TestPose& frame : some_frames()) {
+      const std::vector<Contact> found = placed.contacts(frame);
+      ASSERT_FALSE(found.empty());
+      const Contact deepest = deepest_of(found);
+      EXPECT_GT(deepest.depth, 0.88 * deep);
+      EXPECT_LT(deepest.depth, 1.01 * deep);
+      // As far off as a face is turned at most.
+      EXPECT_GT(deepest.normal.x, std::cos(2 * std::numbers::pi / cuts.around) - 0.02);
+    }
+  }
+}
+
+// Closed, about z from -1 to 1; its waist is at 0.
+TestMesh make_spool(int sides, int rings) {
+  TestMesh mesh;
+  for (int r = 0; r <= rings; ++r) {
+    const double z = 2.0 * r / rings - 1, radius = 0.3 + 0.7 * z * z;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      for (const double v : {radius * std::cos(angle), radius * std::sin(angle), z})
+        mesh.vertices.push_back(static_cast<float>(v));
+    }
+  }
+  const auto at = [&](int r, int k) { return static_cast<unsigned>(r * sides + k % sides); };
+  for (int r = 0; r < rings; ++r)
+    for (int k = 0; k < sides; ++k)
+      mesh.indices.insert(mesh.indices.end(), {at(r, k), at(r, k + 1), at(r + 1, k + 1), at(r, k),
+                                               at(r + 1, k + 1), at(r + 1, k)});
+  for (int k = 1; k + 1 < sides; ++k) {
+    mesh.indices.insert(mesh.indices.end(), {at(0, 0), at(0, k + 1), at(0, k)});
+    mesh.indices.insert(mesh.indices.end(), {at(rings, 0), at(rings, k), at(rings, k + 1)});
+  }
+  return mesh;
+}
+
+// Its waist is saddles all round: no vertex in the plate is the outermost in any direction.
+TEST(Concave, ContactsOfASpoolInAPlateSendItOutHoweverItIsCut) {
+  for (const Cuts& cuts : {Cuts{6, 2}, Cuts{12, 8}, Cuts{24, 16}, Cuts{48, 32}}) {
+    SCOPED_TRACE(cuts.around);
+    const Placed placed{make_spool(cuts.around, cuts.across), make_plate(4, 1, 2), at(0, 0, 0.1),
+                        at(0, 0, 0)};
+    for (const TestPose& frame : some_frames()) {
+      const std::vector<Contact> found = placed.contacts(frame);
+      ASSERT_FALSE(found.empty());
+      const Contact deepest = deepest_of(found);
+      EXPECT_GT(deepest.depth, 0.4 - 1e-5);
+      EXPECT_LT(deepest.depth, 1.0);
+      EXPECT_GT(std::fabs(deepest.normal.z), 0.999);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
