@@ -124,9 +124,9 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
 }
 
 // The best plane for a unit. Where one does not separate it, the way along its normal is past all
-// of both bodies. Of a surface that bends inwards there are many that cost less than the face that
-// the unit leaves by and do not separate it; so that is asked after few of them, and taken if it
-// takes no more of the moves before it back.
+// of both bodies. Of a surface that bends inwards there are many that cost less than what the unit
+// proposes itself and do not separate it; so that is asked after few of them, and taken if it takes
+// no more of the moves before it back.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_moves* before) {
   ox_seed seed = ox_seed_of(r, unit, before);
@@ -140,13 +140,17 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
     choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
     if (ox_is_better_choice(&choice, &of_body)) of_body = choice;
   }
-  ox_plane_choice own = ox_no_choice();
+  if (seed.refused.count < OX_FEW) return of_body;
+  ox_plane_choice own = of_body;
   const ox_plane plane = ox_own_plane(r, unit);
   ox_try_unit(r, &seed, &plane, &own);
-  const bool is_better = own.plane.kind != OX_PLANE_NONE && ox_is_better_choice(&own, &of_body) &&
-                         ox_taken_back(before, own.plane.normal, own.depth) <=
-                             ox_taken_back(before, of_body.plane.normal, of_body.depth);
-  return is_better && !ox_unit_stays(r, &seed, &own) ? own : of_body;
+  const float allowed = ox_taken_back(before, of_body.plane.normal, of_body.depth) +
+                        OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  return ox_is_better_choice(&own, &of_body) &&
+                 ox_taken_back(before, own.plane.normal, own.depth) <= allowed &&
+                 !ox_unit_stays(r, &seed, &own)
+             ? own
+             : of_body;
 }
 
 // The plane by which the last move clears a unit: its own, or else the least of the unit's best and
