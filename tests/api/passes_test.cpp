@@ -150,6 +150,21 @@ TEST_F(ApiPasses, SurviveAGeomGivenAnotherMesh) {
   EXPECT_EQ(difference_with_geoms(after, fresh_answer(g1, g2)), "");
 }
 
+// One of the two is behind the other in its space, which ODE takes for one that has not moved.
+TEST_F(ApiPasses, SurviveGeomsGivenAnotherMeshThatThenMove) {
+  const dTriMeshDataID ball = world.mesh(make_icosphere(0.5, 2)).id();
+  for (const dGeomID geom : {g1, g2}) {
+    collider.pass(space);
+    set_mesh(geom, ball);
+    TestPose pose = pose_of(geom);
+    pose.position[1] += 0.01;
+    set_pose(geom, pose);
+    collider.pass(space);
+    EXPECT_FALSE(collide(g1, g2).empty());
+    EXPECT_EQ(difference_with_geoms(collide(g1, g2), fresh_answer(g1, g2)), "");
+  }
+}
+
 TEST_F(ApiPasses, SeeAGeomGivenAnotherMeshWithoutAPass) {
   collider.pass(space);
   set_mesh(g1, world.mesh(make_icosphere(0.5, 2)).id());

@@ -149,7 +149,10 @@ void set_pose(dGeomID geom, const TestPose& pose) {
 }
 
 void set_mesh(dGeomID geom, dTriMeshDataID mesh) {
+  const dSpaceID space = dGeomGetSpace(geom);
+  if (space != nullptr) dSpaceRemove(space, geom);
   dGeomTriMeshSetData(geom, mesh);
+  if (space != nullptr) dSpaceAdd(space, geom);
   dReal box[6];
   dGeomGetAABB(geom, box);
 }

@@ -67,8 +67,9 @@ class OdeWorld {
 };
 
 void set_pose(dGeomID geom, const TestPose& pose);
-// dGeomTriMeshSetData marks the geom's box as stale but tells the geom's space nothing, and the
-// next dSpaceCollide aborts; asking for the box mends that.
+// dGeomTriMeshSetData marks the geom as moved but leaves it in its space among those that did not,
+// where ODE does not look for it: a later dSpaceCollide aborts (docs/reliability.md). So it is
+// taken out and put back. The box is sized at once.
 void set_mesh(dGeomID geom, dTriMeshDataID mesh);
 TestPose pose_of(dGeomID geom);
 bool is_mesh(dGeomID geom);
