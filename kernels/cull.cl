@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cull: which meshlets of one mesh of a pair can meet the other mesh? Of that which has more of
-// them, so that there is work for many; the other is searched by each of them (match.cl).
+// Cull: which meshlets of one mesh of a pair can meet the other mesh, and which parts of it? Of
+// that which has more of them, so that there is work for many; each of them searches its parts
+// (match.cl).
 //
 // in    pairs, meshes, meshlet_nodes
 // out   meshlet_tasks
@@ -9,28 +10,34 @@
 #include "lib/meshlet.h"
 
 typedef struct {
+  uint pair_side;
   uint count;
   uint meshlet[OX_MOST_AT_ONCE];
+  uint part[OX_MOST_AT_ONCE];
 } ox_kept_meshlets;
 
-static void ox_store_meshlets(const ox_scene* scene, uint pair_side, ox_kept_meshlets* kept) {
+static void ox_store_meshlets(const ox_scene* scene, ox_kept_meshlets* kept) {
   uint stored;
   const uint first = ox_append_many(scene, OX_LIST_MESHLETS, kept->count, &stored);
   for (uint i = 0u; i < stored; ++i) {
-    scene->meshlet_tasks[first + i].pair_side = pair_side;
-    scene->meshlet_tasks[first + i].meshlet = kept->meshlet[i];
+    __global ox_meshlet_task* task = scene->meshlet_tasks + first + i;
+    task->pair_side = kept->pair_side;
+    task->meshlet = kept->meshlet[i];
+    task->part = kept->part[i];
   }
   kept->count = 0u;
 }
 
-// A block of children of a node of the source, in the frame of the target.
+// A block of children of a node of the source, their boxes in the frame of the target.
 typedef struct {
-  float middle[3][OX_VECTOR_WIDTH];
-  float size[3][OX_VECTOR_WIDTH];  // from there to the sides of the box about its box
+  float lo[3][OX_VECTOR_WIDTH];
+  float hi[3][OX_VECTOR_WIDTH];
+  uint met;                       // a bit for each whose box there meets that of the target
+  uint meshlets;                  // for each of these that is a meshlet
+  uint meshlet[OX_VECTOR_WIDTH];  // over all meshes, of these
 } ox_children_there;
 
-// Returns a bit for each child whose box there meets that of the target.
-static uint ox_place_children(__global const ox_pair* pair, uint side,
+static void ox_place_children(__global const ox_pair* pair, uint side,
                               __global const ox_mesh* target, __global const ox_meshlet_node* node,
                               uint block, ox_children_there* there) {
   const ox_floats lo_x = ox_load(block, node->lo[0]), hi_x = ox_load(block, node->hi[0]);
@@ -39,27 +46,132 @@ static uint ox_place_children(__global const ox_pair* pair, uint side,
   const ox_floats x = 0.5f * (lo_x + hi_x), half_x = 0.5f * (hi_x - lo_x);
   const ox_floats y = 0.5f * (lo_y + hi_y), half_y = 0.5f * (hi_y - lo_y);
   const ox_floats z = 0.5f * (lo_z + hi_z), half_z = 0.5f * (hi_z - lo_z);
-  uint met = ox_present_children(node, block);
+  there->met = ox_present_children(node, block);
   for (uint axis = 0u; axis < 3u; ++axis) {
     __global const float* r = pair->rotation[side] + 3u * axis;
     const ox_floats middle = r[0] * x + r[1] * y + r[2] * z + pair->offset[side][axis];
     const ox_floats size =
         fabs(r[0]) * half_x + fabs(r[1]) * half_y + fabs(r[2]) * half_z + pair->margin;
     const ox_ints meets = fabs(middle - target->box_centre[axis]) <= size + target->box_half[axis];
-    met &= ox_mask_of(&meets);
-    ox_store(middle, 0, there->middle[axis]);
-    ox_store(size, 0, there->size[axis]);
+    there->met &= ox_mask_of(&meets);
+    ox_store(middle - size, 0, there->lo[axis]);
+    ox_store(middle + size, 0, there->hi[axis]);
   }
-  return met;
 }
 
-static bool ox_meets_target(const ox_scene* scene, const ox_children_there* there, uint lane,
-                            __global const ox_mesh* target) {
-  const float3 middle =
-      (float3)(there->middle[0][lane], there->middle[1][lane], there->middle[2][lane]);
-  const float3 size = (float3)(there->size[0][lane], there->size[1][lane], there->size[2][lane]);
-  const ox_box box = {middle - size, middle + size};
-  return ox_meets_meshlets(&box, target, scene->surfaces.nodes);
+// A bit for each of the children whose box there meets another.
+static uint ox_children_meeting(const ox_children_there* there, float3 lo, float3 hi) {
+  const ox_ints met =
+      (ox_load_own(0, there->lo[0]) <= hi.x) & (ox_load_own(0, there->hi[0]) >= lo.x) &
+      (ox_load_own(0, there->lo[1]) <= hi.y) & (ox_load_own(0, there->hi[1]) >= lo.y) &
+      (ox_load_own(0, there->lo[2]) <= hi.z) & (ox_load_own(0, there->hi[2]) >= lo.z);
+  return ox_mask_of(&met);
+}
+
+// The box about the boxes of some.
+static ox_box ox_box_about(const ox_children_there* there, uint children) {
+  ox_box box = {(float3)(INFINITY), (float3)(-INFINITY)};
+  for (; children != 0u; children &= children - 1u) {
+    const uint k = ox_lowest(children);
+    box.lo = OX_LESSER(box.lo, (float3)(there->lo[0][k], there->lo[1][k], there->lo[2][k]));
+    box.hi = OX_GREATER(box.hi, (float3)(there->hi[0][k], there->hi[1][k], there->hi[2][k]));
+  }
+  return box;
+}
+
+// Parts of the tree over the target, nodes as children of others, and the children of a block
+// that meet them, a bit for each: those still to be gone through, and those that meshlets met.
+typedef struct {
+  uint part[OX_TREE_STACK];
+  uint children[OX_TREE_STACK];
+  uint count;
+} ox_part_walk;
+
+typedef struct {
+  uint part[OX_MOST_PARTS];
+  uint children[OX_MOST_PARTS];
+  uint count;
+} ox_met_parts;
+
+// Keeps those that are meshlets, each with its parts one after the other.
+static void ox_keep_meshlets(const ox_scene* scene, const ox_children_there* there,
+                             const ox_met_parts* parts, ox_kept_meshlets* kept) {
+  for (uint left = there->meshlets; left != 0u; left &= left - 1u) {
+    const uint k = ox_lowest(left);
+    for (uint i = 0u; i < parts->count; ++i) {
+      if ((parts->children[i] >> k & 1u) == 0u) continue;
+      kept->meshlet[kept->count] = there->meshlet[k];
+      kept->part[kept->count++] = parts->part[i];
+      if (kept->count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, kept);
+    }
+  }
+}
+
+// So few meshlets of a block are not worth a way down here (docs/performance.md): they go all of it
+// in match.cl, as do those that meet more parts than OX_MOST_PARTS. So does each on a GPU, where a
+// block is one child and match has an item for each.
+#define OX_FEW_MESHLETS 2u
+
+// Goes down the tree over the target with all children of a block at once. A child that is a
+// meshlet is kept with each node at which it first meets a meshlet's box; returned is a bit for
+// each other child that meets one anywhere. A box over hills is mostly empty: many meshlets at once
+// are asked for what is in it.
+static uint ox_meet_target(const ox_scene* scene, __global const ox_mesh* target,
+                           const ox_children_there* there, ox_kept_meshlets* kept) {
+  ox_met_parts found;
+  found.count = 0u;
+  uint done = 0u;  // nodes that met a meshlet, meshlets listed with all of the target
+  if (popcount(there->meshlets) <= OX_FEW_MESHLETS) {
+    found.part[0] = OX_TREE_ROOT;
+    found.children[0] = there->meshlets;
+    found.count = 1u;
+    done = there->meshlets;
+  }
+  const ox_box all = ox_box_about(there, there->met & ~done);
+  ox_part_walk walk;
+  walk.count = 1u;
+  walk.part[0] = OX_TREE_ROOT;
+  walk.children[0] = there->met;
+  while (walk.count != 0u) {
+    uint part = walk.part[--walk.count];
+    const uint children = walk.children[walk.count] & ~done;
+    if (children == 0u) continue;
+    __global const ox_meshlet_node* node =
+        scene->surfaces.nodes + target->meshlet_node_first + (part >> 1);
+    const uint begin = walk.count;
+    uint ended = 0u;  // there: they have met a meshlet
+    for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
+      uint asked = ox_children_in_box(&all, node, first / OX_VECTOR_WIDTH);
+      for (; asked != 0u; asked &= asked - 1u) {
+        const uint k = first + ox_lowest(asked);
+        const float3 lo = (float3)(node->lo[0][k], node->lo[1][k], node->lo[2][k]);
+        const float3 hi = (float3)(node->hi[0][k], node->hi[1][k], node->hi[2][k]);
+        const uint meeting = children & ox_children_meeting(there, lo, hi);
+        if (meeting == 0u) continue;
+        if ((node->child[k] & OX_CHILD_MESHLET) != 0u) {
+          ended |= meeting;
+        } else {
+          walk.part[walk.count] = node->child[k];
+          walk.children[walk.count++] = meeting;
+        }
+      }
+    }
+    if (ended == 0u) continue;
+    done |= ended & ~there->meshlets;
+    for (uint i = begin; i < walk.count; ++i) walk.children[i] &= ~ended;
+    ended &= there->meshlets;
+    if (ended == 0u) continue;
+    if (found.count == OX_MOST_PARTS) {
+      part = OX_TREE_ROOT;
+      ended = there->meshlets;
+      done |= ended;
+      found.count = 0u;
+    }
+    found.part[found.count] = part;
+    found.children[found.count++] = ended;
+  }
+  ox_keep_meshlets(scene, there, &found, kept);
+  return done & ~there->meshlets;
 }
 
 static void ox_cull(const ox_scene* scene) {
@@ -72,35 +184,38 @@ static void ox_cull(const ox_scene* scene) {
             : 0u;
     __global const ox_mesh* source = scene->meshes + pair->mesh[side];
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
+    if (!ox_has_tree(target)) continue;
     const ox_box box = ox_target_box(pair, side, target);
     ox_kept_meshlets kept;
+    kept.pair_side = p << 1 | side;
     kept.count = 0u;
     ox_box_walk walk = ox_begin_box_walk(source);
     while (walk.count != 0u) {
       const uint child = walk.child[--walk.count];
-      if ((child & OX_CHILD_MESHLET) != 0u) {
-        kept.meshlet[kept.count++] = source->meshlet_first + (child >> 1);
-        if (kept.count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, p << 1 | side, &kept);
-        continue;
-      }
       __global const ox_meshlet_node* node =
           scene->surfaces.nodes + source->meshlet_node_first + (child >> 1);
       for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
         const uint block = first / OX_VECTOR_WIDTH;
-        uint met = ox_children_in_box(&box, node, block);
-        if (met == 0u) continue;
+        const uint in_box = ox_children_in_box(&box, node, block);
+        if (in_box == 0u) continue;
         ox_children_there there;
-        met &= ox_place_children(pair, side, target, node, block, &there);
-        for (; met != 0u; met &= met - 1u) {
-          const uint lane = ox_lowest(met);
-          const uint next = node->child[first + lane];
-          // A box over hills is mostly empty: many meshlets at once are asked for what is in it.
-          if ((next & OX_CHILD_MESHLET) != 0u || ox_meets_target(scene, &there, lane, target))
-            walk.child[walk.count++] = next;
+        ox_place_children(pair, side, target, node, block, &there);
+        there.met &= in_box;
+        there.meshlets = 0u;
+        for (uint left = there.met; left != 0u; left &= left - 1u) {
+          const uint k = ox_lowest(left);
+          const uint one = node->child[first + k];
+          if ((one & OX_CHILD_MESHLET) == 0u) continue;
+          there.meshlets |= 1u << k;
+          there.meshlet[k] = source->meshlet_first + (one >> 1);
         }
+        if (there.met == 0u) continue;
+        uint nodes = ox_meet_target(scene, target, &there, &kept);
+        for (; nodes != 0u; nodes &= nodes - 1u)
+          walk.child[walk.count++] = node->child[first + ox_lowest(nodes)];
       }
     }
-    if (kept.count != 0u) ox_store_meshlets(scene, p << 1 | side, &kept);
+    if (kept.count != 0u) ox_store_meshlets(scene, &kept);
   }
 }
 

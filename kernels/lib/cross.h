@@ -125,6 +125,26 @@ static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source
   return near;
 }
 
+// The triangles of a meshlet that may cross the other one, of some blocks of its lanes.
+static inline uint ox_find_near_triangles(__global const ox_meshlet* target,
+                                          const ox_general_points* points, ox_block_range blocks) {
+  uint near = 0u;
+  for (uint block = blocks.first; block < blocks.end; ++block) {
+    ox_ints beyond = -1;
+    for (uint corner = 0u; corner < 3u; ++corner) {
+      const ox_ints lanes =
+          ox_load_ints(block, target->places) >> (int)OX_CORNER_SHIFT(corner) & 255;
+      ox_ints of_corner;
+      ox_pick_ints(points->beyond, &lanes, &of_corner);
+      beyond &= of_corner;
+    }
+    const ox_ints is_near = beyond == 0;
+    near |= (ox_mask_of(&is_near) & ox_present_lanes(target->triangle_count, block))
+            << (OX_VECTOR_WIDTH * block);
+  }
+  return near;
+}
+
 // A meshlet of a pair in general position, and its triangles once they are asked about.
 typedef struct {
   uint meshlet;  // over all meshes
@@ -203,11 +223,13 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
   const ox_general_points* points = &placed->of[side].points;
   const ox_near_edges near = ox_find_near_edges(source, points);
   if ((near.edges[0] | near.edges[1]) == 0u) return;
+  ox_placed_meshlet* faces = &placed->of[1u - side];
+  const uint near_triangles = ox_find_near_triangles(target, &faces->points, blocks);
+  if (near_triangles == 0u) return;
   const uint flags =
       ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side])
           ? OX_NEW_FLOODED
           : 0u;
-  ox_placed_meshlet* faces = &placed->of[1u - side];
   ox_place_triangles(target, blocks, faces);
   const ox_general_triangles* t = &faces->triangles;
   ox_heights heights[OX_LANES];
@@ -215,7 +237,6 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
     const uint v = ox_lowest(asked);
     heights[v] = ox_heights_over(t, &faces->planes, blocks, reach, ox_general_point(points, v));
   }
-  const uint present = (1u << target->triangle_count) - 1u;
   uint left[2] = {near.edges[0], near.edges[1]};
   while ((left[0] | left[1]) != 0u) {
     const uint odd = left[0] == 0u ? 1u : 0u;
@@ -224,7 +245,7 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
     const uint p = OX_END(source->ends, e, 0u);
     const uint q = OX_END(source->ends, e, 1u);
     const uint doubt = heights[p].doubt | heights[q].doubt;
-    uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & present;
+    uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & near_triangles;
     if (asked_of == 0u) continue;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);

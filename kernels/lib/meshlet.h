@@ -59,7 +59,8 @@ static inline ox_slab ox_slab_there(__global const ox_pair* pair, uint side,
   return slab;
 }
 
-// The slab of a meshlet of B in its own frame.
+// The slab of a meshlet in its own frame. Of A, whose vertices go out by OX_INFLATION times epsilon
+// and onto a grid, only against what the margin is added to: that is twice as much and more.
 static inline ox_slab ox_slab_of(__global const ox_pair* pair, __global const ox_meshlet* meshlet) {
   const ox_slab slab = {vload3(0, meshlet->slab_normal), meshlet->slab_lo - OX_SLAB_ROUNDING(pair),
                         meshlet->slab_hi + OX_SLAB_ROUNDING(pair)};

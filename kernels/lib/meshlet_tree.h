@@ -171,13 +171,6 @@ static inline uint ox_next_in_box(ox_box_walk* walk, const ox_box* box,
   return OX_NONE;
 }
 
-// Whether a box meets that of any meshlet of a mesh.
-static inline bool ox_meets_meshlets(const ox_box* box, __global const ox_mesh* mesh,
-                                     __global const ox_meshlet_node* all_nodes) {
-  ox_box_walk walk = ox_begin_box_walk(mesh);
-  return ox_next_in_box(&walk, box, mesh, all_nodes) != OX_NONE;
-}
-
 // The box of mesh 1 - `side` of a pair in the frame of mesh `side`.
 static inline ox_box ox_target_box(__global const ox_pair* pair, uint side,
                                    __global const ox_mesh* target) {
@@ -193,6 +186,13 @@ typedef struct {
   float3 normal;
   float lo, hi;  // [m] along it
 } ox_slab;
+
+static inline bool ox_box_meets_slab(const ox_box* box, const ox_slab* slab) {
+  const float3 n = 0.5f * slab->normal;
+  const float middle = ox_dot(n, box->lo + box->hi);
+  const float reach = ox_dot(fabs(n), box->hi - box->lo);
+  return middle - reach <= slab->hi && middle + reach >= slab->lo;
+}
 
 // A block of the children whose boxes meet a slab, a bit for each.
 static inline uint ox_children_in_slab(const ox_slab* slab, __global const ox_meshlet_node* node,

@@ -95,7 +95,10 @@ bool Workload::is_settled() {
   if (!may_lose() && lists_.overflowed(counts)) {
     // What comes after a list that overflowed has not seen everything, so its count is only a lower
     // bound and may overflow in the next attempt; each mends at least one list.
-    for (std::size_t i = 0; i < kListCount; ++i) needed_[i] = std::max(needed_[i], counts[i]);
+    for (std::size_t i = 0; i < kListCount; ++i) {
+      needed_[i] = std::max(needed_[i], counts[i]);
+      most_[i] = std::max(most_[i], counts[i]);  // whatever was thought the worst case
+    }
     measured_ = true;
     // To backtrack, the true counts have to be known: it is tried again, for them alone.
     if (misprediction_ == Misprediction::kBacktrack)

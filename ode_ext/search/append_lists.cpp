@@ -27,7 +27,7 @@ ListCounts room_of_a_share(std::size_t shares) {
   ListCounts counts{};
   counts[OX_LIST_CHUNKS] = features / 4;
   counts[OX_LIST_RAYS] = features;
-  counts[OX_LIST_MESHLETS] = features;
+  counts[OX_LIST_MESHLETS] = 4 * features;
   counts[OX_LIST_MESHLET_PAIRS] = 4 * features;
   counts[OX_LIST_HITS] = features;
   counts[OX_LIST_CROSSINGS] = features;
@@ -208,7 +208,8 @@ void AppendLists::reserve_features(std::uint64_t count) {
 
 bool AppendLists::overflowed(const ListCounts& counts) const {
   for (std::size_t i = 0; i < kListCount; ++i)
-    if (counts[i] > capacities_[i]) return true;
+    if (counts[i] > host_lists_[i].capacity)
+      return true;  // which may be less than there is room for
   return false;
 }
 
