@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cull: which meshlets of one mesh of a pair can meet the other mesh, and which parts of it? Of
-// that which has more of them, so that there is work for many; each of them searches its parts
+// Cull: which meshlets of one mesh of a pair can meet the other mesh, and which subtrees of it? Of
+// that which has more of them, so that there is work for many; each of them searches its subtrees
 // (match.cl).
 //
 // in    pairs, meshes, meshlet_nodes
@@ -13,7 +13,7 @@ typedef struct {
   uint pair_side;
   uint count;
   uint meshlet[OX_MOST_AT_ONCE];
-  uint part[OX_MOST_AT_ONCE];
+  uint subtree[OX_MOST_AT_ONCE];
 } ox_kept_meshlets;
 
 static void ox_store_meshlets(const ox_scene* scene, ox_kept_meshlets* kept) {
@@ -23,7 +23,7 @@ static void ox_store_meshlets(const ox_scene* scene, ox_kept_meshlets* kept) {
     __global ox_meshlet_task* task = scene->meshlet_tasks + first + i;
     task->pair_side = kept->pair_side;
     task->meshlet = kept->meshlet[i];
-    task->part = kept->part[i];
+    task->subtree = kept->subtree[i];
   }
   kept->count = 0u;
 }
@@ -82,34 +82,34 @@ static ox_box ox_box_about(const ox_children_there* there, uint children) {
 // Parts of the tree over the target, nodes as children of others, and the children of a block
 // that meet them, a bit for each: those still to be gone through, and those that meshlets met.
 typedef struct {
-  uint part[OX_TREE_STACK];
+  uint subtree[OX_TREE_STACK];
   uint children[OX_TREE_STACK];
   uint count;
-} ox_part_walk;
+} ox_subtree_walk;
 
 typedef struct {
-  uint part[OX_MOST_PARTS];
-  uint children[OX_MOST_PARTS];
+  uint subtree[OX_MOST_SUBTREES];
+  uint children[OX_MOST_SUBTREES];
   uint count;
-} ox_met_parts;
+} ox_met_subtrees;
 
-// Keeps those that are meshlets, each with its parts one after the other.
+// Keeps those that are meshlets, each with its subtrees one after the other.
 static void ox_keep_meshlets(const ox_scene* scene, const ox_children_there* there,
-                             const ox_met_parts* parts, ox_kept_meshlets* kept) {
+                             const ox_met_subtrees* subtrees, ox_kept_meshlets* kept) {
   for (uint left = there->meshlets; left != 0u; left &= left - 1u) {
     const uint k = ox_lowest(left);
-    for (uint i = 0u; i < parts->count; ++i) {
-      if ((parts->children[i] >> k & 1u) == 0u) continue;
+    for (uint i = 0u; i < subtrees->count; ++i) {
+      if ((subtrees->children[i] >> k & 1u) == 0u) continue;
       kept->meshlet[kept->count] = there->meshlet[k];
-      kept->part[kept->count++] = parts->part[i];
+      kept->subtree[kept->count++] = subtrees->subtree[i];
       if (kept->count == OX_MOST_AT_ONCE) ox_store_meshlets(scene, kept);
     }
   }
 }
 
 // So few meshlets of a block are not worth a way down here (docs/performance.md): they go all of it
-// in match.cl, as do those that meet more parts than OX_MOST_PARTS. So does each on a GPU, where a
-// block is one child and match has an item for each.
+// in match.cl, as do those that meet more subtrees than OX_MOST_SUBTREES. So does each on a GPU,
+// where a block is one child and match has an item for each.
 #define OX_FEW_MESHLETS 2u
 
 // Goes down the tree over the target with all children of a block at once. A child that is a
@@ -118,26 +118,26 @@ static void ox_keep_meshlets(const ox_scene* scene, const ox_children_there* the
 // are asked for what is in it.
 static uint ox_meet_target(const ox_scene* scene, __global const ox_mesh* target,
                            const ox_children_there* there, ox_kept_meshlets* kept) {
-  ox_met_parts found;
+  ox_met_subtrees found;
   found.count = 0u;
   uint done = 0u;  // nodes that met a meshlet, meshlets listed with all of the target
   if (popcount(there->meshlets) <= OX_FEW_MESHLETS) {
-    found.part[0] = OX_TREE_ROOT;
+    found.subtree[0] = OX_TREE_ROOT;
     found.children[0] = there->meshlets;
     found.count = 1u;
     done = there->meshlets;
   }
   const ox_box all = ox_box_about(there, there->met & ~done);
-  ox_part_walk walk;
+  ox_subtree_walk walk;
   walk.count = 1u;
-  walk.part[0] = OX_TREE_ROOT;
+  walk.subtree[0] = OX_TREE_ROOT;
   walk.children[0] = there->met;
   while (walk.count != 0u) {
-    uint part = walk.part[--walk.count];
+    uint subtree = walk.subtree[--walk.count];
     const uint children = walk.children[walk.count] & ~done;
     if (children == 0u) continue;
     __global const ox_meshlet_node* node =
-        scene->surfaces.nodes + target->meshlet_node_first + (part >> 1);
+        scene->surfaces.nodes + target->meshlet_node_first + (subtree >> 1);
     const uint begin = walk.count;
     uint ended = 0u;  // there: they have met a meshlet
     for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
@@ -151,7 +151,7 @@ static uint ox_meet_target(const ox_scene* scene, __global const ox_mesh* target
         if ((node->child[k] & OX_CHILD_MESHLET) != 0u) {
           ended |= meeting;
         } else {
-          walk.part[walk.count] = node->child[k];
+          walk.subtree[walk.count] = node->child[k];
           walk.children[walk.count++] = meeting;
         }
       }
@@ -161,13 +161,13 @@ static uint ox_meet_target(const ox_scene* scene, __global const ox_mesh* target
     for (uint i = begin; i < walk.count; ++i) walk.children[i] &= ~ended;
     ended &= there->meshlets;
     if (ended == 0u) continue;
-    if (found.count == OX_MOST_PARTS) {
-      part = OX_TREE_ROOT;
+    if (found.count == OX_MOST_SUBTREES) {
+      subtree = OX_TREE_ROOT;
       ended = there->meshlets;
       done |= ended;
       found.count = 0u;
     }
-    found.part[found.count] = part;
+    found.subtree[found.count] = subtree;
     found.children[found.count++] = ended;
   }
   ox_keep_meshlets(scene, there, &found, kept);

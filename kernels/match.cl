@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Match: which meshlets of a part of the other mesh can this one meet?
+// Match: which meshlets of a subtree of the other mesh can this one meet?
 //
 // in    meshlet_tasks, pairs, meshes, meshlets, meshlet_nodes
 // out   meshlet_pairs; what cross.cl puts out, of what these have no room for: boxes
 //       may overlap by the million where next to nothing crosses, so their list grows with what is
 //       predicted and no further, and what it cannot take is crossed at once (cross.cl)
-// item  1 meshlet of the list and one of its parts (grid-stride)
+// item  1 meshlet of the list and one of its subtrees (grid-stride)
 // may overflow: OX_LIST_CROSSINGS; OX_LIST_MESHLET_PAIRS, without loss
 #include "lib/cross.h"
 
@@ -39,12 +39,12 @@ static void ox_store_pairs(const ox_scene* scene, ox_matched_meshlet* one) {
   one->count = 0u;
 }
 
-static void ox_match_part(const ox_scene* scene, uint part, ox_matched_meshlet* one) {
+static void ox_match_subtree(const ox_scene* scene, uint subtree, ox_matched_meshlet* one) {
   const uint side = one->pair_side & 1u;
   __global const ox_pair* pair = scene->pairs + (one->pair_side >> 1);
   __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
   ox_box_walk walk;
-  walk.child[0] = part;
+  walk.child[0] = subtree;
   walk.count = 1u;
   while (walk.count != 0u) {
     const uint parent = walk.child[--walk.count];
@@ -77,7 +77,7 @@ static void ox_match(const ox_scene* scene) {
   one.count = 0u;
   for (uint i = scene->item; i < count; i += scene->item_count) {
     const ox_meshlet_task task = scene->meshlet_tasks[i];
-    // The parts that one meets come one after the other.
+    // The subtrees that one meets come one after the other.
     if (task.meshlet != one.meshlet || task.pair_side != one.pair_side) {
       if (one.count != 0u) ox_store_pairs(scene, &one);
       __global const ox_pair* pair = scene->pairs + (task.pair_side >> 1);
@@ -87,7 +87,7 @@ static void ox_match(const ox_scene* scene) {
       one.box = ox_box_there(pair, task.pair_side & 1u, meshlet, pair->margin);
       one.slab = ox_slab_there(pair, task.pair_side & 1u, meshlet, pair->margin);
     }
-    ox_match_part(scene, task.part, &one);
+    ox_match_subtree(scene, task.subtree, &one);
   }
   if (one.count != 0u) ox_store_pairs(scene, &one);
 }

@@ -367,7 +367,7 @@ enum {
   dBatchBufferRaysBvh = 1040,       /**< BVH traversal; also what iterative rays hand on */
   dBatchBufferRaysBasic = 1050,     /**< every triangle */
   /* cull -> match -> cross */
-  dBatchBufferMeshlets = 1060,     /**< clusters of triangles, each with a part of the other mesh
+  dBatchBufferMeshlets = 1060,     /**< clusters of triangles, each with a subtree of the other
                                       that it can meet */
   dBatchBufferMeshletPairs = 1070, /**< that can meet one another; without loss or redoing those
                                         beyond the capacity are crossed at once */

@@ -34,7 +34,7 @@ typedef float ox_f32;
 #define OX_LIST_RAYS_ITERATIVE 3u     // paper
 #define OX_LIST_RAYS 4u               // cast in full
 #define OX_LIST_RAYS_BASIC 5u         // paper
-#define OX_LIST_MESHLETS 6u           // that can meet parts of the other mesh of a pair
+#define OX_LIST_MESHLETS 6u           // each with a subtree of the other mesh that it can meet
 #define OX_LIST_MESHLET_PAIRS 7u      // that can meet
 #define OX_LIST_HITS 8u
 #define OX_LIST_CROSSINGS 9u
@@ -183,16 +183,16 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 // Where corner 0, 1 or 2 is, eight bits each; all 0 beyond the triangles.
 #define OX_CORNER_SHIFT(corner) (8u * (corner))
 
-// A meshlet that can meet a part of the other mesh of its pair: what is below a node of the tree
-// over that. Of each pair they are those of one mesh, and no two parts of one share anything. One
-// that meets more parts than OX_MOST_PARTS is listed with all of the other mesh.
+// A meshlet that can meet what is in a subtree of the other mesh of its pair. Of each pair they are
+// those of one mesh, and no two subtrees of one share anything. One that meets more subtrees than
+// OX_MOST_SUBTREES is listed with the whole tree.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 meshlet;
-  ox_u32 part;  // as a child of another node
+  ox_u32 subtree;  // its root, as a child of another node
 } ox_meshlet_task;
 OX_STATIC_ASSERT(sizeof(ox_meshlet_task) == 12, ox_meshlet_task_is_12_bytes);
-#define OX_MOST_PARTS 16u
+#define OX_MOST_SUBTREES 16u
 
 // Two meshlets, one of each mesh of a pair, that can meet.
 typedef struct {

@@ -57,7 +57,7 @@ ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& op
         const Mesh& mesh = *scene.meshes[scene.objects[scene.pairs[i][k]].mesh];
         return std::uint64_t{mesh.topology->meshlets.meshlets.size()};
       };
-      meshlets += OX_MOST_PARTS * std::max(count(0), count(1));
+      meshlets += OX_MOST_SUBTREES * std::max(count(0), count(1));
       meshlet_pairs += count(0) * count(1);
       crossings += most_crossings(scene, scene.pairs[i]);
     }

@@ -91,7 +91,7 @@ const std::vector<Member> kMembers = {
     SIZE_OF(ox_meshlet_task),
     OFFSET_OF(ox_meshlet_task, pair_side),
     OFFSET_OF(ox_meshlet_task, meshlet),
-    OFFSET_OF(ox_meshlet_task, part),
+    OFFSET_OF(ox_meshlet_task, subtree),
     SIZE_OF(ox_meshlet_pair),
     OFFSET_OF(ox_meshlet_pair, pair),
     OFFSET_OF(ox_meshlet_pair, meshlet),

@@ -172,21 +172,21 @@ TEST(Search, ListsNoMeshletOfABallInTheHoleOfARing) {
   EXPECT_LT(listed(0.6), all / 2);
 }
 
-// The meshlets of a part of a mesh, over all meshes: from the first up to the second.
+// The meshlets of a task's subtree, over all meshes: from the first up to the second.
 std::pair<ox_u32, ox_u32> meshlets_of(const Scene& scene, const ox_meshlet_task& task) {
   const std::uint32_t object = scene.pairs[task.pair_side >> 1][1 - task.pair_side % 2];
   const std::uint32_t mesh = scene.objects[object].mesh;
   std::size_t before = 0;
   for (std::uint32_t i = 0; i < mesh; ++i)
     before += scene.meshes[i]->topology->meshlets.meshlets.size();
-  const MeshletNode& node = scene.meshes[mesh]->topology->meshlets.tree[task.part >> 1];
+  const MeshletNode& node = scene.meshes[mesh]->topology->meshlets.tree[task.subtree >> 1];
   const auto first = static_cast<ox_u32>(before);
   return {first + node.first[0], first + node.first[node.count]};
 }
 
-// Two fine balls nearly in one place, whose meshlets meet many parts of the other each, and a plate
-// through one of them, whose meshlets meet as good as all of it.
-TestScene scene_of_many_parts() {
+// Two fine balls nearly in one place, of which each meshlet meets many subtrees of the other, and a
+// plate through one of them, whose meshlets meet as good as all of it.
+TestScene scene_of_many_subtrees() {
   TestScene scene;
   const std::uint32_t ball = scene.add_mesh(make_icosphere(0.6, 4));
   scene.add_pair(ball, at(0, 0, 0), ball, turned({1, 2, 3}, 0.01, {0.001, 0.002, 0.003}));
@@ -197,7 +197,7 @@ TestScene scene_of_many_parts() {
 }
 
 // The way of each crossing: the meshlet of its edge and that of its triangle were matched, once,
-// and the cull left one of them with a part of the other mesh that has the other.
+// and the cull left one of them with a subtree of the other mesh that has the other.
 TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   TestScene scene = random_scene(65, 78);
   const std::uint32_t fine = scene.add_mesh(make_icosphere(0.6, 4));
@@ -206,7 +206,7 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   std::map<std::pair<ox_u32, ox_u32>, std::vector<std::pair<ox_u32, ox_u32>>> tasks;
   for (const ox_meshlet_task& task : records.meshlet_tasks)
     tasks[{task.pair_side, task.meshlet}].push_back(meshlets_of(scene.scene, task));
-  const auto parts_with = [&](ox_u32 pair_side, ox_u32 meshlet, ox_u32 other) {
+  const auto subtrees_with = [&](ox_u32 pair_side, ox_u32 meshlet, ox_u32 other) {
     std::size_t count = 0;
     for (const auto& [first, end] : tasks[{pair_side, meshlet}])
       count += first <= other && other < end;
@@ -215,8 +215,8 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   std::set<std::tuple<ox_u32, ox_u32, ox_u32>> matched;
   for (const ox_meshlet_pair& both : records.meshlet_pairs) {
     EXPECT_TRUE(matched.emplace(both.pair, both.meshlet[0], both.meshlet[1]).second);
-    EXPECT_EQ(parts_with(both.pair << 1, both.meshlet[0], both.meshlet[1]) +
-                  parts_with(both.pair << 1 | 1, both.meshlet[1], both.meshlet[0]),
+    EXPECT_EQ(subtrees_with(both.pair << 1, both.meshlet[0], both.meshlet[1]) +
+                  subtrees_with(both.pair << 1 | 1, both.meshlet[1], both.meshlet[0]),
               1u);
   }
   std::map<ox_u32, ox_u32> of_edge, of_triangle;
@@ -237,15 +237,15 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   }
 }
 
-TEST(Search, FindsTheCrossingsOfMeshesThatMeetInManyParts) {
-  const TestScene scene = scene_of_many_parts();
+TEST(Search, FindsTheCrossingsOfMeshesThatMeetInManySubtrees) {
+  const TestScene scene = scene_of_many_subtrees();
   for (const Organization organization : kBoth)
     EXPECT_GT(compare_crossings(scene, organization).certain, 1000u);
 }
 
 // Of two fine meshes in one place a list of the meshlets of one, each once, would be too short.
-TEST(Search, HasRoomForEveryPartThatMeshletsMeet) {
-  const TestScene scene = scene_of_many_parts();
+TEST(Search, HasRoomForEverySubtreeThatMeshletsMeet) {
+  const TestScene scene = scene_of_many_subtrees();
   ColliderOptions by_steps, by_items;
   by_steps.whole_steps = by_items.whole_steps = false;
   by_items.vector_width = 1;
