@@ -108,8 +108,8 @@ static void ox_keep_meshlets(const ox_scene* scene, const ox_children_there* the
 }
 
 // So few meshlets of a block are not worth a way down here (docs/performance.md): they go all of it
-// in match.cl, as do those that meet more subtrees than OX_MOST_SUBTREES. So does each on a GPU,
-// where a block is one child and match has an item for each.
+// in match.cl, as do those that together meet more subtrees than OX_MOST_SUBTREES. So does each on
+// a GPU, where a block is one child and match has an item for each.
 #define OX_FEW_MESHLETS 2u
 
 // Goes down the tree over the target with all children of a block at once. A child that is a

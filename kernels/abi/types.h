@@ -184,8 +184,8 @@ OX_STATIC_ASSERT(sizeof(ox_meshlet) % 64 == 0, ox_meshlets_are_aligned);
 #define OX_CORNER_SHIFT(corner) (8u * (corner))
 
 // A meshlet that can meet what is in a subtree of the other mesh of its pair. Of each pair they are
-// those of one mesh, and no two subtrees of one share anything. One that meets more subtrees than
-// OX_MOST_SUBTREES is listed with the whole tree.
+// those of one mesh, and no two subtrees of one share anything. Those of a block (lib/lanes.h) that
+// together meet more than OX_MOST_SUBTREES are listed with the whole tree, as are one or two alone.
 typedef struct {
   ox_u32 pair_side;
   ox_u32 meshlet;

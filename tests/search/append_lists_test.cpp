@@ -84,6 +84,16 @@ TEST(AppendLists, KeepTheirMemoryWhileThereIsRoom) {
   EXPECT_EQ(lists.rays().get(), memory);
 }
 
+// A batch gets no more of a list than it can need at most; if that is wrong, it is seen.
+TEST(AppendLists, OverflowWhereMoreIsCountedThanABatchWasGivenOfThem) {
+  Device device("");
+  AppendLists lists(device);
+  lists.reserve(all(1000));
+  lists.begin(all(10));
+  EXPECT_FALSE(lists.overflowed(all(10)));
+  EXPECT_TRUE(lists.overflowed(all(11)));
+}
+
 TEST(AppendLists, CanBeLimitedToExactlyWhatWasPredicted) {
   Device device("");
   AppendLists lists(device);

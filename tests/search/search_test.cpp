@@ -184,15 +184,15 @@ std::pair<ox_u32, ox_u32> meshlets_of(const Scene& scene, const ox_meshlet_task&
   return {first + node.first[0], first + node.first[node.count]};
 }
 
-// Two fine balls nearly in one place, of which each meshlet meets many subtrees of the other, and a
-// plate through one of them, whose meshlets meet as good as all of it.
-TestScene scene_of_many_subtrees() {
+// Two fine balls nearly in one place, of which each meshlet meets several subtrees of the other,
+// and large sheets through one of them, of which a few meshlets meet as good as all.
+TestScene scene_of_many_subtrees(int subdivisions) {
   TestScene scene;
-  const std::uint32_t ball = scene.add_mesh(make_icosphere(0.6, 4));
+  const std::uint32_t ball = scene.add_mesh(make_icosphere(0.6, subdivisions));
   scene.add_pair(ball, at(0, 0, 0), ball, turned({1, 2, 3}, 0.01, {0.001, 0.002, 0.003}));
-  const std::uint32_t plate =
-      scene.add_mesh(merged(moved(make_icosphere(0.6, 4), {9, 0, 0}), make_sheet(4, 9)));
-  scene.add_pair(plate, at(0, 0, 0), ball, at(0.1, 0.2, 0.3));
+  TestMesh sheets = moved(make_icosphere(0.6, subdivisions), {9, 0, 0});
+  for (int i = -2; i <= 2; ++i) sheets = merged(sheets, moved(make_sheet(4, 5), {0, 0, 0.2 * i}));
+  scene.add_pair(scene.add_mesh(sheets), at(0, 0, 0), ball, at(0.1, 0.2, 0.03));
   return scene;
 }
 
@@ -238,14 +238,30 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
 }
 
 TEST(Search, FindsTheCrossingsOfMeshesThatMeetInManySubtrees) {
-  const TestScene scene = scene_of_many_subtrees();
+  const TestScene scene = scene_of_many_subtrees(4);
   for (const Organization organization : kBoth)
     EXPECT_GT(compare_crossings(scene, organization).certain, 1000u);
 }
 
+// Of more than that a meshlet is listed with the whole tree.
+TEST(Search, ListsAMeshletWithSixteenSubtreesAtMost) {
+  const TestScene scene = scene_of_many_subtrees(5);
+  const StepRecords records = Rig::shared().run_with_edges(scene.scene, kBoth[0]);
+  std::map<std::pair<ox_u32, ox_u32>, int> subtrees;
+  std::set<ox_u32> with_the_whole_tree, with_less;  // pairs
+  for (const ox_meshlet_task& task : records.meshlet_tasks) {
+    EXPECT_LE((++subtrees[{task.pair_side, task.meshlet}]), 16);
+    (task.subtree == OX_TREE_ROOT ? with_the_whole_tree : with_less).insert(task.pair_side >> 1);
+  }
+  EXPECT_TRUE(with_the_whole_tree.contains(1));
+  // On a GPU that is how each is listed.
+  const bool is_processor = (Collider({}).device_info().type & CL_DEVICE_TYPE_CPU) != 0;
+  EXPECT_EQ(with_less.contains(0), is_processor);
+}
+
 // Of two fine meshes in one place a list of the meshlets of one, each once, would be too short.
 TEST(Search, HasRoomForEverySubtreeThatMeshletsMeet) {
-  const TestScene scene = scene_of_many_subtrees();
+  const TestScene scene = scene_of_many_subtrees(5);
   ColliderOptions by_steps, by_items;
   by_steps.whole_steps = by_items.whole_steps = false;
   by_items.vector_width = 1;

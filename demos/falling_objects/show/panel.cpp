@@ -115,8 +115,10 @@ void draw_panel(const World& world, const WorldView& view, const History& histor
   ImGui::Begin(
       "falling_objects", nullptr,
       ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  // One line, cut off at the edge, so that what is below has its place whatever the device's name.
   const std::string device = world.collision().device();
-  ImGui::TextWrapped("%s", device.empty() ? "no batch collider" : device.c_str());
+  ImGui::TextUnformatted(device.empty() ? "no batch collider" : device.c_str());
+  if (!device.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", device.c_str());
   const std::string rate =
       wishes.paused ? "paused" : std::to_string(std::lround(fps)) + " pictures/s";
   ImGui::Text("%zu objects, step %d, %s", world.scene().objects().size(), view.record().step + 1,
