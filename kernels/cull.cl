@@ -37,16 +37,18 @@ typedef struct {
   uint meshlet[OX_VECTOR_WIDTH];  // over all meshes, of these
 } ox_children_there;
 
+// Those of the block that `asked` has a bit for.
 static void ox_place_children(__global const ox_pair* pair, uint side,
-                              __global const ox_mesh* target, __global const ox_meshlet_node* node,
-                              uint block, ox_children_there* there) {
+                              __global const ox_mesh* source, __global const ox_mesh* target,
+                              __global const ox_meshlet_node* node, uint block, uint asked,
+                              ox_children_there* there) {
   const ox_floats lo_x = ox_load(block, node->lo[0]), hi_x = ox_load(block, node->hi[0]);
   const ox_floats lo_y = ox_load(block, node->lo[1]), hi_y = ox_load(block, node->hi[1]);
   const ox_floats lo_z = ox_load(block, node->lo[2]), hi_z = ox_load(block, node->hi[2]);
   const ox_floats x = 0.5f * (lo_x + hi_x), half_x = 0.5f * (hi_x - lo_x);
   const ox_floats y = 0.5f * (lo_y + hi_y), half_y = 0.5f * (hi_y - lo_y);
   const ox_floats z = 0.5f * (lo_z + hi_z), half_z = 0.5f * (hi_z - lo_z);
-  there->met = ox_present_children(node, block);
+  there->met = asked;
   for (uint axis = 0u; axis < 3u; ++axis) {
     __global const float* r = pair->rotation[side] + 3u * axis;
     const ox_floats middle = r[0] * x + r[1] * y + r[2] * z + pair->offset[side][axis];
@@ -56,6 +58,14 @@ static void ox_place_children(__global const ox_pair* pair, uint side,
     there->met &= ox_mask_of(&meets);
     ox_store(middle - size, 0, there->lo[axis]);
     ox_store(middle + size, 0, there->hi[axis]);
+  }
+  there->meshlets = 0u;
+  for (uint left = there->met; left != 0u; left &= left - 1u) {
+    const uint k = ox_lowest(left);
+    const uint child = node->child[OX_VECTOR_WIDTH * block + k];
+    if ((child & OX_CHILD_MESHLET) == 0u) continue;
+    there->meshlets |= 1u << k;
+    there->meshlet[k] = source->meshlet_first + (child >> 1);
   }
 }
 
@@ -79,7 +89,7 @@ static ox_box ox_box_about(const ox_children_there* there, uint children) {
   return box;
 }
 
-// Parts of the tree over the target, nodes as children of others, and the children of a block
+// Subtrees of the target, each by its root as a child of another node, and the children of a block
 // that meet them, a bit for each: those still to be gone through, and those that meshlets met.
 typedef struct {
   uint subtree[OX_TREE_STACK];
@@ -199,16 +209,7 @@ static void ox_cull(const ox_scene* scene) {
         const uint in_box = ox_children_in_box(&box, node, block);
         if (in_box == 0u) continue;
         ox_children_there there;
-        ox_place_children(pair, side, target, node, block, &there);
-        there.met &= in_box;
-        there.meshlets = 0u;
-        for (uint left = there.met; left != 0u; left &= left - 1u) {
-          const uint k = ox_lowest(left);
-          const uint one = node->child[first + k];
-          if ((one & OX_CHILD_MESHLET) == 0u) continue;
-          there.meshlets |= 1u << k;
-          there.meshlet[k] = source->meshlet_first + (one >> 1);
-        }
+        ox_place_children(pair, side, source, target, node, block, in_box, &there);
         if (there.met == 0u) continue;
         uint nodes = ox_meet_target(scene, target, &there, &kept);
         for (; nodes != 0u; nodes &= nodes - 1u)

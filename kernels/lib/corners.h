@@ -28,11 +28,18 @@ static inline void ox_vertices_of(const ox_moved_vertices* vertices, uint block,
   p->z = ox_load_own(block, vertices->z);
 }
 
+// Where a corner of a block of the triangles is among the vertices.
+static inline void ox_places_of_corner(__global const ox_meshlet* meshlet, uint block, uint corner,
+                                       ox_ints* lanes) {
+  *lanes = ox_load_ints(block, meshlet->places) >> (int)OX_CORNER_SHIFT(corner) & 255;
+}
+
 // A corner of a block of the triangles. Those beyond the last have three equal ones.
 static inline void ox_corners_of(__global const ox_meshlet* meshlet,
                                  const ox_moved_vertices* vertices, uint block, uint corner,
                                  ox_points* p) {
-  const ox_ints lanes = ox_load_ints(block, meshlet->places) >> (int)OX_CORNER_SHIFT(corner) & 255;
+  ox_ints lanes;
+  ox_places_of_corner(meshlet, block, corner, &lanes);
   ox_pick_lanes(vertices->x, &lanes, &p->x);
   ox_pick_lanes(vertices->y, &lanes, &p->y);
   ox_pick_lanes(vertices->z, &lanes, &p->z);

@@ -132,9 +132,8 @@ static inline uint ox_find_near_triangles(__global const ox_meshlet* target,
   for (uint block = blocks.first; block < blocks.end; ++block) {
     ox_ints beyond = -1;
     for (uint corner = 0u; corner < 3u; ++corner) {
-      const ox_ints lanes =
-          ox_load_ints(block, target->places) >> (int)OX_CORNER_SHIFT(corner) & 255;
-      ox_ints of_corner;
+      ox_ints lanes, of_corner;
+      ox_places_of_corner(target, block, corner, &lanes);
       ox_pick_ints(points->beyond, &lanes, &of_corner);
       beyond &= of_corner;
     }

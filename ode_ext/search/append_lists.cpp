@@ -206,10 +206,10 @@ void AppendLists::reserve_features(std::uint64_t count) {
   candidates_.reserve(words_of(count, OX_CANDIDATE_WORDS));
 }
 
+// What a batch was given of a list may be less than there is room for.
 bool AppendLists::overflowed(const ListCounts& counts) const {
   for (std::size_t i = 0; i < kListCount; ++i)
-    if (counts[i] > host_lists_[i].capacity)
-      return true;  // which may be less than there is room for
+    if (counts[i] > host_lists_[i].capacity) return true;
   return false;
 }
 

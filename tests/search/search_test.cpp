@@ -204,17 +204,27 @@ TEST(Search, MatchesTheMeshletsOfEveryCrossingOnce) {
   scene.add_pair(fine, at(30, 0, 0), fine, turned({1, 2, 3}, 0.4, {30.9, 0.1, 0.2}));
   const StepRecords records = Rig::shared().run_with_edges(scene.scene, Organization::kPipelined);
   std::map<std::pair<ox_u32, ox_u32>, std::vector<std::pair<ox_u32, ox_u32>>> tasks;
-  for (const ox_meshlet_task& task : records.meshlet_tasks)
-    tasks[{task.pair_side, task.meshlet}].push_back(meshlets_of(scene.scene, task));
+  std::set<std::tuple<ox_u32, ox_u32, ox_u32>> listed;
+  for (const ox_meshlet_task& task : records.meshlet_tasks) {
+    EXPECT_TRUE(listed.emplace(task.pair_side, task.meshlet, task.subtree).second);
+    const std::pair<ox_u32, ox_u32> meshlets = meshlets_of(scene.scene, task);
+    std::vector<std::pair<ox_u32, ox_u32>>& others = tasks[{task.pair_side, task.meshlet}];
+    for (const auto& [first, end] : others)  // they share nothing
+      EXPECT_TRUE(meshlets.second <= first || end <= meshlets.first);
+    others.push_back(meshlets);
+  }
   const auto subtrees_with = [&](ox_u32 pair_side, ox_u32 meshlet, ox_u32 other) {
+    const auto found = tasks.find({pair_side, meshlet});
     std::size_t count = 0;
-    for (const auto& [first, end] : tasks[{pair_side, meshlet}])
-      count += first <= other && other < end;
+    if (found == tasks.end()) return count;
+    for (const auto& [first, end] : found->second) count += first <= other && other < end;
     return count;
   };
   std::set<std::tuple<ox_u32, ox_u32, ox_u32>> matched;
   for (const ox_meshlet_pair& both : records.meshlet_pairs) {
     EXPECT_TRUE(matched.emplace(both.pair, both.meshlet[0], both.meshlet[1]).second);
+    EXPECT_TRUE(tasks.contains({both.pair << 1, both.meshlet[0]}) ||
+                tasks.contains({both.pair << 1 | 1, both.meshlet[1]}));
     EXPECT_EQ(subtrees_with(both.pair << 1, both.meshlet[0], both.meshlet[1]) +
                   subtrees_with(both.pair << 1 | 1, both.meshlet[1], both.meshlet[0]),
               1u);
