@@ -229,6 +229,27 @@ if(TARGET falling_objects)
   set_tests_properties(refusals_of_falling_objects PROPERTIES TIMEOUT 120)
 endif()
 
+# What a work-group goes through together, which no processor's OpenCL can: compiled for the host.
+find_program(CLANG_FOR_KERNELS NAMES clang-14)
+if(TARGET falling_objects AND CLANG_FOR_KERNELS AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(group_kernels ${CMAKE_CURRENT_BINARY_DIR}/group_kernels.o)
+  file(GLOB_RECURSE kernel_sources CONFIGURE_DEPENDS kernels/*.h kernels/*.cl)
+  # The warning takes a lane for a number without side effects that && would do for.
+  add_custom_command(
+    OUTPUT ${group_kernels}
+    COMMAND ${CLANG_FOR_KERNELS} -x cl -cl-std=CL1.2 -target x86_64-linux-gnu -fPIC -O2 -mfma
+            -ffp-contract=off -DOX_VECTOR_WIDTH=16 -DOX_LANES_ARE_GROUP -DOX_EMULATED_GROUP
+            -Wall -Werror -Wno-bitwise-instead-of-logical -I${PROJECT_SOURCE_DIR}/kernels
+            -c ${PROJECT_SOURCE_DIR}/tests/groups/group_kernels.cl -o ${group_kernels}
+    DEPENDS tests/groups/group_kernels.cl ${kernel_sources})
+  add_library(group_emulation MODULE tests/groups/group_emulation.cpp ${group_kernels})
+  set_source_files_properties(${group_kernels} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  target_link_libraries(group_emulation PRIVATE OpenCL::OpenCL ${CMAKE_DL_LIBS})
+  add_test(NAME groups_agree COMMAND ${PROJECT_SOURCE_DIR}/tests/groups/agrees.sh
+           $<TARGET_FILE:falling_objects> $<TARGET_FILE:group_emulation>)
+  set_tests_properties(groups_agree PROPERTIES TIMEOUT 300 COST 15)
+endif()
+
 if(TARGET falling_objects AND TARGET ode_ext-replay)
   add_test(NAME captures_replay
            COMMAND ${PROJECT_SOURCE_DIR}/tests/tools/replay_test.sh $<TARGET_FILE:ode_ext-replay>

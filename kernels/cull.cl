@@ -5,7 +5,7 @@
 //
 // in    pairs, meshes, meshlet_nodes
 // out   meshlet_tasks
-// item  1 pair (grid-stride)
+// item  1 pair (grid-stride); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_MESHLETS
 #include "lib/meshlet.h"
 
@@ -30,8 +30,8 @@ static void ox_store_meshlets(const ox_scene* scene, ox_kept_meshlets* kept) {
 
 // A block of children of a node of the source, their boxes in the frame of the target.
 typedef struct {
-  float lo[3][OX_VECTOR_WIDTH];
-  float hi[3][OX_VECTOR_WIDTH];
+  ox_lane_floats lo[3];
+  ox_lane_floats hi[3];
   uint met;                       // a bit for each whose box there meets that of the target
   uint meshlets;                  // for each of these that is a meshlet
   uint meshlet[OX_VECTOR_WIDTH];  // over all meshes, of these
@@ -56,8 +56,10 @@ static void ox_place_children(__global const ox_pair* pair, uint side,
         fabs(r[0]) * half_x + fabs(r[1]) * half_y + fabs(r[2]) * half_z + pair->margin;
     const ox_ints meets = fabs(middle - target->box_centre[axis]) <= size + target->box_half[axis];
     there->met &= ox_mask_of(&meets);
-    ox_store(middle - size, 0, there->lo[axis]);
-    ox_store(middle + size, 0, there->hi[axis]);
+    const ox_floats lo = middle - size;
+    const ox_floats hi = middle + size;
+    ox_keep_lanes(&lo, there->lo + axis);
+    ox_keep_lanes(&hi, there->hi + axis);
   }
   there->meshlets = 0u;
   for (uint left = there->met; left != 0u; left &= left - 1u) {
@@ -71,10 +73,13 @@ static void ox_place_children(__global const ox_pair* pair, uint side,
 
 // A bit for each of the children whose box there meets another.
 static uint ox_children_meeting(const ox_children_there* there, float3 lo, float3 hi) {
-  const ox_ints met =
-      (ox_load_own(0, there->lo[0]) <= hi.x) & (ox_load_own(0, there->hi[0]) >= lo.x) &
-      (ox_load_own(0, there->lo[1]) <= hi.y) & (ox_load_own(0, there->hi[1]) >= lo.y) &
-      (ox_load_own(0, there->lo[2]) <= hi.z) & (ox_load_own(0, there->hi[2]) >= lo.z);
+  ox_floats first[3], last[3];
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    ox_kept_lanes(there->lo + axis, first + axis);
+    ox_kept_lanes(there->hi + axis, last + axis);
+  }
+  const ox_ints met = (first[0] <= hi.x) & (last[0] >= lo.x) & (first[1] <= hi.y) &
+                      (last[1] >= lo.y) & (first[2] <= hi.z) & (last[2] >= lo.z);
   return ox_mask_of(&met);
 }
 
@@ -83,8 +88,12 @@ static ox_box ox_box_about(const ox_children_there* there, uint children) {
   ox_box box = {(float3)(INFINITY), (float3)(-INFINITY)};
   for (; children != 0u; children &= children - 1u) {
     const uint k = ox_lowest(children);
-    box.lo = OX_LESSER(box.lo, (float3)(there->lo[0][k], there->lo[1][k], there->lo[2][k]));
-    box.hi = OX_GREATER(box.hi, (float3)(there->hi[0][k], there->hi[1][k], there->hi[2][k]));
+    const float3 lo =
+        (float3)(ox_lane(there->lo, k), ox_lane(there->lo + 1, k), ox_lane(there->lo + 2, k));
+    const float3 hi =
+        (float3)(ox_lane(there->hi, k), ox_lane(there->hi + 1, k), ox_lane(there->hi + 2, k));
+    box.lo = OX_LESSER(box.lo, lo);
+    box.hi = OX_GREATER(box.hi, hi);
   }
   return box;
 }
@@ -118,8 +127,8 @@ static void ox_keep_meshlets(const ox_scene* scene, const ox_children_there* the
 }
 
 // So few meshlets of a block are not worth a way down here (docs/performance.md): they go all of it
-// in match.cl, as do those that together meet more subtrees than OX_MOST_SUBTREES. So does each on
-// a GPU, where a block is one child and match has an item for each.
+// in match.cl, as do those that together meet more subtrees than OX_MOST_SUBTREES. So does each
+// where a block is one child, on a GPU without groups: match has an item for each.
 #define OX_FEW_MESHLETS 2u
 
 // Goes down the tree over the target with all children of a block at once. A child that is a

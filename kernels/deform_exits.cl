@@ -34,19 +34,20 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
       uint left = ox_meets_lanes(&cast, meshlet, &seen, first / OX_VECTOR_WIDTH, move->on_surface,
                                  INFINITY, &t, &determinant);
       if (left == 0u) continue;
-      float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
-      ox_store(t, 0, t_lane);
-      ox_store(determinant, 0, determinant_lane);
+      ox_lane_floats t_of, determinant_of;
+      ox_keep_lanes(&t, &t_of);
+      ox_keep_lanes(&determinant, &determinant_of);
       for (; left != 0u; left &= left - 1u) {
         const uint k = ox_lowest(left);
-        if (!(t_lane[k] > move->on_surface)) continue;
+        const float here = ox_lane(&t_of, k);
+        if (!(here > move->on_surface)) continue;
         const uint triangle = meshlet->triangle[first + k] - shape->triangle_first;
         __global const uint* corners = topology + move->corner_first + 3u * triangle;
         if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;
-        if (determinant_lane[k] < 0.0f)
-          back_t = ox_min(back_t, t_lane[k]);
+        if (ox_lane(&determinant_of, k) < 0.0f)
+          back_t = ox_min(back_t, here);
         else
-          front_t = ox_min(front_t, t_lane[k]);
+          front_t = ox_min(front_t, here);
       }
     }
   }

@@ -15,7 +15,7 @@
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
 // room  flood_words: a table for each side (lib/flood_table.h)
-// item  1 side of a pair (of a queue)
+// item  1 side of a pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #include "lib/closest.h"
 #include "lib/flat.h"
@@ -51,8 +51,10 @@ static bool ox_has_key(const ox_flood_state* s, uint key) {
 static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
   if (!ox_grow_table(s->scene, &s->table)) return false;
   const uint word = ox_find_key(s->scene, &s->table, key);
+  ox_settle();
   s->scene->flood_words[word] = key;
   s->scene->flood_words[word + 1u] = value;
+  ox_settle();
   ++s->table.used;
   return true;
 }
@@ -69,12 +71,13 @@ static bool ox_look_at(ox_flood_state* s, uint vertex) {
   if (!ox_grow_table(s->scene, &s->table)) return false;
   const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
   const uint word = ox_find_key(s->scene, &s->table, key);
-  if (s->scene->flood_words[word] == 0u) {
-    s->scene->flood_words[word] = key;
-    s->scene->flood_words[word + 1u] = 0u;
-    ++s->table.used;
-  }
-  s->scene->flood_words[word + 1u] |= 1u << vertex % 32u;
+  const bool is_new = s->scene->flood_words[word] == 0u;
+  const uint known = is_new ? 0u : s->scene->flood_words[word + 1u];
+  ox_settle();
+  s->scene->flood_words[word] = key;
+  s->scene->flood_words[word + 1u] = known | 1u << vertex % 32u;
+  ox_settle();
+  if (is_new) ++s->table.used;
   return true;
 }
 
@@ -102,27 +105,46 @@ static uint ox_queued(const ox_flood_state* s, uint i) {
 // What hangs together lies in the queue one after the other; all of it names the first of it that
 // bounds anything.
 static void ox_cast_queue(const ox_flood_state* s) {
-  uint first = OX_NONE;
-  for (uint i = 0u; i < s->table.queued; ++i) {
-    const uint vertex = ox_queued(s, i);
-    if (vertex != ox_queue(s->scene, &s->table)[i]) first = OX_NONE;
+  uint last = OX_NONE;  // the first of what the block before ended in
+  for (uint begin = 0u; begin < s->table.queued; begin += OX_ITEMS) {
+    const uint i = begin + OX_ITEM;
+    const bool is_queued = i < s->table.queued;
+    const uint vertex = is_queued ? ox_queued(s, i) : OX_NONE;
     if (ox_is_open(s)) {
-      ox_append_ray(s->scene, s->pair_side, vertex);
+      const bool casts = is_queued && ox_may_cast(s->scene, s->pair_side, vertex);
+      const uint index = ox_append_each(s->scene, OX_LIST_RAYS, casts);
+      if (casts) ox_store_ray(s->scene, index, s->pair_side, vertex, OX_RAY_ASKING, OX_NONE);
       continue;
     }
-    if (ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex)) continue;
-    if (first == OX_NONE) first = vertex;
-    ox_append_inside(s->scene, s->pair_side, vertex,
-                     i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
+    const bool begins = is_queued && vertex != ox_queue(s->scene, &s->table)[i];
+    const bool bounds =
+        is_queued && !ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex);
+    const uint index = ox_append_each(s->scene, OX_LIST_RAYS, bounds);
+    const uint all_bounding = ox_group_bits(bounds);
+    // Of a work-item and those before it: from the last that begins on.
+    const uint up_to_own = (2u << OX_ITEM) - 1u;
+    const uint beginning = ox_group_bits(begins) & up_to_own;
+    const uint together = beginning == 0u ? ~0u : ~((1u << (31u - clz(beginning))) - 1u);
+    const uint bounding = all_bounding & up_to_own & together;
+    const uint there = ox_of_item(vertex, bounding == 0u ? 0u : ox_lowest(bounding));
+    uint first = bounding == 0u ? OX_NONE : there;
+    if (beginning == 0u && last != OX_NONE) first = last;
+    if (bounds)
+      ox_store_ray(s->scene, index, s->pair_side, vertex,
+                   i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
+    last = ox_of_item(first, OX_ITEMS - 1u);
   }
 }
 
 // Every vertex of the source is the vertex step's.
 static void ox_look_at_all(const ox_flood_state* s) {
-  for (uint k = 0u; k < s->source->chunk_count; ++k) {
+  for (uint begin = 0u; begin < s->source->chunk_count; begin += OX_ITEMS) {
+    const uint k = begin + OX_ITEM;
     const uint chunk = s->source->chunk_first + k;
-    if (!ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene->chunks + chunk)) continue;
-    const uint index = ox_append(s->scene, OX_LIST_CHUNKS);
+    const bool keeps =
+        k < s->source->chunk_count &&
+        ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, s->scene->chunks + chunk);
+    const uint index = ox_append_each(s->scene, OX_LIST_CHUNKS, keeps);
     if (index == OX_NONE) continue;
     s->scene->tasks[index].pair_side = s->pair_side;
     s->scene->tasks[index].chunk = chunk;
@@ -135,8 +157,11 @@ static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
   if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
   const uint word = ox_find_key(s->scene, &s->table, key);
-  c->of_edge = s->scene->flood_words[word + 1u];
+  const uint last = s->scene->flood_words[word + 1u];
+  ox_settle();
+  c->of_edge = last;
   s->scene->flood_words[word + 1u] = crossing;
+  ox_settle();
   return true;
 }
 
@@ -215,10 +240,15 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 // On from the next vertex of the queue over edges that do not cross.
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
   const uint vertex = ox_queued(s, (*next)++);
-  for (uint i = s->scene->ring_starts[vertex]; i < s->scene->ring_starts[vertex + 1u]; ++i) {
-    const ox_neighbour neighbour = s->scene->rings[i];
-    if (ox_is_looked_at(s, neighbour.vertex)) continue;  // as mostly
-    if (!ox_is_parted(s, neighbour.edge) && !ox_flood_vertex(s, neighbour.vertex, 0u)) return false;
+  const uint end = s->scene->ring_starts[vertex + 1u];
+  for (uint begin = s->scene->ring_starts[vertex]; begin < end; begin += OX_ITEMS) {
+    __global const ox_neighbour* neighbour = s->scene->rings + min(begin + OX_ITEM, end - 1u);
+    const uint other = neighbour->vertex;
+    // Mostly it is looked at.
+    const bool is_next =
+        begin + OX_ITEM < end && !ox_is_looked_at(s, other) && !ox_is_parted(s, neighbour->edge);
+    for (uint left = ox_group_bits(is_next); left != 0u; left &= left - 1u)
+      if (!ox_flood_vertex(s, ox_of_item(other, ox_lowest(left)), 0u)) return false;
   }
   return true;
 }
@@ -303,7 +333,9 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
     if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_OUTSIDE_SO_FAR)) return false;
     const uint word = ox_find_key(s->scene, &s->table, key);
     if (s->scene->flood_words[word + 1u] == OX_OUTSIDE_ASKED) continue;
+    ox_settle();
     s->scene->flood_words[word + 1u] = OX_OUTSIDE_ASKED;
+    ox_settle();
     // What is all on the surface of another part is no deeper in it than rounding.
     if (!ox_flood_if_inside(s, vertex, false, next)) return false;
   }

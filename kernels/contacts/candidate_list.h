@@ -35,8 +35,8 @@ static inline void ox_store_contact(const ox_fields* list, uint i, __global cons
 
 // Room for `count` contacts of a pair; less where the list is full.
 static inline uint ox_place_contacts(const ox_scene* scene, uint count, __global ox_range* range) {
-  const uint first = atomic_add(scene->contact_count, count);
-  if (first >= OX_MOST_COUNTED) atomic_sub(scene->contact_count, count);
+  const uint first = ox_fetch_add_shared(scene->contact_count, count);
+  if (first >= OX_MOST_COUNTED) ox_fetch_add_shared(scene->contact_count, 0u - count);
   const uint capacity = scene->lists[OX_LIST_CONTACTS].capacity;
   range->first = first;
   range->count = min(count, first < capacity ? capacity - first : 0u);

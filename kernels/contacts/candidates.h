@@ -28,10 +28,11 @@ static inline ox_touch ox_touch_of(__global const ox_feature* f, uint triangle) 
   return touch;
 }
 
+// By one work-item.
 static inline void ox_add_candidate(const ox_manifold* m, const ox_plane_choice* choice, uint side,
                                     float3 position, float depth, uint kind, uint source,
                                     uint target, ox_touch touch) {
-  const uint i = ox_fetch_add(m->region->scene, m->count, 1u);
+  const uint i = ox_fetch_add_own(m->region->scene, m->count, 1u);
   const ox_fields* list = &m->candidates;
   ox_set_vector(list, OX_CANDIDATE_POSITION, i, position);
   ox_set_vector(list, OX_CANDIDATE_NORMAL, i, choice->plane.normal);
@@ -57,6 +58,7 @@ static inline bool ox_is_on_rim(const ox_region_view* r, __global const ox_featu
          (f->at[1] != OX_NONE && ox_facet_of(r->scene, f->at[1]) == facet);
 }
 
+// By one work-item.
 static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_choice* choice,
                                           __global const ox_feature* f) {
   const uint of = choice->plane.kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
@@ -143,8 +145,9 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
   const uint side = any_a ? 0u : 1u;
   const uint source = side == 0u ? ridge_a.face[0] : ridge_b.face[0];
   const uint target = side == 0u ? ridge_b.face[0] : ridge_a.face[0];
-  ox_add_candidate(m, choice, side, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT, source,
-                   target, touch);
+  if (ox_is_first_item())
+    ox_add_candidate(m, choice, side, 0.5f * (on_a + on_b), choice->depth, OX_HIT_POINT, source,
+                     target, touch);
 }
 
 // Contacts of all of a whole region.
@@ -157,13 +160,16 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
   }
   const uint side = choice->plane.kind == OX_PLANE_FACE_OF_A ? 1u : 0u;
   bool any = false;
-  for (uint pass = 0u; pass < 2u && !any; ++pass)  // those on the rim only if there are no others
-    for (uint k = 0u; k < r->count; ++k) {
+  for (uint pass = 0u; pass < 2u && !any; ++pass) {  // those on the rim only if there are no others
+    bool own = false;
+    for (uint k = OX_ITEM; k < r->count; k += OX_ITEMS) {
       __global const ox_feature* f = ox_feature_of(r, k);
       if (!ox_is_on(f->flags, side) || ox_is_on_rim(r, f, &choice->plane) != (pass == 1u)) continue;
       ox_add_feature_contact(m, choice, f);
-      any = true;
+      own = true;
     }
+    any = ox_any_item(own);
+  }
 }
 
 // Contacts of a unit that a plane has cleared just now, of both ends of a chord; returns how many.
@@ -178,7 +184,7 @@ static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* c
       f = other;
     }
     if (ox_is_on_rim(m->region, f, &choice->plane)) continue;
-    ox_add_feature_contact(m, choice, f);
+    if (ox_is_first_item()) ox_add_feature_contact(m, choice, f);
     ++count;
   }
   return count;

@@ -9,7 +9,7 @@
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
 //       planes: which of them part of the region is past; members: units, in another order
-// item  1 region (of a queue)
+// item  1 region (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: none; a feature makes one candidate at most
 #include "contacts/candidates.h"
 
@@ -31,7 +31,7 @@ static void ox_choose_parts(ox_manifold* m) {
     ox_add_move(r, &choice, &moves);
     if (choice.plane.kind == OX_PLANE_EDGES)
       ox_add_edge_contact(m, &choice);
-    else if (ox_add_cleared(m, &choice, of_seed) == 0u)  // all on the rim
+    else if (ox_add_cleared(m, &choice, of_seed) == 0u && ox_is_first_item())  // all on the rim
       ox_add_feature_contact(m, &choice, of_seed);
     // From the last on: what is cleared changes places with the last that waits.
     for (uint block = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH; block-- != 0u;)
@@ -73,9 +73,10 @@ static void ox_choose_sheet(ox_manifold* m) {
         depth = -depth;
         choice.plane.normal = -choice.plane.normal;
       }
-      ox_add_candidate(m, &choice, side, position, ox_max(depth, 0.0f),
-                       reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle,
-                       ox_touch_of(f, f->triangle));
+      if (ox_is_first_item())
+        ox_add_candidate(m, &choice, side, position, ox_max(depth, 0.0f),
+                         reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle,
+                         ox_touch_of(f, f->triangle));
       ++m->manifold;
       any = true;
       continue;
@@ -102,7 +103,7 @@ static void ox_choose_sheet(ox_manifold* m) {
     best[is_solid] = k;
   }
   const uint through = best[0] != OX_NONE ? 0u : 1u;
-  if (any || best[through] == OX_NONE) return;
+  if (any || best[through] == OX_NONE || !ox_is_first_item()) return;
   __global const ox_feature* f = ox_feature_of(r, best[through]);
   ox_add_candidate(m, least + through, ox_side_of(f->flags), vload3(0, f->position),
                    least[through].depth, OX_HIT_POINT, f->at[0], f->triangle,

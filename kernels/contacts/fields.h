@@ -37,6 +37,27 @@ static inline void ox_set_vector(const ox_fields* fields, uint field, uint i, fl
 #define OX_LOAD_FLOATS(fields, field, block) ox_load_floats(block, ox_floats_of(fields, field))
 #define OX_LOAD_WORDS(fields, field, block) ox_load_ints(block, ox_words_of(fields, field))
 
+// Stores a block where there are `count` in all: what is behind the last stays.
+#if defined(OX_LANES_ARE_GROUP)
+#define OX_STORE_BLOCK(type, keep, values, block, count, to)               \
+  do {                                                                     \
+    if (OX_PLACE(block) < (count)) (to)[OX_PLACE(block)] = (type)(values); \
+  } while (0)
+#else
+#define OX_STORE_BLOCK(type, keep, values, block, count, to)        \
+  do {                                                              \
+    type of[OX_VECTOR_WIDTH];                                       \
+    keep(values, 0, of);                                            \
+    const uint begin = OX_VECTOR_WIDTH * (block);                   \
+    const uint present = min((count)-begin, (uint)OX_VECTOR_WIDTH); \
+    for (uint k = 0u; k < present; ++k) (to)[begin + k] = of[k];    \
+  } while (0)
+#endif
+#define OX_STORE_FLOATS(fields, field, block, count, values) \
+  OX_STORE_BLOCK(float, ox_store, values, block, count, ox_floats_of(fields, field))
+#define OX_STORE_WORDS(fields, field, block, count, values) \
+  OX_STORE_BLOCK(uint, ox_store_ints, values, block, count, ox_words_of(fields, field))
+
 // Of a block the products with a vector, of three fields from one on.
 static inline void ox_dot_fields(const ox_fields* fields, uint field, uint block, float3 v,
                                  ox_floats* products) {

@@ -5,7 +5,7 @@
 //
 // in    candidates, found: those of each pair; pairs, meshes
 // out   contacts, pair_ranges
-// item  1 pair (of a queue)
+// item  1 pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_CONTACTS
 #include "contacts/candidate_list.h"
 #include "contacts/constants.h"
@@ -70,15 +70,9 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
     ox_ints flags = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
     flags |= of_region ? none + (1 << OX_FOR_REGION) : none;
     flags |= of_manifold ? none + (1 << OX_FOR_MANIFOLD) : none;
-    float distance2[OX_VECTOR_WIDTH];
-    int taken_of[OX_VECTOR_WIDTH];
-    ox_store(OX_LESSER(off2, so_far), 0, distance2);
-    ox_store_ints(flags, 0, taken_of);
-    const uint present = min(count - OX_VECTOR_WIDTH * block, (uint)OX_VECTOR_WIDTH);
-    for (uint k = 0u; k < present; ++k) {
-      ox_floats_of(list, OX_CANDIDATE_DISTANCE2)[OX_VECTOR_WIDTH * block + k] = distance2[k];
-      ox_words_of(list, OX_CANDIDATE_TAKEN)[OX_VECTOR_WIDTH * block + k] = (uint)taken_of[k];
-    }
+    const ox_floats distance2 = OX_LESSER(off2, so_far);
+    OX_STORE_FLOATS(list, OX_CANDIDATE_DISTANCE2, block, count, distance2);
+    OX_STORE_WORDS(list, OX_CANDIDATE_TAKEN, block, count, flags);
   }
 }
 
@@ -149,6 +143,7 @@ static void ox_reduce_candidates(const ox_scene* scene) {
       }
       taken[n++] = next;
       if (n < most) ox_note_taken(&mine, count, next);
+      ox_settle();
     }
     const uint room = ox_place_contacts(scene, n, scene->pair_ranges + p);
     for (uint k = 0u; k < room; ++k)

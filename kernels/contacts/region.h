@@ -34,6 +34,15 @@ static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, 
   return r->scene->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
 }
 
+// Of a block of the members those that are vertices of mesh 1 - `side`, all that are no points of
+// mesh `side`: crossings are of both.
+static inline void ox_others_of_block(const ox_region_view* r, uint block, uint side,
+                                      ox_ints* is_other) {
+  const int others = (int)(OX_FEATURE_VERTEX | (side == 0u ? OX_FEATURE_SIDE : 0u));
+  const int mask = (int)(OX_FEATURE_VERTEX | OX_FEATURE_SIDE);
+  *is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
+}
+
 // Whether one of the faces at a vertex of mesh `side` faces back from a direction.
 static inline bool ox_vertex_looks_back(const ox_region_view* r, uint side, uint vertex,
                                         float3 direction) {
@@ -64,10 +73,11 @@ static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plan
       return true;
   }
   const float3 direction = ox_way_of(side, plane->normal);
-  for (uint k = 0u; k < r->count; ++k) {
-    const uint flags = ox_flags_of(r, k);
-    if (ox_is_vertex(flags) && ox_side_of(flags) != side &&
-        ox_vertex_looks_back(r, 1u - side, ox_feature_of(r, k)->source, direction))
+  for (uint first = 0u; first < r->count; first += OX_ITEMS) {
+    const uint k = first + OX_ITEM;
+    const uint flags = k < r->count ? ox_flags_of(r, k) : 0u;
+    if (ox_any_item(ox_is_vertex(flags) && ox_side_of(flags) != side &&
+                    ox_vertex_looks_back(r, 1u - side, ox_feature_of(r, k)->source, direction)))
       return true;
   }
   return false;

@@ -67,6 +67,7 @@ static inline void ox_set_own(const ox_region_view* r, uint k, const ox_plane_ch
 // deep tori. Of an open mesh the nearest may be one that the chord is in front of.
 static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);
+  ox_settle();
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
   if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
@@ -83,7 +84,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
 // Of the waiting units, the first of the members, the best of the planes that their features
 // propose.
 static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
-  for (uint k = 0u; k < waiting; ++k) {
+  for (uint k = OX_ITEM; k < waiting; k += OX_ITEMS) {
     ox_plane_choice best = ox_no_choice();
     ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = OX_NONE;
     uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
@@ -96,16 +97,19 @@ static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
     }
     ox_set_own(r, k, &best);
   }
+  ox_settle();
 }
 
 static inline void ox_swap_members(const ox_region_view* r, uint a, uint b) {
   if (a == b) return;
-  for (uint field = 0u; field < OX_MEMBER_WORDS; ++field) {
+  ox_settle();
+  for (uint field = OX_ITEM; field < OX_MEMBER_WORDS; field += OX_ITEMS) {
     __global uint* words = ox_words_of(&r->members, field);
     const uint kept = words[a];
     words[a] = words[b];
     words[b] = kept;
   }
+  ox_settle();
 }
 
 // Of the waiting units the deepest below what it has proposed so far; there is one. Of several that

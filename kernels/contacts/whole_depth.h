@@ -9,10 +9,9 @@
 // a direction; infinitely far back and on where none is.
 static inline void ox_extent_of_block(const ox_region_view* r, uint block, uint side,
                                       float3 direction, float* least, float* most) {
-  const int others = (int)(OX_FEATURE_VERTEX | (side == 0u ? OX_FEATURE_SIDE : 0u));
-  const int mask = (int)(OX_FEATURE_VERTEX | OX_FEATURE_SIDE);
   const ox_ints left = (int)(r->count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-  const ox_ints is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
+  ox_ints is_other;
+  ox_others_of_block(r, block, side, &is_other);
   ox_floats along;
   ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, direction, &along);
   ox_floats low = left > 0 ? along : (ox_floats)(INFINITY);

@@ -40,20 +40,39 @@ static inline void ox_add_edges_at(const ox_region_view* r, uint side, __global 
   }
 }
 
+// How far the members that are points of mesh `side` reach along a direction [m].
+static inline float ox_farthest_along(const ox_region_view* r, uint side, float3 direction) {
+  float farthest = -INFINITY;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block) {
+    float least, most;
+    ox_extent_of_block(r, block, side, direction, &least, &most);
+    farthest = ox_max(farthest, most);
+  }
+  return farthest;
+}
+
+// A bit for each of a block of them that is so far along it.
+static inline uint ox_members_beyond(const ox_region_view* r, uint block, uint side,
+                                     float3 direction, float limit) {
+  ox_floats along;
+  ox_ints is_other;
+  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, direction, &along);
+  ox_others_of_block(r, block, side, &is_other);
+  const ox_ints is_beyond = along >= limit;
+  return ox_mask_of(&is_beyond) & ~ox_mask_of(&is_other) & ox_present_lanes(r->count, block);
+}
+
 // Those of mesh `side` at what of it in the region is farthest past a plane, to within what is not
 // known of two coordinates.
 static inline void ox_add_farthest(const ox_region_view* r, uint side, float3 normal,
                                    ox_edge_set* set) {
   const float3 past = -ox_way_of(side, normal);
-  float farthest = -INFINITY;
-  for (uint k = 0u; k < r->count; ++k)
-    if (ox_is_on(ox_flags_of(r, k), side))
-      farthest = ox_max(farthest, ox_dot(past, ox_position_of(r, k)));
-  farthest -= OX_INFLATION * r->scene->pairs[r->pair].epsilon;
-  for (uint k = 0u; k < r->count; ++k) {
-    if (ox_is_on(ox_flags_of(r, k), side) && ox_dot(past, ox_position_of(r, k)) >= farthest)
-      ox_add_edges_at(r, side, ox_feature_of(r, k), set);
-  }
+  const uint blocks = (r->count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  const float farthest =
+      ox_farthest_along(r, side, past) - OX_INFLATION * r->scene->pairs[r->pair].epsilon;
+  for (uint block = 0u; block < blocks; ++block)
+    for (uint far = ox_members_beyond(r, block, side, past, farthest); far != 0u; far &= far - 1u)
+      ox_add_edges_at(r, side, ox_feature_of(r, OX_VECTOR_WIDTH * block + ox_lowest(far)), set);
 }
 
 static inline bool ox_are_at_facet(const ox_scene* scene, uint first, uint second, uint facet) {
@@ -174,16 +193,13 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
 // as of what contains the other mesh.
 static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 normal) {
   const float3 past = -ox_way_of(side, normal);
+  const float farthest = ox_farthest_along(r, side, past);
   uint best = OX_NONE;
-  float farthest = -INFINITY;
-  for (uint k = 0u; k < r->count; ++k) {
-    const float here = ox_dot(past, ox_position_of(r, k));
-    if (!ox_is_on(ox_flags_of(r, k), side) || here < farthest ||
-        (here == farthest && !ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))))
-      continue;
-    farthest = here;
-    best = k;
-  }
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block)
+    for (uint far = ox_members_beyond(r, block, side, past, farthest); far != 0u; far &= far - 1u) {
+      const uint k = OX_VECTOR_WIDTH * block + ox_lowest(far);
+      if (best == OX_NONE || ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))) best = k;
+    }
   return best;
 }
 
@@ -217,15 +233,19 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
 
 // The diagonal of the box of the members [m].
 static inline float ox_size_of(const ox_region_view* r) {
-  float3 lo = (float3)(INFINITY);
-  float3 hi = (float3)(-INFINITY);
-  for (uint k = 0u; k < r->count; ++k) {
-    const float3 p = ox_position_of(r, k);
-    lo = (float3)(ox_min(lo.x, p.x), ox_min(lo.y, p.y), ox_min(lo.z, p.z));
-    hi = (float3)(ox_max(hi.x, p.x), ox_max(hi.y, p.y), ox_max(hi.z, p.z));
+  float size[3];
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    ox_floats lo = (ox_floats)(INFINITY);
+    ox_floats hi = (ox_floats)(-INFINITY);
+    for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block) {
+      const ox_floats p = OX_LOAD_FLOATS(&r->members, OX_MEMBER_POSITION + axis, block);
+      const ox_ints left = (int)(r->count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
+      lo = left > 0 && p < lo ? p : lo;
+      hi = left > 0 && p > hi ? p : hi;
+    }
+    size[axis] = ox_greatest_of(&hi) - ox_least_of(&lo);
   }
-  const float3 size = hi - lo;
-  return sqrt(ox_dot(size, size));
+  return sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
 }
 
 // [m] how far a region of this size may lie past the plane of a face of a mesh that is convex in

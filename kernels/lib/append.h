@@ -9,7 +9,7 @@
 static inline uint ox_append(const ox_scene* scene, uint list) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
   const uint index = ox_fetch_add(scene, counter, 1u);
-  if (index >= OX_MOST_COUNTED) atomic_dec(counter);
+  if (index >= OX_MOST_COUNTED) ox_fetch_add_shared(counter, ~0u);
   return index < scene->lists[list].capacity ? scene->lists[list].first + index : OX_NONE;
 }
 
@@ -19,10 +19,20 @@ static inline uint ox_append(const ox_scene* scene, uint list) {
 static inline uint ox_append_many(const ox_scene* scene, uint list, uint count, uint* stored) {
   __global volatile uint* counter = scene->counters + list * OX_COUNTER_STRIDE;
   const uint first = ox_fetch_add(scene, counter, count);
-  if (first >= OX_MOST_COUNTED) atomic_sub(counter, count);
+  if (first >= OX_MOST_COUNTED) ox_fetch_add_shared(counter, 0u - count);
   const uint capacity = scene->lists[list].capacity;
   *stored = first < capacity ? min(count, capacity - first) : 0u;
   return scene->lists[list].first + first;
+}
+
+// The same of each work-item of a group that wants to: OX_NONE where it does not.
+static inline uint ox_append_each(const ox_scene* scene, uint list, bool wants) {
+  const uint bits = ox_group_bits(wants);
+  if (bits == 0u) return OX_NONE;
+  uint stored;
+  const uint first = ox_append_many(scene, list, popcount(bits), &stored);
+  const uint before = popcount(bits & ((1u << OX_ITEM) - 1u));
+  return wants && before < stored ? first + before : OX_NONE;
 }
 
 static inline uint ox_length(const ox_scene* scene, uint list) {

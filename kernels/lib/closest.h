@@ -131,13 +131,13 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
         const ox_ints is_near = distance2 <= closest->near2;
         uint near = ox_mask_of(&is_near) & ox_lanes_with_area(m, block);
         if (near == 0u) continue;
-        float distance2_of[OX_VECTOR_WIDTH], height2_of[OX_VECTOR_WIDTH];
-        ox_store(distance2, 0, distance2_of);
-        ox_store(height2, 0, height2_of);
+        ox_lane_floats distance2_of, height2_of;
+        ox_keep_lanes(&distance2, &distance2_of);
+        ox_keep_lanes(&height2, &height2_of);
         for (; near != 0u; near &= near - 1u) {
           const uint lane = ox_lowest(near);
-          ox_note_closest(closest, m->triangle[OX_VECTOR_WIDTH * block + lane], distance2_of[lane],
-                          height2_of[lane]);
+          ox_note_closest(closest, m->triangle[OX_VECTOR_WIDTH * block + lane],
+                          ox_lane(&distance2_of, lane), ox_lane(&height2_of, lane));
         }
       }
       continue;

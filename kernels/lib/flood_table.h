@@ -32,7 +32,7 @@ typedef struct {
 // OX_MOST_COUNTED, whatever is asked for.
 static inline uint ox_take_words(const ox_scene* scene, uint count) {
   __global volatile uint* counter = scene->counters + OX_LIST_FLOOD_WORDS * OX_COUNTER_STRIDE;
-  uint first = *counter;
+  uint first = ox_fetch(counter);
   for (;;) {
     const uint end = count < OX_MOST_COUNTED - first ? first + count : OX_MOST_COUNTED;
     const uint seen = ox_compare_exchange(scene, counter, first, end);
@@ -49,7 +49,9 @@ static inline ox_flood_table ox_empty_table(const ox_scene* scene, uint places) 
   table.places = table.first == OX_NONE ? 0u : places;
   table.used = 0u;
   table.queued = 0u;
-  for (uint i = 0u; i < table.places; ++i) scene->flood_words[table.first + 2u * i] = 0u;
+  for (uint i = OX_ITEM; i < table.places; i += OX_ITEMS)
+    scene->flood_words[table.first + 2u * i] = 0u;
+  ox_settle();
   return table;
 }
 
@@ -88,7 +90,9 @@ static inline bool ox_grow_table(const ox_scene* scene, ox_flood_table* table) {
     scene->flood_words[word] = key;
     scene->flood_words[word + 1u] = scene->flood_words[table->first + 2u * i + 1u];
   }
-  for (uint i = 0u; i < table->queued; ++i) ox_queue(scene, &larger)[i] = ox_queue(scene, table)[i];
+  for (uint i = OX_ITEM; i < table->queued; i += OX_ITEMS)
+    ox_queue(scene, &larger)[i] = ox_queue(scene, table)[i];
+  ox_settle();
   larger.used = table->used;
   larger.queued = table->queued;
   *table = larger;

@@ -23,13 +23,13 @@ static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces*
     uint left = ox_meets_lanes(&query->cast, meshlet, &seen, first / OX_VECTOR_WIDTH, from,
                                ox_limit(query, nearest), &t, &determinant);
     if (left == 0u) continue;
-    float t_lane[OX_VECTOR_WIDTH], determinant_lane[OX_VECTOR_WIDTH];
-    ox_store(t, 0, t_lane);
-    ox_store(determinant, 0, determinant_lane);
+    ox_lane_floats t_of, determinant_of;
+    ox_keep_lanes(&t, &t_of);
+    ox_keep_lanes(&determinant, &determinant_of);
     for (; left != 0u; left &= left - 1u) {
       const uint k = ox_lowest(left);
-      ox_consider_met(query, surfaces->triangles, meshlet->triangle[first + k], t_lane[k],
-                      determinant_lane[k] < 0.0f, nearest);
+      ox_consider_met(query, surfaces->triangles, meshlet->triangle[first + k], ox_lane(&t_of, k),
+                      ox_lane(&determinant_of, k) < 0.0f, nearest);
     }
   }
 }
@@ -119,10 +119,10 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
       uint left =
           ox_meets_lanes(&query->cast, meshlet, &seen, block, 0.0f, INFINITY, &t, &determinant);
       if (left == 0u) continue;
-      float determinant_lane[OX_VECTOR_WIDTH];
-      ox_store(determinant, 0, determinant_lane);
+      ox_lane_floats determinant_of;
+      ox_keep_lanes(&determinant, &determinant_of);
       for (; left != 0u; left &= left - 1u)
-        sum += determinant_lane[ox_lowest(left)] < 0.0f ? 1 : -1;
+        sum += ox_lane(&determinant_of, ox_lowest(left)) < 0.0f ? 1 : -1;
     }
   }
 }

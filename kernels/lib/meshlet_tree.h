@@ -59,13 +59,14 @@ typedef struct {
 static inline void ox_push_children(__global const ox_meshlet_node* node, uint block, uint wanted,
                                     const ox_floats* ratings, ox_box_walk* walk,
                                     ox_best_child* best) {
-  float rating[OX_VECTOR_WIDTH];
-  ox_store(*ratings, 0, rating);
+  ox_lane_floats rating_of;
+  ox_keep_lanes(ratings, &rating_of);
   for (; wanted != 0u; wanted &= wanted - 1u) {
     const uint lane = ox_lowest(wanted);
-    if (best->index == OX_NONE || rating[lane] > best->rating) {
+    const float rating = ox_lane(&rating_of, lane);
+    if (best->index == OX_NONE || rating > best->rating) {
       best->index = walk->count;
-      best->rating = rating[lane];
+      best->rating = rating;
     }
     walk->child[walk->count++] = node->child[OX_VECTOR_WIDTH * block + lane];
   }
@@ -82,7 +83,7 @@ static inline void ox_put_best_last(ox_box_walk* walk, const ox_best_child* best
 // A block of the children whose boxes a ray passes between `from` and `limit` [m], a bit for each;
 // entry [m]: from where on.
 static inline uint ox_entered_children(const ox_cast* cast, __global const ox_meshlet_node* node,
-                                       uint block, float from, float limit, float* entry) {
+                                       uint block, float from, float limit, ox_lane_floats* entry) {
   const float3 inverse = cast->inverse;
   const float3 origin = cast->start;
   const bool turned_x = inverse.x < 0.0f;
@@ -108,7 +109,7 @@ static inline uint ox_entered_children(const ox_cast* cast, __global const ox_me
   const ox_floats leave_xy = OX_LESSER(far_x, far_y);
   const ox_floats leave_z = OX_LESSER(far_z, last);
   const ox_floats leave = OX_LESSER(leave_xy, leave_z);
-  ox_store(enter, 0, entry);
+  ox_keep_lanes(&enter, entry);
   const ox_ints met = enter <= leave;
   return ox_mask_of(&met) & ox_present_children(node, block);
 }
@@ -127,17 +128,18 @@ static inline uint ox_next_on_ray(ox_ray_walk* walk, const ox_cast* cast,
     *work += node->count;
     const uint begin = walk->count;
     for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
-      float entry[OX_VECTOR_WIDTH];
-      uint met = ox_entered_children(cast, node, first / OX_VECTOR_WIDTH, from, limit, entry);
+      ox_lane_floats entry_of;
+      uint met = ox_entered_children(cast, node, first / OX_VECTOR_WIDTH, from, limit, &entry_of);
       for (; met != 0u; met &= met - 1u) {
         const uint k = ox_lowest(met);
+        const float entry = ox_lane(&entry_of, k);
         uint place = walk->count++;
-        for (; place > begin && walk->entry[place - 1u] < entry[k]; --place) {
+        for (; place > begin && walk->entry[place - 1u] < entry; --place) {
           walk->child[place] = walk->child[place - 1u];
           walk->entry[place] = walk->entry[place - 1u];
         }
         walk->child[place] = node->child[first + k];
-        walk->entry[place] = entry[k];
+        walk->entry[place] = entry;
       }
     }
   }

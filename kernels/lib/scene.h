@@ -7,6 +7,7 @@
 #define ODE_EXT_KERNELS_LIB_SCENE_H
 
 #include "abi/types.h"
+#include "lib/group.h"
 
 // What becomes of crossings and hits (abi/contacts.h).
 struct ox_feature;
@@ -26,7 +27,7 @@ typedef struct {
   uint modes;                         // OX_MODE_...
   uint max_contacts, max_deformable;  // of a pair; of one with a deformable mesh, 0: all
   uint pair_first, pair_end;          // of the pairs that are looked at
-  uint item, item_count;              // of the work-items that do
+  uint item, item_count;              // of the work-items, or groups, that do
   bool alone;  // there is one, and what it changes is no other's (lib/atomics.h)
   __global volatile uint* contact_count;
   // The meshes.
@@ -82,14 +83,14 @@ typedef struct {
       __global struct ox_face *faces, __global float *planes, __global uint *edge_planes,          \
       __global float *candidates
 
-#define OX_SCENE                                                                                   \
-  {                                                                                                \
-    counters, lists, modes, max_contacts, max_deformable, 0u, pair_count, (uint)get_global_id(0),  \
-        (uint)get_global_size(0), false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, meshes,   \
-        chunks, vertices, edges, ring_starts, rings, {triangles, meshlets, meshlet_nodes},         \
-        objects, pair_objects, pairs, found, pair_ranges, meshlet_tasks, meshlet_pairs, crossings, \
-        flood_words, tasks, rays, hits, contacts, features, parents, slots, regions, members,      \
-        faces, planes, edge_planes, candidates                                                     \
+#define OX_SCENE                                                                               \
+  {                                                                                            \
+    counters, lists, modes, max_contacts, max_deformable, 0u, pair_count, OX_FIRST_WORK,       \
+        OX_WORK_STRIDE, false, counters + OX_LIST_CONTACTS *OX_COUNTER_STRIDE, meshes, chunks, \
+        vertices, edges, ring_starts, rings, {triangles, meshlets, meshlet_nodes}, objects,    \
+        pair_objects, pairs, found, pair_ranges, meshlet_tasks, meshlet_pairs, crossings,      \
+        flood_words, tasks, rays, hits, contacts, features, parents, slots, regions, members,  \
+        faces, planes, edge_planes, candidates                                                 \
   }
 
 #endif

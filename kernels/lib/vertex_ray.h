@@ -12,29 +12,27 @@ static inline bool ox_casts_ray(__global const ox_vertex* vertex) {
   return direction.x != 0.0f || direction.y != 0.0f || direction.z != 0.0f;
 }
 
-// A ray of a vertex that can be in contact.
-static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint vertex) {
-  if (!ox_casts_ray(scene->vertices + vertex) ||
-      !ox_keep_vertex(scene->pairs + (pair_side >> 1), pair_side & 1u, scene->meshes,
-                      scene->vertices + vertex))
-    return;
-  const uint index = ox_append(scene, OX_LIST_RAYS);
-  if (index == OX_NONE) return;
-  scene->rays[index].pair_side = pair_side;
-  scene->rays[index].vertex = vertex;
-  scene->rays[index].memory = OX_RAY_ASKING;
-  scene->rays[index].triangle = OX_NONE;
+// Whether a vertex can be in contact.
+static inline bool ox_may_cast(const ox_scene* scene, uint pair_side, uint vertex) {
+  return ox_casts_ray(scene->vertices + vertex) &&
+         ox_keep_vertex(scene->pairs + (pair_side >> 1), pair_side & 1u, scene->meshes,
+                        scene->vertices + vertex);
 }
 
-// Of a vertex that is inside: OX_RAY_INSIDE or OX_RAY_CONTAINED. `from`: as in ox_hit.
-static inline void ox_append_inside(const ox_scene* scene, uint pair_side, uint vertex, uint memory,
-                                    uint from) {
-  const uint index = ox_append(scene, OX_LIST_RAYS);
+// `memory`: OX_RAY_ASKING, or of a vertex that is inside OX_RAY_INSIDE or OX_RAY_CONTAINED; then
+// `from` is as in ox_hit, else OX_NONE. Of an index that is OX_NONE nothing.
+static inline void ox_store_ray(const ox_scene* scene, uint index, uint pair_side, uint vertex,
+                                uint memory, uint from) {
   if (index == OX_NONE) return;
   scene->rays[index].pair_side = pair_side;
   scene->rays[index].vertex = vertex;
   scene->rays[index].memory = memory;
   scene->rays[index].triangle = from;
+}
+
+static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint vertex) {
+  if (ox_may_cast(scene, pair_side, vertex))
+    ox_store_ray(scene, ox_append(scene, OX_LIST_RAYS), pair_side, vertex, OX_RAY_ASKING, OX_NONE);
 }
 
 // The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in

@@ -87,7 +87,7 @@ void Collider::launch_steps(Batch& batch) {
   const std::size_t pairs = workload.tile().count;
   if (!whole_step_) data_.launch(search_.pair_step, workload.launch(pairs));
   if (options_.edges) {
-    data_.launch(search_.cull, workload.launch(pairs));
+    data_.launch(search_.cull, workload.launch_each(pairs));
     data_.launch(search_.match, workload.settle_launch(List::kMeshlets));
     data_.launch(search_.cross,
                  workload.settle_launch(List::kMeshletPairs, search_.items_per_meshlet_pair));

@@ -2,6 +2,7 @@
 // The main path: pairs in, contacts out (GRAPP figure 1).
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "collide/batch.h"
@@ -48,10 +49,12 @@ class Collider {
   void finish(Batch& batch);
   StageTimes take_milliseconds();
   void warm_up();
+  Program& of_groups() { return group_program_ ? *group_program_ : program_; }
 
   ColliderOptions options_;
   Device device_;
   Program program_;
+  std::unique_ptr<Program> group_program_;  // where lanes are groups
   Search search_;
   PlaneAssembly assembly_;
   BatchData data_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Collider, before its first batch.
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +24,7 @@ BatchSettings settings_of(const ColliderOptions& options) {
 }
 
 bool lanes_are_items(const ColliderOptions& options, const DeviceInfo& device) {
+  if (lanes_are_groups(options, device)) return true;
   if (options.lanes == Lanes::kOfDevice) return (device.type & CL_DEVICE_TYPE_CPU) == 0;
   return options.lanes == Lanes::kItems;
 }
@@ -39,6 +41,7 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   std::string text = options.count_work ? "-DOX_COUNT_WORK" : "";
   if (!options.builtins) text += " -DOX_NO_BUILTINS";
   if (lanes_are_items(options, device)) text += " -DOX_LANES_ARE_ITEMS";
+  if (lanes_are_groups(options, device)) text += std::string(" ") + kGroupsApart;
   if (follows_paper(options)) text += std::string(" ") + paper::kProgramOption;
   if (may_run_whole(options, device)) text += " -DOX_WHOLE_STEP";
   // Last, where Program puts that of the device: drivers keep kernels by this text.
@@ -47,14 +50,21 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   return text;
 }
 
+std::string options_of_groups() {
+  return std::string(kLanesAreGroup) + " -DOX_VECTOR_WIDTH=" + std::to_string(OX_LANES);
+}
+
 }  // namespace
 
 Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer, options.share_memory),
       program_(device_, program_options(options, device_.info())),
-      search_(program_, items_per_meshlet_pair(options_, device_.info())),
-      assembly_(program_),
+      group_program_(lanes_are_groups(options, device_.info())
+                         ? std::make_unique<Program>(device_, options_of_groups())
+                         : nullptr),
+      search_(program_, of_groups(), items_per_meshlet_pair(options_, device_.info())),
+      assembly_(program_, of_groups()),
       data_(program_),
       read_back_(device_) {
   data_.settings = settings_of(options);
@@ -73,6 +83,7 @@ Collider::Collider(const ColliderOptions& options)
                                 std::to_string(device_.info().work_group_limit) + " that '" +
                                 device_.info().name + "' can run");
   self_test(program_);
+  if (group_program_) self_test_groups(*group_program_, OX_LANES);
   warm_up();
 }
 
@@ -98,15 +109,17 @@ void Collider::warm_up() {
   const bool is_pocl =
       device_.info().platform_name.find("Portable Computing Language") != std::string::npos;
   const Launch wide{is_pocl ? (std::size_t{1} << 16) / local + 1 : 1, local};
-  for (Kernel* kernel : {&search_.pair_step, &search_.cull, &search_.match, &search_.cross})
+  const Launch of_queue = group_program_ ? Launch{1, OX_LANES} : wide;
+  data_.launch(search_.cull, of_queue);
+  for (Kernel* kernel : {&search_.pair_step, &search_.match, &search_.cross})
     data_.launch(*kernel, wide);
   if (paper_) {
     paper_->warm_up(wide, data_, batch);
   } else {
-    for (Kernel* kernel : {&search_.flood, &search_.vertex_step, &search_.ray_step})
-      data_.launch(*kernel, wide);
+    data_.launch(search_.flood, of_queue);
+    for (Kernel* kernel : {&search_.vertex_step, &search_.ray_step}) data_.launch(*kernel, wide);
   }
-  assembly_.run(wide, wide, wide, data_);
+  assembly_.run(wide, wide, of_queue, data_);
   if (whole_step_) data_.launch(*whole_step_, {1, 1});
   data_.meshes.warm_up(wide);
   device_.finish();

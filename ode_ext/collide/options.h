@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <string>
 
+#include "abi/types.h"
 #include "collide/prediction.h"
+#include "opencl/device.h"
 
 namespace ode_ext {
 
@@ -12,7 +14,7 @@ enum class LaunchRule { kPredicted, kExact };
 enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
 enum class Organization { kPipelined, kMonolithic };
-enum class Lanes { kOfDevice, kVectors, kItems };
+enum class Lanes { kOfDevice, kVectors, kItems, kGroups };
 enum class Misprediction { kRedo, kIgnore, kBacktrack };
 
 struct ColliderOptions {
@@ -33,8 +35,10 @@ struct ColliderOptions {
   bool edges = true;                       // crossings of edges are searched too
   std::uint32_t vector_width = 0;          // 1, 4, 8 or 16 (lib/lanes.h); 0: what suits the device
   bool builtins = true;  // the processor's own, where lib/lanes.h knows some; the same bytes
-  // Whether a work-item takes all lanes of a meshlet as vectors, or a block of them (cross.cl);
-  // kOfDevice: vectors on a processor, else items. The same bytes.
+  // Whether a work-item takes all lanes of a meshlet as vectors, or a block of them (cross.cl); and
+  // where it would go through much alone, whether a work-group does so together
+  // (kernels/lib/group.h), which only NVIDIA's devices can. kOfDevice: vectors on a processor,
+  // groups where there are such, else items. The same bytes.
   Lanes lanes = Lanes::kOfDevice;
   bool count_work = false;
   // On a processor each pair is taken through all steps by one work-item (kernels/whole_step.cl).
@@ -54,6 +58,12 @@ inline bool follows_paper(const ColliderOptions& options) {
          options.deformable_target != DeformableTarget::kRefit ||
          options.organization != Organization::kPipelined ||
          options.misprediction != Misprediction::kRedo || options.count_work;
+}
+
+inline bool lanes_are_groups(const ColliderOptions& options, const DeviceInfo& device) {
+  return options.lanes == Lanes::kGroups ||
+         (options.lanes == Lanes::kOfDevice && (device.type & CL_DEVICE_TYPE_GPU) != 0 &&
+          device.platform_name == "NVIDIA CUDA" && device.work_group_limit >= OX_LANES);
 }
 
 // The largest max_contacts (OX_MAX_CONTACTS in kernels/contacts/candidate_list.h).

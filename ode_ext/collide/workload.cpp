@@ -159,7 +159,18 @@ Launch Workload::launch(std::uint64_t items) const {
           options_.work_group_size};
 }
 
+Launch Workload::launch_each(std::uint64_t items) const {
+  if (!lanes_are_groups(options_, device_)) return launch(items);
+  // Of one warp each a compute unit of NVIDIA's has no more at a time.
+  constexpr std::uint64_t kResident = 32;
+  const std::uint64_t most = kResident * device_.compute_units;
+  return {static_cast<std::size_t>(std::min(items, most)), OX_LANES};
+}
+
 Launch Workload::launch_queue(std::uint64_t items) const {
+  // Of a pair there may be many.
+  if (lanes_are_groups(options_, device_))
+    return launch_each(std::max<std::uint64_t>(items, 8 * std::uint64_t{device_.compute_units}));
   return launch(std::max<std::uint64_t>(
       items, std::uint64_t{device_.compute_units} * options_.work_group_size));
 }

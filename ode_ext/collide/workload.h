@@ -48,6 +48,8 @@ class Workload {
   Launch launch(std::uint64_t items) const;
   // Of one whose work-items take them one by one (lib/append.h): some for every compute unit.
   Launch launch_queue(std::uint64_t items) const;
+  // One for each of so many that a work-group goes through together, where lanes are groups.
+  Launch launch_each(std::uint64_t items) const;
   // Of one that takes a list, a record by so many work-items.
   Launch launch(List list, std::uint32_t items_per_record = 1) const;
   // The same after settle_launches().

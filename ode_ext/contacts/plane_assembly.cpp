@@ -3,7 +3,7 @@
 
 namespace ode_ext {
 
-PlaneAssembly::PlaneAssembly(Program& program)
+PlaneAssembly::PlaneAssembly(Program& program, Program& of_groups)
     : gather_(program, "feature_gather"),
       place_(program, "feature_place"),
       link_(program, "feature_link"),
@@ -13,8 +13,8 @@ PlaneAssembly::PlaneAssembly(Program& program)
       place_regions_(program, "region_place"),
       fill_(program, "region_fill"),
       propose_(program, "region_propose"),
-      choose_(program, "choose_planes"),
-      reduce_(program, "reduce_candidates") {}
+      choose_(of_groups, "choose_planes"),
+      reduce_(of_groups, "reduce_candidates") {}
 
 void PlaneAssembly::run(Launch per_pair, Launch per_feature, Launch per_region,
                         const BatchData& data) {

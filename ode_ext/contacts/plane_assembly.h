@@ -11,7 +11,8 @@ namespace ode_ext {
 
 class PlaneAssembly {
  public:
-  explicit PlaneAssembly(Program& program);
+  // of_groups: as in Search.
+  PlaneAssembly(Program& program, Program& of_groups);
 
   // Features, regions and their planes, and candidates for contacts: features.cl, choose.cl. Of
   // each pair a few of them: reduce.cl, of a queue as regions are.

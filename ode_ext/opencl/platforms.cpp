@@ -66,6 +66,8 @@ DeviceInfo describe(cl_device_id id) {
   info.largest_buffer = value_of<cl_ulong>(id, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
   info.work_group_limit = value_of<std::size_t>(id, CL_DEVICE_MAX_WORK_GROUP_SIZE);
   info.shares_memory = shares_memory(id, info.type);
+  info.rounds_quotients = (value_of<cl_device_fp_config>(id, CL_DEVICE_SINGLE_FP_CONFIG) &
+                           CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   info.vector_width = value_of<cl_uint>(id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT);
   info.available = value_of<cl_bool>(id, CL_DEVICE_AVAILABLE) == CL_TRUE;
   info.has_compiler = value_of<cl_bool>(id, CL_DEVICE_COMPILER_AVAILABLE) == CL_TRUE;

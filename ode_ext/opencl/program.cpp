@@ -11,9 +11,24 @@
 namespace ode_ext {
 namespace {
 
+// What a work-group goes through together where OX_LANES_ARE_GROUP (kernels/lib/group.h).
+constexpr std::string_view kOfGroups[] = {"cull.cl", "flood.cl", "contacts/choose.cl",
+                                          "contacts/reduce.cl"};
+
+// Where a file is left out; nullptr: nowhere. Of groups those, and what they are made of.
+const char* left_out(std::string_view name) {
+  if (name == "self_test_group.cl") return "#ifdef OX_LANES_ARE_GROUP\n";
+  if (std::find(std::begin(kOfGroups), std::end(kOfGroups), name) != std::end(kOfGroups))
+    return "#ifndef OX_GROUPS_APART\n";
+  if (name.starts_with("paper/")) return "#if defined(OX_PAPER) && !defined(OX_LANES_ARE_GROUP)\n";
+  if (name.ends_with(".cl") || name == "lib/intersect.h" || name == "lib/cross.h")
+    return "#ifndef OX_LANES_ARE_GROUP\n";
+  return nullptr;
+}
+
 void append_file(std::string& source, const EmbeddedKernel& file) {
-  const bool of_paper = std::string_view(file.name).starts_with("paper/");
-  if (of_paper) source += "#ifdef OX_PAPER\n";
+  const char* condition = left_out(file.name);
+  if (condition != nullptr) source += condition;
   source += "#line 1 \"" + std::string(file.name) + "\"\n";
   std::string_view rest(reinterpret_cast<const char*>(file.text), file.size);
   while (!rest.empty()) {
@@ -23,7 +38,7 @@ void append_file(std::string& source, const EmbeddedKernel& file) {
     source += '\n';
     rest.remove_prefix(std::min(rest.size(), line.size() + 1));
   }
-  if (of_paper) source += "#endif\n";
+  if (condition != nullptr) source += "#endif\n";
 }
 
 // For a message about a failed build, so a failure of its own is only told.
@@ -68,7 +83,10 @@ Program::Program(Device& device, const std::string& source, const std::string& o
   device.check_call(code, "clCreateProgramWithSource");
 
   // Nothing that relaxes the arithmetic: watertight rays need every operation rounded as written.
-  const std::string all_options = "-cl-std=CL1.2 " + options;
+  // Quotients and roots too, where the device can: then contacts are the same on all of those.
+  const std::string rounded =
+      device.info().rounds_quotients ? " -cl-fp32-correctly-rounded-divide-sqrt" : "";
+  const std::string all_options = "-cl-std=CL1.2 " + options + rounded;
   const cl_device_id id = device.info().id;
   code = clBuildProgram(program_.get(), 1, &id, all_options.c_str(), nullptr, nullptr);
   device.check_call(code, "clBuildProgram", [&] {

@@ -18,6 +18,11 @@ namespace ode_ext {
 // Of the widths that lib/lanes.h knows the widest that the device takes at once.
 unsigned suitable_vector_width(const DeviceInfo& device);
 
+// Options for those that a work-group goes through together (kernels/lib/group.h) as a program of
+// their own, and for all others where they are.
+inline constexpr const char* kLanesAreGroup = "-DOX_LANES_ARE_GROUP";
+inline constexpr const char* kGroupsApart = "-DOX_GROUPS_APART";
+
 class Program {
  public:
   // Builds all files of kernels/ (headers first, then *.cl, each preceded by a #line that names it)
@@ -104,5 +109,9 @@ struct SelfTestReport {
 // Runs kernels/self_test.cl once: contraction off is honoured, fma is exact, comparisons with NaN
 // and infinity behave, atomic counters count. Throws DeviceError with a sentence on failure.
 SelfTestReport self_test(Program& program);
+
+// Runs kernels/self_test_group.cl once: whether the `items` of a work-group hand values on as
+// kernels/lib/group.h says. Throws DeviceError with a sentence where they do not.
+void self_test_groups(Program& of_groups, std::uint32_t items);
 
 }  // namespace ode_ext

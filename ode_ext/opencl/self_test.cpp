@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "opencl/self_test.h"
 
+#include <algorithm>
 #include <bit>
 #include <cfloat>
 #include <cmath>
@@ -150,6 +151,21 @@ SelfTestReport check_self_test(const std::vector<SelfTestCase>& cases,
   }
   if (counter != cases.size()) refuse(device, "an atomic counter lost or gained a count");
   return {.keeps_denormals = std::bit_cast<float>(results.back()[kProduct]) != 0};
+}
+
+void self_test_groups(Program& of_groups, std::uint32_t items) {
+  constexpr std::size_t kGroups = 4;
+  Device& device = of_groups.device();
+  std::vector<cl_uint> agrees(kGroups * items, 0);
+  Kernel kernel(of_groups, "self_test_group");
+  Buffer there(device, Memory::kDevice);
+  there.reserve(agrees.size() * sizeof(cl_uint));
+  there.fill_zero(agrees.size() * sizeof(cl_uint));
+  kernel.launch(kGroups, items, there);
+  there.read(agrees.data(), agrees.size() * sizeof(cl_uint));
+  device.finish();
+  if (std::find(agrees.begin(), agrees.end(), 0u) != agrees.end())
+    refuse(device.label(), "work-items of a group do not hand values on to one another");
 }
 
 SelfTestReport self_test(Program& program) {

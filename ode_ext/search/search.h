@@ -11,13 +11,14 @@
 namespace ode_ext {
 
 struct Search {
-  // items: that look at each pair of meshlets in cross.cl.
-  Search(Program& program, std::uint32_t items)
+  // of_groups: of the kernels that a work-group goes through together (kernels/lib/group.h); may be
+  // the same. items: that look at each pair of meshlets in cross.cl.
+  Search(Program& program, Program& of_groups, std::uint32_t items)
       : pair_step(program, "pair_step"),
-        cull(program, "cull"),
+        cull(of_groups, "cull"),
         match(program, "match"),
         cross(program, "cross_meshlets"),
-        flood(program, "flood"),
+        flood(of_groups, "flood"),
         vertex_step(program, "vertex_step"),
         ray_step(program, "ray_step"),
         items_per_meshlet_pair(items) {}

@@ -31,7 +31,7 @@ Curves find_curves(const TestScene& scene) {
   const auto& meshes = scene.scene.meshes;
   Device device("");
   Program program(device, "");
-  Search search(program, 1);
+  Search search(program, program, 1);
   BatchData data(program);
   data.settings.modes = OX_MODE_EDGES | OX_MODE_FLOOD;
   data.meshes.set(meshes);

@@ -138,8 +138,8 @@ class Rig {
   Rig()
       : device_(""),
         program_(device_, paper::kProgramOption),
-        search_(program_, 1),
-        assembly_(program_),
+        search_(program_, program_, 1),
+        assembly_(program_, program_),
         paper_(program_),
         data_(program_) {}
 
