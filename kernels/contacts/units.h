@@ -77,8 +77,10 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   own.judged = own.depth + ox_edge_tie(r, &own.plane);
   const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.judged);
   if (!ox_take_better(r, k, &nearest, INFINITY, &own)) return;
+  ox_settle();
   ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.id[0] | OX_OWN_NEAREST;
   ox_set_own(r, k, &own);
+  ox_settle();
 }
 
 // Of the waiting units, the first of the members, the best of the planes that their features

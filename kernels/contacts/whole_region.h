@@ -169,7 +169,7 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   for (uint i = 0u; i < r->plane_count; ++i) {
     const ox_plane plane = ox_load_plane(&r->planes, i);
     if (ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal)))
-      ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] |= OX_PLANE_PASSED;
+      ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] |= OX_PLANE_PASSED;  // each of a group the same
   }
   ox_plane_choice least = ox_no_choice();
   for (uint i = 0u; i < OX_DIRECTIONS; ++i)

@@ -53,8 +53,8 @@ class Collider {
 
   ColliderOptions options_;
   Device device_;
-  Program program_;
   std::unique_ptr<Program> group_program_;  // where lanes are groups
+  Program program_;
   Search search_;
   PlaneAssembly assembly_;
   BatchData data_;

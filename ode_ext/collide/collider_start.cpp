@@ -50,8 +50,19 @@ std::string program_options(const ColliderOptions& options, const DeviceInfo& de
   return text;
 }
 
-std::string options_of_groups() {
-  return std::string(kLanesAreGroup) + " -DOX_VECTOR_WIDTH=" + std::to_string(OX_LANES);
+// Where lanes are groups; nullptr: they are not, or the driver does not build these kernels, or not
+// as they have to be. Then they are items, which asks less of it.
+std::unique_ptr<Program> program_of_groups(ColliderOptions& options, Device& device) {
+  if (!lanes_are_groups(options, device.info())) return nullptr;
+  try {
+    auto program = std::make_unique<Program>(
+        device, std::string(kLanesAreGroup) + " -DOX_VECTOR_WIDTH=" + std::to_string(OX_LANES));
+    self_test_groups(*program, OX_LANES);
+    return program;
+  } catch (const DeviceError&) {
+    options.lanes = Lanes::kItems;
+    return nullptr;
+  }
 }
 
 }  // namespace
@@ -59,10 +70,8 @@ std::string options_of_groups() {
 Collider::Collider(const ColliderOptions& options)
     : options_(options),
       device_(options.device, options.largest_buffer, options.share_memory),
-      program_(device_, program_options(options, device_.info())),
-      group_program_(lanes_are_groups(options, device_.info())
-                         ? std::make_unique<Program>(device_, options_of_groups())
-                         : nullptr),
+      group_program_(program_of_groups(options_, device_)),
+      program_(device_, program_options(options_, device_.info())),
       search_(program_, of_groups(), items_per_meshlet_pair(options_, device_.info())),
       assembly_(program_, of_groups()),
       data_(program_),
@@ -83,7 +92,6 @@ Collider::Collider(const ColliderOptions& options)
                                 std::to_string(device_.info().work_group_limit) + " that '" +
                                 device_.info().name + "' can run");
   self_test(program_);
-  if (group_program_) self_test_groups(*group_program_, OX_LANES);
   warm_up();
 }
 

@@ -14,7 +14,7 @@ enum class LaunchRule { kPredicted, kExact };
 enum class Rays { kFull, kIterative, kIterativePaper };
 enum class DeformableTarget { kRefit, kBasic };
 enum class Organization { kPipelined, kMonolithic };
-enum class Lanes { kOfDevice, kVectors, kItems, kGroups };
+enum class Lanes { kOfDevice, kVectors, kItems };
 enum class Misprediction { kRedo, kIgnore, kBacktrack };
 
 struct ColliderOptions {
@@ -37,8 +37,8 @@ struct ColliderOptions {
   bool builtins = true;  // the processor's own, where lib/lanes.h knows some; the same bytes
   // Whether a work-item takes all lanes of a meshlet as vectors, or a block of them (cross.cl); and
   // where it would go through much alone, whether a work-group does so together
-  // (kernels/lib/group.h), which only NVIDIA's devices can. kOfDevice: vectors on a processor,
-  // groups where there are such, else items. The same bytes.
+  // (kernels/lib/group.h). kOfDevice: vectors on a processor, groups where NVIDIA's device can and
+  // its driver builds them, else items. The same bytes.
   Lanes lanes = Lanes::kOfDevice;
   bool count_work = false;
   // On a processor each pair is taken through all steps by one work-item (kernels/whole_step.cl).
@@ -60,10 +60,11 @@ inline bool follows_paper(const ColliderOptions& options) {
          options.misprediction != Misprediction::kRedo || options.count_work;
 }
 
+// From compute capability 7 on work-items of a warp that went separate ways meet again at the
+// instructions that kernels/lib/group.h has; before, they have to have met.
 inline bool lanes_are_groups(const ColliderOptions& options, const DeviceInfo& device) {
-  return options.lanes == Lanes::kGroups ||
-         (options.lanes == Lanes::kOfDevice && (device.type & CL_DEVICE_TYPE_GPU) != 0 &&
-          device.platform_name == "NVIDIA CUDA" && device.work_group_limit >= OX_LANES);
+  return options.lanes == Lanes::kOfDevice && device.compute_capability >= 7 &&
+         device.work_group_limit >= OX_LANES;
 }
 
 // The largest max_contacts (OX_MAX_CONTACTS in kernels/contacts/candidate_list.h).

@@ -26,8 +26,9 @@ struct DeviceInfo {
   // Whether what is written by one of host and device is there for the other, without transfers
   // (fine-grained shared virtual memory); asked of processors only.
   bool shares_memory = false;
-  bool rounds_quotients = false;  // quotients and roots of floats too, where it is asked to
-  cl_uint vector_width = 1;       // floats that an operation takes at once; 1 on most GPUs
+  cl_uint compute_capability = 0;  // NVIDIA's, the number before the point; 0: another's
+  bool rounds_quotients = false;   // quotients and roots of floats too, where it is asked to
+  cl_uint vector_width = 1;        // floats that an operation takes at once; 1 on most GPUs
   bool available = true, has_compiler = true, little_endian = true;
 };
 

@@ -53,6 +53,13 @@ std::vector<cl_platform_id> list_platforms() {
   return platforms;
 }
 
+// The number before the point; 0: it is not known.
+cl_uint compute_capability(cl_device_id id) {
+  constexpr cl_device_info kMajor = 0x4000;  // cl_nv_device_attribute_query
+  cl_uint major = 0;
+  return clGetDeviceInfo(id, kMajor, sizeof(major), &major, nullptr) == CL_SUCCESS ? major : 0;
+}
+
 DeviceInfo describe(cl_device_id id) {
   DeviceInfo info;
   info.id = id;
@@ -91,6 +98,7 @@ std::vector<DeviceInfo> devices_of(cl_platform_id platform) {
     devices.push_back(describe(id));
     devices.back().platform = platform;
     devices.back().platform_name = platform_name;
+    if (platform_name == "NVIDIA CUDA") devices.back().compute_capability = compute_capability(id);
   }
   return devices;
 }

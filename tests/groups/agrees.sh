@@ -21,8 +21,9 @@ hash_of() {  # <library to be loaded before, or nothing> <command>...
   env ${library:+LD_PRELOAD="$library"} "$@" 2> "$log" | sed -n 's/.*contact hash *//p'
 }
 
-# In a pile, and driven by ODE, which lets bodies sink into one another.
-for scene in "--objects 40 --steps 60" "--objects 16 --steps 80 --collider ode --compare"; do
+# In a pile; driven by ODE, which lets bodies sink into one another; and with sheets, which are open.
+for scene in "--objects 40 --steps 60" "--objects 16 --steps 80 --collider ode --compare" \
+  "--scene rigid-deformable --objects 4 --sheets 1 --steps 60"; do
   read -ra options <<< "$scene --quiet --no-window"
   expected=$(hash_of "" "$program" "${options[@]}")
   # Step by step, for whole steps have no launches of their own.

@@ -5,9 +5,10 @@
 // others run as they are.
 //
 // Each work-item of a group is a context of its own and runs alone until it meets the others: as
-// far ahead of them as can be, and now the first, now the last goes first. So what is written
-// without ox_settle() where others read it comes to light, and where they do not all meet at one
-// place of the code the program ends with a list of where they are.
+// far ahead of them as can be, and now the first, now the last goes first. So most of what is
+// written without ox_settle() where others read it comes to light, but not what two do in turns
+// between two meetings; and where they do not all meet at one place of the code the program ends
+// with a list of where they are.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
