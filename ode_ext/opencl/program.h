@@ -27,9 +27,9 @@ class Program {
  public:
   // Builds all files of kernels/ (headers first, then *.cl, each preceded by a #line that names it)
   // as one program with "-cl-std=CL1.2" and `options`, quotients and roots rounded correctly where
-  // the device can; those of kernels/paper/ only where these define OX_PAPER, those of groups or all
-  // others where they say so (above); where they do not name OX_VECTOR_WIDTH, with that which suits
-  // the device (lib/lanes.h). Throws DeviceError with device, driver, options and build log.
+  // the device can; those of kernels/paper/ only where these define OX_PAPER, those of groups or
+  // all others where they say so (above); where they do not name OX_VECTOR_WIDTH, with that which
+  // suits the device (lib/lanes.h). Throws DeviceError with device, driver, options and build log.
   Program(Device& device, const std::string& options);
   // The same with `source` instead, for tests and tools.
   Program(Device& device, const std::string& source, const std::string& options);
