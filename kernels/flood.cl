@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an
-// edge tells on which side of the surface that end is, and both ends of an edge without crossings
-// are on one side. So from the former ends that are inside, over the latter edges, all vertices
-// inside are reached; of a part of the mesh without crossings one of its vertices is asked. An
-// open target has no inside, but its faces have a space behind them. A part without crossings is
-// not there, and where the flood gets round the border, to an end in front, all vertices are
-// looked at (vertex_step.cl). Crossings are those of meshes in general position: none only
-// touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by; but of
-// those inside a closed target that lie within a facet none: they bound nothing.
+// Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an edge
+// tells on which side of the surface that end is, and both ends of an edge without crossings are on
+// one side. So from the former ends that are inside, over the latter edges, all vertices inside are
+// reached; of a part of the mesh without crossings one of its vertices is asked. An open target has
+// no inside, but its faces have a space behind them. A part without crossings is not there, but
+// where it lies on a face; and where the flood gets round the border, to an end in front, all
+// vertices are looked at (vertex_step.cl). Crossings are those of meshes in general position: none
+// only touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by;
+// but of those inside a closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
 //       vertices, edges, rings, triangles, meshlets, meshlet_nodes
@@ -35,6 +35,7 @@ typedef struct {
   bool told;     // a crossing tells of an end of its edge
   bool asks;     // it goes on from vertices of which none tells
   bool refuted;  // and got to one that is outside by a crossing
+  bool lies;     // it goes to vertices alone that lie on an open target
   uint crossed;  // so many of the queue are of parts that have crossings
 } ox_flood_state;
 
@@ -84,10 +85,19 @@ static bool ox_look_at(ox_flood_state* s, uint vertex) {
 // The first of those in the queue that hang together has this bit.
 #define OX_QUEUE_BEGINS 0x80000000u
 
+// Whether a vertex lies on the surface of a target that is larger in general position. Rays of
+// vertices start as far out of their own mesh.
+static bool ox_lies_on(const ox_flood_state* s, uint index) {
+  const uint side = s->pair_side & 1u;
+  const float3 p = ox_place(s->pair, side, vload3(0, s->scene->vertices[index].position));
+  return side != 0u && ox_closest_triangle(&s->scene->surfaces, s->target, ox_base(s->pair, 0u), p,
+                                           OX_INFLATION * s->pair->epsilon, 0.0f) != OX_NONE;
+}
+
 // Queues a vertex, with that bit or without. False: there is no room, or it is known to be in
 // front.
 static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
-  if (ox_is_looked_at(s, vertex)) return true;
+  if (ox_is_looked_at(s, vertex) || (s->lies && !ox_lies_on(s, vertex))) return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
     s->leaks = ox_is_open(s);
     s->refuted = s->asks;
@@ -111,9 +121,13 @@ static void ox_cast_queue(const ox_flood_state* s) {
     const bool is_queued = i < s->table.queued;
     const uint vertex = is_queued ? ox_queued(s, i) : OX_NONE;
     if (ox_is_open(s)) {
-      const bool casts = is_queued && ox_may_cast(s->scene, s->pair_side, vertex);
+      const bool lies = i >= s->crossed;
+      const bool casts = is_queued && (lies ? ox_casts_ray(s->scene->vertices + vertex)
+                                            : ox_may_cast(s->scene, s->pair_side, vertex));
       const uint index = ox_append_each(s->scene, OX_LIST_RAYS, casts);
-      if (casts) ox_store_ray(s->scene, index, s->pair_side, vertex, OX_RAY_ASKING, OX_NONE);
+      if (casts)
+        ox_store_ray(s->scene, index, s->pair_side, vertex, lies ? OX_RAY_CONTAINED : OX_RAY_ASKING,
+                     OX_NONE);
       continue;
     }
     const bool begins = is_queued && vertex != ox_queue(s->scene, &s->table)[i];
@@ -289,14 +303,12 @@ static bool ox_is_vertex_inside(const ox_flood_state* s, uint index) {
   __global const ox_vertex* vertex = s->scene->vertices + index;
   const float3 base = ox_base(s->pair, 1u - side);
   float3 p = ox_place(s->pair, side, vload3(0, vertex->position));
-  // As in general position: where surfaces coincide, A is outside of B, and B inside of A, which is
-  // larger by so much. Rays of vertices start as far out of their own mesh.
-  const float out = OX_INFLATION * s->pair->epsilon;
-  if (side == 0u) p -= out * ox_rotate(s->pair, side, vload3(0, vertex->direction));
+  // As in general position: where surfaces coincide, A is outside of B, and B inside of A.
+  if (side == 0u)
+    p -= OX_INFLATION * s->pair->epsilon * ox_rotate(s->pair, side, vload3(0, vertex->direction));
   return ox_winds_about(base, p, (float3)(0.0f), s->pair->epsilon, s->target,
                         &s->scene->surfaces) ||
-         (side != 0u &&
-          ox_closest_triangle(&s->scene->surfaces, s->target, base, p, out, 0.0f) != OX_NONE);
+         ox_lies_on(s, index);
 }
 
 // Of vertices that hang together without a crossing, so that they are all on one side, one of which
@@ -343,14 +355,16 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
 }
 
 static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
+  if (s->lies) return ox_flood_from(s, first, next);
   return ox_is_looked_at(s, first) || ox_flood_if_inside(s, first, true, next);
 }
 
-// Parts of the source that no crossing told of. Behind an open target they are not: what of it is
-// inside of them is so with all of its vertices. Their faces may be crossed all the same.
+// Parts of the source that no crossing told of. Behind an open target they are not, unless they lie
+// on it: what of it is inside of them is so with all of its vertices. Their faces may be crossed
+// all the same.
 static bool ox_flood_components(ox_flood_state* s, uint* next) {
-  if (ox_is_open(s)) return true;
-  s->asks = true;
+  s->lies = ox_is_open(s);
+  s->asks = !s->lies;
   if (s->source->component_count == 1u)
     return s->told || ox_flood_component(s, s->scene->chunks[s->source->chunk_first].first, next);
   // What is inside of the target is in its box.
@@ -404,7 +418,7 @@ static void ox_flood_sides(const ox_scene* scene) {
     state.pair_side = i;
     state.source = scene->meshes + pair->mesh[i & 1u];
     state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
-    state.told = state.asks = state.refuted = false;
+    state.told = state.asks = state.refuted = state.lies = false;
     state.crossed = 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);

@@ -42,7 +42,8 @@ static void ox_cast_rays(const ox_scene* scene) {
         outcome.kind = OX_HIT_INSIDE;
       }
     }
-    const bool may_be_behind = (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
+    const bool may_be_behind = !vertex_ray.known &&
+                               (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
                                (source->flags & OX_MESH_CLOSED) != 0u;
     if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit &&
         !ox_goes_on(scene, ray.pair_side, vertex_ray.origin + outcome.t * vertex_ray.direction,

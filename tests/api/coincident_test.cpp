@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mesh on its own copy: nothing but the handles tells the two apart.
+// A mesh on its own copy: nothing but the handles tells the two apart. And solid and open meshes
+// that have the same surface.
 #include <gtest/gtest.h>
 
 #include "support/batch_collider.h"
@@ -30,6 +31,60 @@ TEST_F(ApiCoincident, CopiesAreAnsweredAlikeAloneAndInABatchAndInBothOrders) {
   EXPECT_EQ(difference(flipped(fresh_answer(g2_, g1_)), in_a_batch), "");
   const BatchCollider collider;  // asked before any pass, through the override
   EXPECT_EQ(difference(flipped(collide(g2_, g1_)), in_a_batch), "");
+}
+
+TestMesh without_triangle(TestMesh mesh, int triangle) {
+  const auto begin = mesh.indices.begin() + 3 * triangle;
+  mesh.indices.erase(begin, begin + 3);
+  return mesh;
+}
+
+class ApiCoincidentOpen : public testing::Test {
+ protected:
+  Contacts answer(const TestMesh& first, const TestMesh& second) {
+    const TestPose pose = turned({1, 2, 3}, 0.5, {1, 2, 3});
+    const dSpaceID space = world_.space(SpaceKind::Simple);
+    return fresh_answer(world_.geom(world_.mesh(first), pose, space),
+                        world_.geom(world_.mesh(second), pose, space));
+  }
+
+  OdeWorld world_;
+};
+
+TEST_F(ApiCoincidentOpen, CopiesOfABoxWithAHoleHaveContactsWhereverTheHoleIs) {
+  const TestMesh box = make_box({1, 2, 3});
+  for (int k = 0; k < box.triangle_count(); ++k) {
+    const TestMesh open = without_triangle(box, k);
+    EXPECT_FALSE(answer(open, open).empty()) << "without triangle " << k;
+  }
+}
+
+TEST_F(ApiCoincidentOpen, ABoxWithAHoleAndTheBoxHaveContactsInEitherOrder) {
+  const TestMesh box = make_box({1, 2, 3});
+  for (int k = 0; k < box.triangle_count(); ++k) {
+    const TestMesh open = without_triangle(box, k);
+    EXPECT_FALSE(answer(open, box).empty()) << "without triangle " << k;
+    EXPECT_FALSE(answer(box, open).empty()) << "without triangle " << k;
+  }
+}
+
+TEST_F(ApiCoincidentOpen, CopiesOfFinerOpenMeshesHaveContacts) {
+  for (const TestMesh& mesh :
+       {make_icosphere(1, 2), make_torus(1, 0.3, 16, 8), make_cube(1, 4), make_l(1)}) {
+    const TestMesh open = without_triangle(mesh, mesh.triangle_count() / 2);
+    EXPECT_FALSE(answer(open, open).empty()) << mesh.triangle_count() << " triangles";
+  }
+}
+
+TEST_F(ApiCoincidentOpen, CopiesOfSeveralOpenPartsHaveContacts) {
+  const TestMesh open = without_triangle(make_cube(1), 3);
+  const TestMesh parts = merged(open, moved(open, {3, 0, 0}));
+  EXPECT_FALSE(answer(parts, parts).empty());
+}
+
+TEST_F(ApiCoincidentOpen, CopiesOfASheetHaveContacts) {
+  for (const TestMesh& mesh : {make_triangle(1), make_sheet(1, 4), make_waves(4, 8)})
+    EXPECT_FALSE(answer(mesh, mesh).empty()) << mesh.triangle_count() << " triangles";
 }
 
 }  // namespace
