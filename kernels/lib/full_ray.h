@@ -83,7 +83,7 @@ static inline ox_query ox_asking_query(uint k, float3 base, float3 origin, float
   query.cast = ox_cast_from(base, origin, query.direction);
   query.epsilon = epsilon;
   query.t_max = INFINITY;
-  query.behind = 0.0f;
+  query.behind = query.entry = 0.0f;
   query.two_sided = false;
   query.known = false;
   return query;
@@ -189,6 +189,7 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
   // Against an open target nothing beyond the source's own exit can be told to be inside.
   query.t_max = closed ? INFINITY : ray->exit + ray->epsilon;
   query.behind = behind;
+  query.entry = closed && !ray->known ? ray->ahead : 0.0f;
   query.known = ray->known;
   query.two_sided = (mesh->flags & OX_MESH_TWO_SIDED) != 0u;
   ox_outcome best = ox_miss();

@@ -17,6 +17,7 @@ typedef struct {
   float epsilon;   // [m] |t| up to which the vertex lies on a face
   float t_max;     // [m] nothing beyond exists
   float behind;    // [m] how far back the line is looked at, for temporal data
+  float entry;     // [m] how far on the vertex is that lies on a face where the ray enters
   bool two_sided;  // the target has no inside: every face is met from behind
   bool known;      // it is inside, whatever is met first: it leaves by the first back face
 } ox_query;
@@ -76,7 +77,7 @@ static inline void ox_consider_met(const ox_query* query, __global const ox_tria
       nearest->behind_t = t;
       nearest->behind = k;
     }
-  } else if (t <= epsilon) {
+  } else if (t <= epsilon || (!back && t <= query->entry + epsilon)) {
     // The vertex lies on this face: an entry does not count, an exit is a touch. epsilon is the
     // worst that rounding can do, a quarter of it already rare: what is farther outside than that
     // does not touch.

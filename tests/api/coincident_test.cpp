@@ -20,6 +20,15 @@ class ApiCoincident : public testing::Test {
 
 TEST_F(ApiCoincident, CopiesHaveContacts) { EXPECT_FALSE(fresh_answer(g1_, g2_).empty()); }
 
+TEST_F(ApiCoincident, CopiesHaveContactsByRaysOfAllVertices) {
+  const OdeMesh& box = world_.mesh(make_cube(1));
+  for (const TestPose& pose : {TestPose{}, pose_})
+    EXPECT_FALSE(fresh_answer(world_.geom(box, pose, space_), world_.geom(box, pose, space_), 64,
+                              with("rays=iterative"))
+                     .empty());
+  EXPECT_FALSE(fresh_answer(g1_, g2_, 64, with("rays=iterative")).empty());
+}
+
 TEST_F(ApiCoincident, CopiesAreAnsweredAlikeAloneAndInABatchAndInBothOrders) {
   Contacts in_a_batch;
   {
