@@ -90,7 +90,7 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, const ox_
   const float near = OX_MARGIN * r->scene->pairs[r->pair].epsilon;
   *first = INFINITY;
   *last = -INFINITY;
-  for (uint k = 0u; k < r->count; ++k) {
+  for (uint k = OX_ITEM; k < r->count; k += OX_ITEMS) {
     if (ox_side_of(ox_flags_of(r, k)) != side) continue;
     const float3 position = ox_position_of(r, k);
     const float part = ox_dot(position - ridge->from, d) / ox_dot(d, d);
@@ -99,6 +99,8 @@ static inline bool ox_find_stretch(const ox_region_view* r, uint side, const ox_
     *first = ox_min(*first, part);
     *last = ox_max(*last, part);
   }
+  *first = ox_least_of_items(*first);
+  *last = -ox_least_of_items(-*last);
   return *first <= *last;
 }
 
@@ -173,6 +175,7 @@ static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* cho
 }
 
 // Contacts of a unit that a plane has cleared just now, of both ends of a chord; returns how many.
+// By one work-item.
 static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,
                                   __global const ox_feature* f) {
   uint count = 0u;
@@ -184,7 +187,7 @@ static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* c
       f = other;
     }
     if (ox_is_on_rim(m->region, f, &choice->plane)) continue;
-    if (ox_is_first_item()) ox_add_feature_contact(m, choice, f);
+    ox_add_feature_contact(m, choice, f);
     ++count;
   }
   return count;

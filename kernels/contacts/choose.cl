@@ -13,38 +13,49 @@
 // may overflow: none; a feature makes one candidate at most
 #include "contacts/candidates.h"
 
-// The units that are to be cleared are the first of the members, ever fewer.
+// A unit that needs no plane any more.
+static void ox_mark_cleared(const ox_region_view* r, uint k) {
+  ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_CLEARED;
+}
+
+// Moves past the plane that is chosen for a unit, which clears others of those that wait.
+static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
+                         ox_moves* moves) {
+  const ox_region_view* r = m->region;
+  ox_add_move(r, choice, moves);
+  __global const ox_feature* of_seed = ox_feature_of(r, seed);
+  if (choice->plane.kind == OX_PLANE_EDGES)
+    ox_add_edge_contact(m, choice);
+  else if (ox_is_first_item() && ox_add_cleared(m, choice, of_seed) == 0u)  // all on the rim
+    ox_add_feature_contact(m, choice, of_seed);
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < waiting; ++block) {
+    uint cleared = ox_own_bits(ox_cleared_units(r, block, waiting, moves));
+    for (; cleared != 0u; cleared &= cleared - 1u) {
+      const uint k = OX_VECTOR_WIDTH * block + ox_lowest(cleared);
+      if (k == seed) continue;
+      const ox_plane_choice by = ox_clearing_plane(r, k, moves);
+      if (by.plane.kind == OX_PLANE_NONE) continue;
+      if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
+      ox_mark_cleared(r, k);
+    }
+  }
+  ++m->manifold;
+}
+
+// The units that wait to be cleared are the first of the members, ever fewer.
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
   ox_moves moves;
   moves.count = 0u;
-  uint waiting = 0u;
-  for (uint k = 0u; k < r->count; ++k)
-    if ((ox_flags_of(r, k) & OX_MEMBER_BEGINS) != 0u) ox_swap_members(r, k, waiting++);
+  uint waiting = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);
     const ox_plane_choice choice = ox_choose_for(r, seed, &moves);
-    __global const ox_feature* of_seed = ox_feature_of(r, seed);
-    ox_swap_members(r, seed, --waiting);
-    if (choice.plane.kind == OX_PLANE_NONE) continue;
-    ox_add_move(r, &choice, &moves);
-    if (choice.plane.kind == OX_PLANE_EDGES)
-      ox_add_edge_contact(m, &choice);
-    else if (ox_add_cleared(m, &choice, of_seed) == 0u && ox_is_first_item())  // all on the rim
-      ox_add_feature_contact(m, &choice, of_seed);
-    // From the last on: what is cleared changes places with the last that waits.
-    for (uint block = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH; block-- != 0u;)
-      for (uint cleared = ox_cleared_units(r, block, waiting, &moves); cleared != 0u;) {
-        const uint lane = 31u - clz(cleared);
-        cleared ^= 1u << lane;
-        const uint k = OX_VECTOR_WIDTH * block + lane;
-        const ox_plane_choice by = ox_clearing_plane(r, k, &moves);
-        if (by.plane.kind == OX_PLANE_NONE) continue;
-        if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
-        ox_swap_members(r, k, --waiting);
-      }
-    ++m->manifold;
+    if (choice.plane.kind != OX_PLANE_NONE) ox_move_past(m, &choice, seed, waiting, &moves);
+    if (ox_is_first_item()) ox_mark_cleared(r, seed);
+    ox_settle();
+    waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);
   }
 }
 

@@ -102,16 +102,54 @@ static inline void ox_measure_units(const ox_region_view* r, uint waiting) {
   ox_settle();
 }
 
+// By one work-item.
 static inline void ox_swap_members(const ox_region_view* r, uint a, uint b) {
-  if (a == b) return;
-  ox_settle();
-  for (uint field = OX_ITEM; field < OX_MEMBER_WORDS; field += OX_ITEMS) {
+  for (uint field = 0u; field < OX_MEMBER_WORDS; ++field) {
     __global uint* words = ox_words_of(&r->members, field);
     const uint kept = words[a];
     words[a] = words[b];
     words[b] = kept;
   }
+}
+
+// A bit for each of a block of the first `count` members whose flags under a mask are these.
+static inline uint ox_members_of_kind(const ox_region_view* r, uint block, uint count, uint mask,
+                                      uint flags) {
+  const ox_ints is = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)mask) == (int)flags;
+  return ox_mask_of(&is) & ox_present_lanes(count, block);
+}
+
+static inline uint ox_nth_bit(uint bits, uint n) {
+  for (uint i = 0u; i < n; ++i) bits &= bits - 1u;
+  return ox_lowest(bits);
+}
+
+// Brings those of the first `count` members whose flags under a mask are these before the others of
+// them; returns how many they are.
+static inline uint ox_bring_first(const ox_region_view* r, uint count, uint mask, uint flags) {
+  uint kept = 0u;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block)
+    kept += popcount(ox_members_of_kind(r, block, count, mask, flags));
+  // Each that is before its place and leaves changes with one behind it that comes: as many as one.
+  uint leaving = 0u, coming = 0u;
+  uint from = 0u, to = kept / OX_VECTOR_WIDTH;
+  for (;;) {
+    for (; leaving == 0u && OX_VECTOR_WIDTH * from < kept; ++from)
+      leaving = ox_present_lanes(kept, from) & ~ox_members_of_kind(r, from, kept, mask, flags);
+    if (leaving == 0u) break;
+    for (; coming == 0u; ++to)
+      coming = ox_members_of_kind(r, to, count, mask, flags) & ~ox_present_lanes(kept, to);
+    const uint swaps = min(popcount(leaving), popcount(coming));
+    for (uint i = OX_ITEM; i < swaps; i += OX_ITEMS)
+      ox_swap_members(r, OX_VECTOR_WIDTH * (from - 1u) + ox_nth_bit(leaving, i),
+                      OX_VECTOR_WIDTH * (to - 1u) + ox_nth_bit(coming, i));
+    for (uint i = 0u; i < swaps; ++i) {
+      leaving &= leaving - 1u;
+      coming &= coming - 1u;
+    }
+  }
   ox_settle();
+  return kept;
 }
 
 // Of the waiting units the deepest below what it has proposed so far; there is one. Of several that

@@ -99,24 +99,38 @@ static inline void ox_add_rim_near(const ox_region_view* r, uint triangle, ox_ed
     }
 }
 
+// The next edge at a feature that is of a facet, from place `i` on; OX_NONE: there is none.
+static inline uint ox_next_at_facet(const ox_region_view* r, __global const ox_feature* f,
+                                    uint facet, uint* i) {
+  const ox_scene* scene = r->scene;
+  if (!ox_is_vertex(f->flags))
+    return (*i)++ == 0u && ox_are_at_facet(scene, f->at[0], f->at[1], facet) ? f->source : OX_NONE;
+  __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, ox_side_of(f->flags));
+  const uint start = scene->ring_starts[f->source];
+  const uint count = scene->ring_starts[f->source + 1u] - start;
+  while (*i < count) {
+    const uint edge = scene->rings[start + (*i)++].edge;
+    if (!ox_is_flat_edge(mesh, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
+                                                        scene->edges[edge].triangle[1], facet))
+      return edge;
+  }
+  return OX_NONE;
+}
+
 // The edges of the facet of a triangle: those near it, and those at features.
 static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle, ox_edge_set* set) {
-  const ox_scene* scene = r->scene;
-  const uint facet = ox_facet_of(scene, triangle);
-  __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
+  const uint facet = ox_facet_of(r->scene, triangle);
   ox_add_rim_near(r, triangle, set);
-  for (uint k = 0u; k < r->count; ++k) {
-    if (ox_side_of(ox_flags_of(r, k)) != side) continue;
-    __global const ox_feature* f = ox_feature_of(r, k);
-    if (!ox_is_vertex(f->flags)) {
-      if (ox_are_at_facet(scene, f->at[0], f->at[1], facet)) ox_add_edge(set, f->source);
-      continue;
-    }
-    for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
-      const uint edge = scene->rings[i].edge;
-      if (!ox_is_flat_edge(mesh, edge) && ox_are_at_facet(scene, scene->edges[edge].triangle[0],
-                                                          scene->edges[edge].triangle[1], facet))
-        ox_add_edge(set, edge);
+  for (uint first = 0u; first < r->count; first += OX_ITEMS) {
+    const uint k = first + OX_ITEM;
+    const bool is_of_side = k < r->count && ox_side_of(ox_flags_of(r, k)) == side;
+    uint i = 0u;
+    uint edge = is_of_side ? ox_next_at_facet(r, ox_feature_of(r, k), facet, &i) : OX_NONE;
+    for (;;) {
+      uint left = ox_group_bits(edge != OX_NONE);
+      if (left == 0u) break;
+      for (; left != 0u; left &= left - 1u) ox_add_edge(set, ox_of_item(edge, ox_lowest(left)));
+      if (edge != OX_NONE) edge = ox_next_at_facet(r, ox_feature_of(r, k), facet, &i);
     }
   }
 }
@@ -269,17 +283,20 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
                                  const ox_plane_choice* least) {
   float size = -1.0f;
   const ox_limits limits = {INFINITY, least->judged};
-  for (uint i = 0u; i < r->plane_count; ++i) {
-    if ((ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] & OX_PLANE_PASSED) == 0u) continue;
-    if (size < 0.0f) size = ox_size_of(r);
-    const ox_plane plane = ox_load_plane(&r->planes, i);
-    ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
-    ox_extent extent = ox_begin_extent(&plane);
-    if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
-        ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
-        extent.past > ox_flat_of(r, &plane, size) &&
-        ox_depth_beyond(r, &plane, least->judged) <= least->judged)
-      return true;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    uint passed = ox_of_kind(&r->planes, block, OX_PLANE_PASSED, OX_PLANE_PASSED) &
+                  ox_present_lanes(r->plane_count, block);
+    for (; passed != 0u; passed &= passed - 1u) {
+      if (size < 0.0f) size = ox_size_of(r);
+      const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(passed));
+      ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
+      ox_extent extent = ox_begin_extent(&plane);
+      if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
+          ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
+          extent.past > ox_flat_of(r, &plane, size) &&
+          ox_depth_beyond(r, &plane, least->judged) <= least->judged)
+        return true;
+    }
   }
   return false;
 }

@@ -58,6 +58,8 @@ static inline uint ox_group_bits(bool holds) {
 }
 
 static inline bool ox_is_first_item(void) { return ox_group_item() == 0u; }
+// Of a bit for each lane those that a work-item sees to.
+static inline uint ox_own_bits(uint bits) { return bits & 1u << ox_group_item(); }
 static inline bool ox_any_item(bool holds) { return ox_group_bits(holds) != 0u; }
 // All have read and written what comes before.
 static inline void ox_settle(void) { barrier(CLK_GLOBAL_MEM_FENCE); }
@@ -74,6 +76,7 @@ static inline uint ox_of_item(uint value, uint item) {
 }
 static inline uint ox_group_bits(bool holds) { return holds ? 1u : 0u; }
 static inline bool ox_is_first_item(void) { return true; }
+static inline uint ox_own_bits(uint bits) { return bits; }
 static inline bool ox_any_item(bool holds) { return holds; }
 static inline void ox_settle(void) {}
 #define OX_ITEM 0u

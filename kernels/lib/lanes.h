@@ -227,7 +227,10 @@ static inline uint ox_present_lanes(uint count, uint block) {
   }
 OX_FOLD_GROUP(ox_least_of, OX_LESSER)
 OX_FOLD_GROUP(ox_greatest_of, OX_GREATER)
+// Of what each work-item has.
+static inline float ox_least_of_items(float own) { return ox_least_of(&own); }
 #else
+static inline float ox_least_of_items(float own) { return own; }
 static inline int ox_and_of(const ox_ints* v) { return OX_FOLD(*v, OX_AND); }
 static inline float ox_least_of(const ox_floats* v) { return OX_FOLD(*v, OX_LESSER); }
 static inline float ox_greatest_of(const ox_floats* v) { return OX_FOLD(*v, OX_GREATER); }
