@@ -67,21 +67,6 @@ static bool ox_is_looked_at(const ox_flood_state* s, uint vertex) {
          (s->scene->flood_words[word + 1u] >> vertex % 32u & 1u) != 0u;
 }
 
-// False: there is no room.
-static bool ox_look_at(ox_flood_state* s, uint vertex) {
-  if (!ox_grow_table(s->scene, &s->table)) return false;
-  const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
-  const uint word = ox_find_key(s->scene, &s->table, key);
-  const bool is_new = s->scene->flood_words[word] == 0u;
-  const uint known = is_new ? 0u : s->scene->flood_words[word + 1u];
-  ox_settle();
-  s->scene->flood_words[word] = key;
-  s->scene->flood_words[word + 1u] = known | 1u << vertex % 32u;
-  ox_settle();
-  if (is_new) ++s->table.used;
-  return true;
-}
-
 // The first of those in the queue that hang together has this bit.
 #define OX_QUEUE_BEGINS 0x80000000u
 
@@ -97,13 +82,22 @@ static bool ox_lies_on(const ox_flood_state* s, uint index) {
 // Queues a vertex, with that bit or without. False: there is no room, or it is known to be in
 // front.
 static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
-  if (ox_is_looked_at(s, vertex) || (s->lies && !ox_lies_on(s, vertex))) return true;
+  if (!ox_grow_table(s->scene, &s->table)) return false;
+  const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
+  const uint word = ox_find_key(s->scene, &s->table, key);
+  const bool is_new = s->scene->flood_words[word] == 0u;
+  const uint known = is_new ? 0u : s->scene->flood_words[word + 1u];
+  if ((known >> vertex % 32u & 1u) != 0u || (s->lies && !ox_lies_on(s, vertex))) return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
     s->leaks = ox_is_open(s);
     s->refuted = s->asks;
     return false;
   }
-  if (!ox_look_at(s, vertex)) return false;
+  ox_settle();
+  s->scene->flood_words[word] = key;
+  s->scene->flood_words[word + 1u] = known | 1u << vertex % 32u;
+  ox_settle();
+  if (is_new) ++s->table.used;
   ox_queue(s->scene, &s->table)[s->table.queued++] = vertex | begins;
   return true;
 }
@@ -251,16 +245,22 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   return true;
 }
 
-// On from the next vertex of the queue over edges that do not cross.
+// On from the next vertices of the queue over edges that do not cross: so many at once, since a
+// vertex has about six neighbours.
+#define OX_AT_ONCE (OX_ITEMS == 1u ? 1u : 2u)
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
-  const uint vertex = ox_queued(s, (*next)++);
-  const uint end = s->scene->ring_starts[vertex + 1u];
-  for (uint begin = s->scene->ring_starts[vertex]; begin < end; begin += OX_ITEMS) {
-    __global const ox_neighbour* neighbour = s->scene->rings + min(begin + OX_ITEM, end - 1u);
+  const uint of_each = OX_ITEMS / OX_AT_ONCE;
+  const uint queued = *next + OX_ITEM / of_each;
+  const bool is_queued = queued < s->table.queued;
+  *next = min(*next + OX_AT_ONCE, s->table.queued);
+  const uint vertex = is_queued ? ox_queued(s, queued) : 0u;
+  const uint end = is_queued ? s->scene->ring_starts[vertex + 1u] : 0u;
+  uint k = is_queued ? s->scene->ring_starts[vertex] + OX_ITEM % of_each : 0u;
+  for (; ox_any_item(k < end); k += of_each) {
+    __global const ox_neighbour* neighbour = s->scene->rings + (k < end ? k : 0u);
     const uint other = neighbour->vertex;
     // Mostly it is looked at.
-    const bool is_next =
-        begin + OX_ITEM < end && !ox_is_looked_at(s, other) && !ox_is_parted(s, neighbour->edge);
+    const bool is_next = k < end && !ox_is_looked_at(s, other) && !ox_is_parted(s, neighbour->edge);
     for (uint left = ox_group_bits(is_next); left != 0u; left &= left - 1u)
       if (!ox_flood_vertex(s, ox_of_item(other, ox_lowest(left)), 0u)) return false;
   }
@@ -355,7 +355,7 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
 }
 
 static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
-  if (s->lies) return ox_flood_from(s, first, next);
+  if (s->lies) return !ox_lies_on(s, first) || ox_flood_from(s, first, next);
   return ox_is_looked_at(s, first) || ox_flood_if_inside(s, first, true, next);
 }
 

@@ -18,6 +18,17 @@ static void ox_mark_cleared(const ox_region_view* r, uint k) {
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_CLEARED;
 }
 
+// A unit, other than the one that a plane was chosen for, that the last move may clear. By one
+// work-item.
+static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint seed) {
+  const ox_region_view* r = m->region;
+  if (k == seed) return;
+  const ox_plane_choice by = ox_clearing_plane(r, k, moves);
+  if (by.plane.kind == OX_PLANE_NONE) return;
+  if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
+  ox_mark_cleared(r, k);
+}
+
 // Moves past the plane that is chosen for a unit, which clears others of those that wait.
 static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
                          ox_moves* moves) {
@@ -28,16 +39,12 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
     ox_add_edge_contact(m, choice);
   else if (ox_is_first_item() && ox_add_cleared(m, choice, of_seed) == 0u)  // all on the rim
     ox_add_feature_contact(m, choice, of_seed);
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < waiting; ++block) {
-    uint cleared = ox_own_bits(ox_cleared_units(r, block, waiting, moves));
-    for (; cleared != 0u; cleared &= cleared - 1u) {
-      const uint k = OX_VECTOR_WIDTH * block + ox_lowest(cleared);
-      if (k == seed) continue;
-      const ox_plane_choice by = ox_clearing_plane(r, k, moves);
-      if (by.plane.kind == OX_PLANE_NONE) continue;
-      if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
-      ox_mark_cleared(r, k);
-    }
+  for (uint first = 0u; OX_VECTOR_WIDTH * first < waiting; first += OX_BLOCKS_AT_ONCE) {
+    uint cleared[OX_BLOCKS_AT_ONCE];
+    ox_find_cleared(r, first, waiting, moves, cleared);
+    for (uint i = 0u; i < OX_BLOCKS_AT_ONCE; ++i)
+      for (uint own = ox_own_bits(cleared[i]); own != 0u; own &= own - 1u)
+        ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed);
   }
   ++m->manifold;
 }

@@ -84,22 +84,35 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   if (ox_is_better_choice(&choice, best)) *best = choice;
 }
 
-// A bit for each plane of a block that clears a unit by a move of `limit` at most.
-static inline uint ox_clearing_planes(const ox_region_view* r, uint block, uint unit, float limit) {
-  const uint side = ox_side_of(ox_flags_of(r, unit));
+// The ends of a unit: it is looked for them in many blocks of planes.
+typedef struct {
+  float3 one, other;
+  uint side;
+  float past;  // [m] the least that a plane clears it by, of both ends
+} ox_ends;
+
+static inline ox_ends ox_ends_of(const ox_region_view* r, uint unit) {
   const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const ox_ends ends = {ox_position_of(r, unit), ox_vector_of(&r->members, OX_MEMBER_END, unit),
+                        ox_side_of(ox_flags_of(r, unit)), past + past};
+  return ends;
+}
+
+// A bit for each plane of a block that clears a unit by a move of `limit` at most.
+static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const ox_ends* ends,
+                                      float limit) {
   ox_floats one, other;
-  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_position_of(r, unit), &one);
-  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ox_vector_of(&r->members, OX_MEMBER_END, unit),
-                &other);
-  const ox_floats level = OX_LOAD_FLOATS(&r->planes, OX_PLANE_LEVEL + side, block);
-  one = side == 0u ? level - one : level + one;
-  other = side == 0u ? level - other : level + other;
-  const ox_ints clears = (one + other >= past + past) & (one <= limit) & (other <= limit);
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->one, &one);
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->other, &other);
+  const ox_floats level = OX_LOAD_FLOATS(&r->planes, OX_PLANE_LEVEL + ends->side, block);
+  one = ends->side == 0u ? level - one : level + one;
+  other = ends->side == 0u ? level - other : level + other;
   // Those of other kinds clear the other mesh alone.
-  const uint others = ox_of_kind(&r->planes, block, OX_PLANE_KIND,
-                                 side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
-  return ox_mask_of(&clears) & ~others & ox_present_lanes(r->plane_count, block);
+  const int others = (int)(ends->side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
+  const ox_ints clears =
+      (one + other >= ends->past) & (one <= limit) & (other <= limit) &
+      ((OX_LOAD_WORDS(&r->planes, OX_PLANE_FLAGS, block) & (int)OX_PLANE_KIND) != others);
+  return ox_mask_of(&clears) & ox_present_lanes(r->plane_count, block);
 }
 
 // Of all planes of the region, and a unit's own, the best for it. Its own is tried first: what
@@ -108,12 +121,18 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
   ox_try_unit(r, seed, &own, &best);
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
-    uint clears = ox_clearing_planes(r, block, seed->unit, best.judged);
-    for (; clears != 0u; clears &= clears - 1u) {
-      const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(clears));
-      ox_try_unit(r, seed, &plane, &best);
-    }
+  const ox_ends ends = ox_ends_of(r, seed->unit);
+  const uint blocks = (r->plane_count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
+    uint clears[OX_BLOCKS_AT_ONCE];
+    for (uint i = 0u; i < OX_BLOCKS_AT_ONCE; ++i)
+      clears[i] = ox_clearing_planes(r, min(first + i, blocks - 1u), &ends, best.judged);
+    for (uint i = 0u; i < OX_BLOCKS_AT_ONCE && first + i < blocks; ++i)
+      for (; clears[i] != 0u; clears[i] &= clears[i] - 1u) {
+        const uint k = OX_VECTOR_WIDTH * (first + i) + ox_lowest(clears[i]);
+        const ox_plane plane = ox_load_plane(&r->planes, k);
+        ox_try_unit(r, seed, &plane, &best);
+      }
   }
   return best;
 }
@@ -171,40 +190,60 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
   return by;
 }
 
-// A bit for each unit of a block that a plane clears by a move so far along it.
-static inline uint ox_cleared_by(const ox_region_view* r, uint block, const ox_plane* plane,
-                                 float along) {
-  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  const ox_ints is_b =
-      (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
-  const uint of_b = ox_mask_of(&is_b);
-  ox_floats one, other;
-  ox_dot_fields(&r->members, OX_MEMBER_POSITION, block, plane->normal, &one);
-  ox_dot_fields(&r->members, OX_MEMBER_END, block, plane->normal, &other);
-  uint cleared = 0u;
+// The units of a block that wait.
+typedef struct {
+  ox_floats position[3], end[3];
+  ox_ints is_b;
+} ox_unit_block;
+
+static inline void ox_load_units(const ox_region_view* r, uint block, ox_unit_block* units) {
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    units->position[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_POSITION + axis, block);
+    units->end[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_END + axis, block);
+  }
+  units->is_b = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
+}
+
+// Adds those that a plane clears by a move so far along it.
+static inline void ox_add_cleared_by(const ox_unit_block* units, const ox_plane* plane, float along,
+                                     float past, ox_ints* cleared) {
+  const float3 n = plane->normal;
+  const ox_floats one =
+      units->position[0] * n.x + units->position[1] * n.y + units->position[2] * n.z;
+  const ox_floats other = units->end[0] * n.x + units->end[1] * n.y + units->end[2] * n.z;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(plane, side)) continue;
     const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
     const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
     const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
-    cleared |= ox_mask_of(&clears) & (side == 0u ? ~of_b : of_b);
+    *cleared |= clears & (side == 0u ? ~units->is_b : units->is_b);
   }
-  return cleared;
 }
 
-// A bit for each waiting unit of a block that the last move clears.
-static inline uint ox_cleared_units(const ox_region_view* r, uint block, uint waiting,
-                                    const ox_moves* moves) {
+// Of blocks of waiting units, as many as are looked at at once, those that the last move clears: a
+// bit for each.
+static inline void ox_find_cleared(const ox_region_view* r, uint first, uint waiting,
+                                   const ox_moves* moves, uint* bits) {
   const uint last = moves->count - 1u;
-  uint cleared = 0u;
-  for (uint i = 0u; i <= last; ++i)
-    if (moves->along[i] >= 0.0f)
-      cleared |= ox_cleared_by(r, block, moves->chosen + i, moves->along[i]);
-  ox_floats cosine;
-  ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, moves->chosen[last].normal, &cosine);
-  const ox_ints past_own =
-      OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= moves->far[last] * cosine;
-  return (cleared | ox_mask_of(&past_own)) & ox_present_lanes(waiting, block);
+  const uint last_block = (waiting - 1u) / OX_VECTOR_WIDTH;
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  ox_unit_block units[OX_BLOCKS_AT_ONCE];
+  ox_ints cleared[OX_BLOCKS_AT_ONCE];
+  for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k) {
+    const uint block = min(first + k, last_block);
+    ox_load_units(r, block, units + k);
+    ox_floats cosine;
+    ox_dot_fields(&r->members, OX_MEMBER_NORMAL, block, moves->chosen[last].normal, &cosine);
+    // By the best plane of its own.
+    cleared[k] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) <= moves->far[last] * cosine;
+  }
+  for (uint i = 0u; i <= last; ++i) {
+    if (moves->along[i] < 0.0f) continue;
+    for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k)
+      ox_add_cleared_by(units + k, moves->chosen + i, moves->along[i], past, cleared + k);
+  }
+  for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k)
+    bits[k] = ox_mask_of(cleared + k) & ox_present_lanes(waiting, first + k);
 }
 
 #endif

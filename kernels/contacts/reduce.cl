@@ -91,26 +91,37 @@ static void ox_rate(const ox_fields* list, uint count, uint block, uint what, fl
   if (what != OX_FOR_REGION) *rating = distance2 > merge2 ? *rating : none;
 }
 
+// Of as many blocks as are looked at at once.
+static void ox_rate_blocks(const ox_fields* list, uint count, uint first, uint what, float merge2,
+                           ox_floats* ratings) {
+  const uint last = (count - 1u) / OX_VECTOR_WIDTH;
+  for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k)
+    ox_rate(list, count, min(first + k, last), what, merge2, ratings + k);
+}
+
 // The best for something; OX_NONE: there is none.
 static uint ox_best_for(const ox_fields* list, uint count, uint what, float merge2) {
+  const uint blocks = (count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats best = (ox_floats)(-1.0f);
-  ox_floats rating;
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
-    ox_rate(list, count, block, what, merge2, &rating);
-    best = OX_GREATER(rating, best);
+  ox_floats rating[OX_BLOCKS_AT_ONCE];
+  for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
+    ox_rate_blocks(list, count, first, what, merge2, rating);
+    for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k) best = OX_GREATER(rating[k], best);
   }
   const float most = ox_greatest_of(&best);
   if (most < 0.0f) return OX_NONE;
-  uint first = OX_NONE;
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block) {
-    ox_rate(list, count, block, what, merge2, &rating);
-    const ox_ints is = rating == most;
-    for (uint equal = ox_mask_of(&is); equal != 0u; equal &= equal - 1u) {
-      const uint i = OX_VECTOR_WIDTH * block + ox_lowest(equal);
-      if (first == OX_NONE || ox_comes_first(list, i, first)) first = i;
+  uint best_one = OX_NONE;
+  for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
+    ox_rate_blocks(list, count, first, what, merge2, rating);
+    for (uint k = 0u; k < OX_BLOCKS_AT_ONCE && first + k < blocks; ++k) {
+      const ox_ints is = rating[k] == most;
+      for (uint equal = ox_mask_of(&is); equal != 0u; equal &= equal - 1u) {
+        const uint i = OX_VECTOR_WIDTH * (first + k) + ox_lowest(equal);
+        if (best_one == OX_NONE || ox_comes_first(list, i, best_one)) best_one = i;
+      }
     }
   }
-  return first;
+  return best_one;
 }
 
 static void ox_reduce_candidates(const ox_scene* scene) {

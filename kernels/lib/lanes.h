@@ -213,6 +213,14 @@ static inline uint ox_present_lanes(uint count, uint block) {
   return count - before < OX_VECTOR_WIDTH ? (1u << (count - before)) - 1u : OX_ALL_LANES;
 }
 
+// So many blocks of a long list are looked at at once: a work-group of a GPU waits for what it has
+// loaded, and for the loop itself, with the next one's in flight.
+#if defined(OX_LANES_ARE_GROUP)
+#define OX_BLOCKS_AT_ONCE 4u
+#else
+#define OX_BLOCKS_AT_ONCE 1u
+#endif
+
 #if defined(OX_LANES_ARE_GROUP)
 // In the order of OX_FOLD.
 #define OX_FOLD_GROUP(name, op)                                        \
