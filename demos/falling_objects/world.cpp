@@ -2,6 +2,7 @@
 #include "falling_objects/world.h"
 
 #include "falling_objects/usage_error.h"
+#include "falling_objects/waiting.h"
 #include "scene_file/user_meshes.h"
 
 namespace falling_objects {
@@ -41,7 +42,11 @@ World::World(const Options& options, bool both_colliders)
   scene_ = std::make_unique<Scene>(with_meshes(options_), options_.seed, warnings_);
   Options colliders = options_;
   colliders.compare |= both_colliders;
-  collision_ = std::make_unique<Collision>(colliders, scene_->space());
+  {
+    const Waiting waiting(options_.quiet,
+                          "the driver builds the kernels: the first time that may take a minute");
+    collision_ = std::make_unique<Collision>(colliders, scene_->space());
+  }
   if (options_.has_sheets()) {
     sheets_ =
         std::make_unique<Sheets>(static_cast<std::size_t>(options_.sheets), options_.seed, *scene_);

@@ -24,12 +24,13 @@ std::size_t most_temporal_bytes(const DeviceInfo& info) {
   return static_cast<std::size_t>(info.largest_buffer / 16);
 }
 
-// Whoever waits is told for what: a driver that has not seen the kernels before takes seconds.
+// Whoever waits is told for what: a driver that has not seen the kernels before takes seconds, that
+// of NVIDIA a minute.
 const ColliderOptions& announced(const ColliderOptions& options) {
   const DeviceInfo info = choose_device(options.device);
   log(LogLevel::kInfo, "building the kernels for device '" + info.name + "' of " +
                            info.platform_name + ", driver " + info.driver + ", " + info.version +
-                           "; this may take seconds, most of all the first time");
+                           "; the first time this may take a minute");
   return options;
 }
 
