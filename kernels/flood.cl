@@ -87,7 +87,10 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
   const uint word = ox_find_key(s->scene, &s->table, key);
   const bool is_new = s->scene->flood_words[word] == 0u;
   const uint known = is_new ? 0u : s->scene->flood_words[word + 1u];
-  if ((known >> vertex % 32u & 1u) != 0u || (s->lies && !ox_lies_on(s, vertex))) return true;
+  if ((known >> vertex % 32u & 1u) != 0u) return true;
+  // What a crossing tells of needs not lie on it to be known, and to get there is no leak.
+  if (s->lies && (ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE)) || !ox_lies_on(s, vertex)))
+    return true;
   if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
     s->leaks = ox_is_open(s);
     s->refuted = s->asks;
@@ -355,8 +358,9 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
 }
 
 static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
+  if (ox_is_looked_at(s, first)) return true;
   if (s->lies) return !ox_lies_on(s, first) || ox_flood_from(s, first, next);
-  return ox_is_looked_at(s, first) || ox_flood_if_inside(s, first, true, next);
+  return ox_flood_if_inside(s, first, true, next);
 }
 
 // Parts of the source that no crossing told of. Behind an open target they are not, unless they lie

@@ -50,11 +50,12 @@ TestMesh without_triangle(TestMesh mesh, int triangle) {
 
 class ApiCoincidentOpen : public testing::Test {
  protected:
-  Contacts answer(const TestMesh& first, const TestMesh& second) {
+  // The second lies `above` the first, along its own z [m].
+  Contacts answer(const TestMesh& first, const TestMesh& second, double above = 0) {
     const TestPose pose = turned({1, 2, 3}, 0.5, {1, 2, 3});
     const dSpaceID space = world_.space(SpaceKind::Simple);
     return fresh_answer(world_.geom(world_.mesh(first), pose, space),
-                        world_.geom(world_.mesh(second), pose, space));
+                        world_.geom(world_.mesh(second), composed(pose, at(0, 0, above)), space));
   }
 
   OdeWorld world_;
@@ -94,6 +95,20 @@ TEST_F(ApiCoincidentOpen, CopiesOfSeveralOpenPartsHaveContacts) {
 TEST_F(ApiCoincidentOpen, CopiesOfASheetHaveContacts) {
   for (const TestMesh& mesh : {make_triangle(1), make_sheet(1, 4), make_waves(4, 8)})
     EXPECT_FALSE(answer(mesh, mesh).empty()) << mesh.triangle_count() << " triangles";
+}
+
+TEST_F(ApiCoincidentOpen, SheetsThatDoNotQuiteTouchHaveNone) {
+  for (const double above : {1e-4, -1e-4})
+    for (const TestMesh& mesh : {make_triangle(1), make_sheet(1, 4), make_waves(4, 8)})
+      EXPECT_TRUE(answer(mesh, mesh, above).empty()) << mesh.triangle_count() << " triangles";
+}
+
+TEST_F(ApiCoincidentOpen, CopiesAreNoDeeperThanTheLeastWayOut) {
+  const TestMesh box = make_box({1, 2, 3});
+  for (int k = 0; k < box.triangle_count(); ++k) {
+    const TestMesh open = without_triangle(box, k);
+    for (const dContactGeom& c : answer(open, open)) EXPECT_LE(c.depth, 1 + 1e-4) << k;
+  }
 }
 
 }  // namespace
