@@ -84,7 +84,7 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   if (ox_is_better_choice(&choice, best)) *best = choice;
 }
 
-// The ends of a unit: it is looked for them in many blocks of planes.
+// The ends of a unit, by which its planes are looked for in many blocks.
 typedef struct {
   float3 one, other;
   uint side;

@@ -130,7 +130,7 @@ static inline uint ox_bring_first(const ox_region_view* r, uint count, uint mask
   uint kept = 0u;
   for (uint block = 0u; OX_VECTOR_WIDTH * block < count; ++block)
     kept += popcount(ox_members_of_kind(r, block, count, mask, flags));
-  // Each that is before its place and leaves changes with one behind it that comes: as many as one.
+  // Each that leaves changes places with one behind that comes: there are as many of either.
   uint leaving = 0u, coming = 0u;
   uint from = 0u, to = kept / OX_VECTOR_WIDTH;
   for (;;) {
