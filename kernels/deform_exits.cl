@@ -10,29 +10,32 @@
 #include "lib/moves.h"
 #include "lib/ray_meshlet.h"
 
-// INFINITY: a front face comes first, or nothing. What lies within on_surface is where it starts.
-static float ox_exit(__global const ox_move* move, __global const uint* topology,
-                     __global const ox_meshlet* meshlets,
-                     __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
-                     uint vertex) {
-  const ox_cast cast = ox_cast_from((float3)(0.0f), origin, direction);
+// The next faces of either side on a ray [m]; INFINITY: there is none.
+typedef struct {
+  float front_t, back_t;
+} ox_wall;
+
+// Beyond `from`, and not at the vertex.
+static ox_wall ox_next_wall(__global const ox_move* move, __global const uint* topology,
+                            __global const ox_meshlet* meshlets,
+                            __global const ox_meshlet_node* meshlet_nodes, const ox_cast* cast,
+                            float from, uint vertex) {
   __global const ox_mesh* shape = &move->shape;
-  float front_t = INFINITY;
-  float back_t = INFINITY;
+  ox_wall wall = {INFINITY, INFINITY};
   uint work = 0u;
   ox_ray_walk walk = ox_begin_ray_walk(shape);
   for (;;) {
     // A little more, for the rounding of t: the nearest is met whatever the order of the meshlets.
-    const float limit = ox_min(front_t, back_t) + move->on_surface;
-    const uint next = ox_next_on_ray(&walk, &cast, shape, meshlet_nodes, 0.0f, limit, &work);
-    if (next == OX_NONE) return back_t < front_t ? back_t : INFINITY;
+    const float limit = ox_min(wall.front_t, wall.back_t) + move->on_surface;
+    const uint next = ox_next_on_ray(&walk, cast, shape, meshlet_nodes, 0.0f, limit, &work);
+    if (next == OX_NONE) return wall;
     __global const ox_meshlet* meshlet = meshlets + next;
     ox_moved_vertices seen;
-    ox_shear_vertices(&cast, meshlet, &seen);
+    ox_shear_vertices(cast, meshlet, &seen);
     for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
       ox_floats t, determinant;
-      uint left = ox_meets_lanes(&cast, meshlet, &seen, first / OX_VECTOR_WIDTH, move->on_surface,
-                                 INFINITY, &t, &determinant);
+      uint left = ox_meets_lanes(cast, meshlet, &seen, first / OX_VECTOR_WIDTH, from, INFINITY, &t,
+                                 &determinant);
       if (left == 0u) continue;
       ox_lane_floats t_of, determinant_of;
       ox_keep_lanes(&t, &t_of);
@@ -40,17 +43,40 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
       for (; left != 0u; left &= left - 1u) {
         const uint k = ox_lowest(left);
         const float here = ox_lane(&t_of, k);
-        if (!(here > move->on_surface)) continue;
+        if (!(here > from)) continue;
         const uint triangle = meshlet->triangle[first + k] - shape->triangle_first;
         __global const uint* corners = topology + move->corner_first + 3u * triangle;
         if (corners[0] == vertex || corners[1] == vertex || corners[2] == vertex) continue;
         if (ox_lane(&determinant_of, k) < 0.0f)
-          back_t = ox_min(back_t, here);
+          wall.back_t = ox_min(wall.back_t, here);
         else
-          front_t = ox_min(front_t, here);
+          wall.front_t = ox_min(wall.front_t, here);
       }
     }
   }
+}
+
+// Each takes a walk down the tree.
+#define OX_MOST_WALLS 16
+
+// Where it has left as often as it had entered, its start among that; INFINITY: it never does. What
+// lies within on_surface is where it starts, and faces no farther apart are met at once.
+static float ox_exit(__global const ox_move* move, __global const uint* topology,
+                     __global const ox_meshlet* meshlets,
+                     __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
+                     uint vertex) {
+  const ox_cast cast = ox_cast_from((float3)(0.0f), origin, direction);
+  float from = move->on_surface;
+  int inside = 1;
+  for (int wall = 0; wall < OX_MOST_WALLS; ++wall) {
+    const ox_wall next = ox_next_wall(move, topology, meshlets, meshlet_nodes, &cast, from, vertex);
+    const float t = ox_min(next.front_t, next.back_t);
+    if (t == INFINITY) break;
+    from = t + move->on_surface;
+    inside += (next.front_t <= from ? 1 : 0) - (next.back_t <= from ? 1 : 0);
+    if (inside == 0) return t;
+  }
+  return INFINITY;
 }
 
 __kernel void deform_exits(__global const ox_move* moves, uint move_count,

@@ -78,6 +78,8 @@ static void ox_begin_found(__global ox_found* found) {
   found->candidates = 0u;
   found->head[0] = OX_NONE;
   found->head[1] = OX_NONE;
+  found->at_border[0] = 0u;
+  found->at_border[1] = 0u;
 }
 
 static void ox_relate_pairs(const ox_scene* scene) {

@@ -39,7 +39,7 @@ Checks:
 
 Examples:
   falling_objects                                   1,000 objects, 10 s, the default device
-  falling_objects --device pocl --check             on PoCL; exit code 1 if something is wrong
+  falling_objects --device :cpu: --check            on a processor; code 1 if something is wrong
   falling_objects --objects 100 --compare           against ODE's own collider, at the same poses
   falling_objects --collider ode --csv ode.csv      ODE's own collider alone, a row per step
   falling_objects --scene rigid-deformable --check --check-rest --snapshot end.obj

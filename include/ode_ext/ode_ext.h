@@ -66,9 +66,11 @@ typedef struct dxBatchCollider *dBatchColliderID;
     version may add some at the end: a program that was built before gets their defaults. */
 typedef struct dBatchColliderParams {
   size_t struct_size; /**< sizeof(dBatchColliderParams), set by dBatchColliderParamsInit */
-  const char *device; /**< as ODE_EXT_DEVICE; NULL: the environment, else the first that works of
-                             GPU, accelerator, CPU. Read during dBatchColliderCreate only, as is
-                             `config` */
+  const char *device; /**< as ODE_EXT_DEVICE: "platform:type:name", any part of it empty, platform
+                             and name by a part of theirs in either case, type gpu, accelerator, cpu
+                             or other; or a word in one of the names; or a number. NULL: the
+                             environment, else the first that works of GPU, accelerator, CPU. Read
+                             during dBatchColliderCreate only, as is `config` */
   int max_contacts;   /**< contacts kept per pair, 1..64 (default 16) */
   int max_contacts_deformable; /**< contacts kept per pair with a deformable mesh, 1..64; 0
                                       (default): all of them */
@@ -99,8 +101,8 @@ ODE_EXT_API const char *dBatchConfigDefault(int index); /**< its default */
 ODE_EXT_API const char *dBatchConfigMeaning(int index); /**< what it does */
 
 /** @return 0 if dBatchColliderCreate would take this text as params.config, else -1, and the last
-    error says what is wrong with it. NULL is no text. A device may still refuse a
-    work_group_size. */
+    error says what is wrong with it. NULL is no text, though dBatchColliderCreate takes it for
+    defaults. A device may still refuse a work_group_size. */
 ODE_EXT_API int dBatchConfigCheck(const char *config);
 
 /** Sets struct_size and the defaults of a struct of that size: that of the header that the program
@@ -253,7 +255,8 @@ ODE_EXT_API int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDat
 
 /**
  * Announces that the vertices of a mesh moved or that it was rebuilt (after the change, and after
- * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, unless
+ * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, or the
+ * next dCollide of the mesh outside of passes, which reads the meshes that it is asked of, unless
  * `trust_meshes` is set. All colliders are told, since any may be asked about the mesh: collider is
  * one that lives, or 0.
  */

@@ -271,7 +271,7 @@ typedef struct {
   ox_u32 first;     // this, void where there are no features
   ox_u32 placed;    // of its members, so far
   ox_u32 candidates;
-  ox_u32 padding[2];
+  ox_u32 at_border[2];  // per side whether one of those crossings is of an edge at its border
 } ox_found;
 OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
 

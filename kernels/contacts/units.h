@@ -70,6 +70,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   ox_settle();
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
+  ox_settle();
   if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
   ox_plane_choice own = ox_no_choice();
   own.plane = ox_own_plane(r, k);

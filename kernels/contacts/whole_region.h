@@ -269,9 +269,9 @@ static inline float ox_flat_of(const ox_region_view* r, const ox_plane* plane, f
   const float3 ab = ox_corner(t, 1u) - ox_corner(t, 0u);
   const float3 ac = ox_corner(t, 2u) - ox_corner(t, 0u);
   const float3 bc = ac - ab;
-  const float3 normal = ox_plain_cross(ab, ac);
   const float length2 = ox_max(ox_dot(ab, ab), ox_max(ox_dot(ac, ac), ox_dot(bc, bc)));
-  const float height = sqrt(ox_dot(normal, normal) / length2);
+  const float3 normal = ox_plain_cross(ab, ac) / sqrt(length2);
+  const float height = sqrt(ox_dot(normal, normal));
   const float epsilon = r->scene->pairs[r->pair].epsilon;
   return OX_CLEARANCE * epsilon + size * (OX_FACET_ANGLE + epsilon / height);
 }

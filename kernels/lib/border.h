@@ -53,6 +53,7 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, f
   __global const ox_found* found = scene->found + pair;
   if (found->head[0] == OX_NONE && found->head[1] == OX_NONE) return false;
   if (distance > scene->meshes[scene->pairs[pair].mesh[side]].radius) return false;
+  if (found->at_border[side] == 0u) return true;
   for (uint i = found->head[side]; i != OX_NONE; i = scene->crossings[i].before) {
     __global const ox_edge_crossing* c = scene->crossings + i;
     __global const ox_edge* edge = scene->edges + c->edge;

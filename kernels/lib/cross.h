@@ -9,6 +9,7 @@
 
 #define OX_NEW_LEAVES 1u
 #define OX_NEW_FLOODED 2u  // of a side that is flooded: linked from the pair's head on
+#define OX_NEW_OPEN 4u     // of an open mesh
 
 // Crossings of a pair that are yet to be stored.
 typedef struct {
@@ -21,7 +22,7 @@ typedef struct {
   float t[OX_MOST_AT_ONCE];
   float blur[OX_MOST_AT_ONCE];
 } ox_new_crossings;
-#define OX_NEW_SIDE_SHIFT 2u
+#define OX_NEW_SIDE_SHIFT 3u
 
 static inline void ox_store_crossings(ox_new_crossings* fresh) {
   if (fresh->count == 0u) return;
@@ -30,6 +31,7 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
   __global ox_found* found = fresh->scene->found + fresh->pair;
   uint head[2] = {OX_NONE, OX_NONE};
   uint tail[2] = {OX_NONE, OX_NONE};
+  bool at_border[2] = {false, false};
   for (uint i = 0u; i < stored; ++i) {
     const uint flags = fresh->flags[i];
     const uint side = flags >> OX_NEW_SIDE_SHIFT;
@@ -44,7 +46,11 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
     if (head[side] == OX_NONE) tail[side] = first + i;
     crossing->before = head[side];
     head[side] = first + i;
+    if ((flags & OX_NEW_OPEN) != 0u)
+      at_border[side] |= fresh->scene->edges[fresh->edge[i]].triangle[1] == OX_NONE;
   }
+  for (uint side = 0u; side < 2u; ++side)
+    if (at_border[side]) ox_exchange(fresh->scene, &found->at_border[side], 1u);
   for (uint side = 0u; side < 2u; ++side)
     if (head[side] != OX_NONE)
       fresh->scene->crossings[tail[side]].before =
@@ -225,10 +231,10 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
   ox_placed_meshlet* faces = &placed->of[1u - side];
   const uint near_triangles = ox_find_near_triangles(target, &faces->points, blocks);
   if (near_triangles == 0u) return;
+  __global const ox_mesh* mesh = scene->meshes + pair->mesh[side];
   const uint flags =
-      ox_is_flooded(scene, scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side])
-          ? OX_NEW_FLOODED
-          : 0u;
+      (ox_is_flooded(scene, mesh, scene->meshes + pair->mesh[1u - side]) ? OX_NEW_FLOODED : 0u) |
+      ((mesh->flags & OX_MESH_CLOSED) == 0u ? OX_NEW_OPEN : 0u);
   ox_place_triangles(target, blocks, faces);
   const ox_general_triangles* t = &faces->triangles;
   ox_heights heights[OX_LANES];

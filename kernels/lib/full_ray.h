@@ -130,18 +130,23 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
 // Whether a point that is not near the surface is inside a closed mesh, which may cut itself: the
 // surface winds about it. What is met first tells if that is a back face; behind a front face there
 // may be the wall of another part that the point is in. Rays go the way of `away`, to where less is
-// to be met; 0: any way. The point is from a base on, in the frame of the mesh.
+// to be met; 0: any way. Where each grazes, as where every one leaves a part and enters the next at
+// once, two of three decide by how often they leave and enter all of it, whichever comes first. The
+// point is from a base on, in the frame of the mesh.
 static inline bool ox_winds_about(float3 base, float3 point, float3 away, float epsilon,
                                   __global const ox_mesh* mesh, const ox_surfaces* surfaces) {
   uint work = 0u;
+  uint leaving = 0u;
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
     const ox_query query = ox_asking_query(k, base, point, away, epsilon);
     const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
-    if (ox_grazes(&nearest, epsilon)) continue;
-    if (nearest.back_t < nearest.front_t) return true;
-    return nearest.front != OX_NONE && ox_leaves_more(&query, mesh, surfaces) > 0;
+    const bool grazes = ox_grazes(&nearest, epsilon);
+    if (!grazes && nearest.back_t < nearest.front_t) return true;
+    const bool leaves = nearest.front != OX_NONE && ox_leaves_more(&query, mesh, surfaces) > 0;
+    if (!grazes) return leaves;
+    leaving += leaves ? 1u : 0u;
   }
-  return false;
+  return 2u * leaving > OX_ASKING_RAYS;
 }
 
 // The ray of a vertex, in the frame of the target.

@@ -210,8 +210,10 @@ int dBatchColliderSpaceCollide2(dBatchColliderID collider, dGeomID g1, dGeomID g
 
 int dBatchColliderCollidePairs(dBatchColliderID collider, const dGeomID* pairs, int pair_count,
                                int flags, dContactGeom* contacts, int skip, int* contact_counts) {
+  const CallMark mark;
   return guarded("dBatchColliderCollidePairs", -1, [&] {
     const auto found = asked_of(collider);
+    if (found != nullptr) Pass::end_those_left(mark);
     if (pair_count < 0) refuse("pair_count is " + std::to_string(pair_count));
     if (pair_count > 0 && (pairs == nullptr || contacts == nullptr))
       refuse(pairs == nullptr ? "pairs is NULL" : "contacts is NULL");

@@ -97,8 +97,7 @@ Collider::Collider(const ColliderOptions& options)
 
 ColliderOptions Collider::options_here() const {
   ColliderOptions options = options_;
-  const DeviceInfo& device = device_.info();
-  options.device = device.platform_name + ":" + type_name(device.type) + ":" + device.name;
+  options.device = selection_of(device_.info(), list_devices());
   return options;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/both.h"
 #include "mesh/box.h"
@@ -15,6 +16,24 @@ namespace {
 // the ray starts, not where it leaves, although rounding the coordinates to floats has moved both
 // apart: by sqrt(3) * 2^-24 of the mesh's size each, so 2^-22 together.
 constexpr double kOnSurface = 0x1p-22;
+
+// Each takes a ray; more are in the way in heaps of parts alone.
+constexpr int kMostWalls = 16;
+
+// Where a ray that starts inside leaves; infinity: it does not. Faces that it meets at once are one
+// wall: two triangles at an edge, or where one part ends and the next begins.
+double exit_along(Ray ray, const Bvh& bvh, const std::vector<Vec3f>& vertices,
+                  const std::vector<Triangle>& triangles) {
+  int inside = 1;
+  for (int wall = 0; wall < kMostWalls; ++wall) {
+    const RayHit hit = cast_ray(ray, bvh, vertices, triangles);
+    if (hit.triangle == kNone) break;
+    if (!hit.both) inside += hit.back ? -1 : 1;
+    if (inside == 0) return hit.t;
+    ray.t_min = std::nextafter(hit.t + ray.near, std::numeric_limits<double>::infinity());
+  }
+  return std::numeric_limits<double>::infinity();
+}
 
 // A thread takes tens of microseconds to start, a ray one or more.
 constexpr std::size_t kVerticesAThread = 4096;
@@ -36,8 +55,8 @@ std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
     ray.t_min = on_surface;
     ray.t_max = static_cast<double>(thickness);
     ray.excluded_vertex = static_cast<std::uint32_t>(i);
-    const RayHit hit = cast_ray(ray, bvh, vertices, triangles);
-    if (hit.back) exits[i] = std::min(static_cast<float>(hit.t), thickness);
+    ray.near = on_surface;
+    exits[i] = std::min(static_cast<float>(exit_along(ray, bvh, vertices, triangles)), thickness);
   };
   const auto exits_of = [&](auto self, std::size_t first, std::size_t last,
                             std::size_t threads) -> void {

@@ -91,6 +91,7 @@ bool has_corner(const Triangle& triangle, std::uint32_t vertex) {
 RayHit cast_ray(const Ray& ray, const Bvh& bvh, const std::vector<Vec3f>& vertices,
                 const std::vector<Triangle>& triangles) {
   RayHit nearest;
+  double nearest_of[2] = {nearest.t, nearest.t};  // front faces, back faces
   if (bvh.nodes.empty()) return nearest;
   const ShearedTriangleTest meets(ray);
   const SlabTest may_meet(ray, bvh.nodes[0]);
@@ -111,11 +112,15 @@ RayHit cast_ray(const Ray& ray, const Bvh& bvh, const std::vector<Vec3f>& vertic
         continue;
       if (!(hit.t >= ray.t_min && hit.t <= t_max)) continue;
       hit.triangle = index;
+      double& of_side = nearest_of[hit.back ? 1 : 0];
+      of_side = std::min(of_side, hit.t);
       if (hit.t < nearest.t || (hit.t == nearest.t && index < nearest.triangle)) nearest = hit;
-      t_max = nearest.t;
+      t_max = std::min(ray.t_max, nearest.t + ray.near);
     }
     ++i;
   }
+  nearest.both =
+      nearest.triangle != kNone && std::max(nearest_of[0], nearest_of[1]) <= nearest.t + ray.near;
   return nearest;
 }
 

@@ -17,12 +17,14 @@ struct Ray {
   double t_min = 0;
   double t_max = std::numeric_limits<double>::infinity();
   std::uint32_t excluded_vertex = kNone;  // triangles with this corner are passed through
+  double near = 0;  // within so much of t two faces are met at once: RayHit::both
 };
 
 struct RayHit {
   double t = std::numeric_limits<double>::infinity();  // [m] if the direction is a unit vector
   std::uint32_t triangle = kNone;                      // kNone: nothing was hit
   bool back = false;  // a back face: the direction is that of the triangle's normal
+  bool both = false;  // and at once a face that looks the other way
 };
 
 // The nearest hit within [t_min, t_max], of two at the same t that of the lower triangle index.

@@ -16,8 +16,10 @@
 namespace ode_ext {
 namespace {
 
-// How many answers computed outside of any pass are kept, for programs that never make one.
+// How many answers computed outside of any pass are kept, for programs that never make one, or so
+// many times those that are asked for at once.
 constexpr std::uint64_t kAnswersOutside = 65536;
+constexpr std::uint64_t kTimesAsked = 8;
 
 // Temporal data of spaces beside the one that is collided: what a device can easily spare.
 std::size_t most_temporal_bytes(const DeviceInfo& info) {
@@ -78,9 +80,11 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   known_.look_again();
-  if (depth_ == 1 && may_hold_pair) known_.note_outermost(root, pairs.size());
+  if (depth_ == 1 && may_hold_pair) {
+    known_.note_outermost(root, pairs.size());
+    computed_outside_ = 0;
+  }
   failed_ = false;
-  asked_outside_ = 0;
   begin_stats(depth_ > 1);  // this pass is one of them
   if (!may_hold_pair) {
     stats_.status |= dBatchStatusGatherSkipped;
@@ -146,13 +150,13 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   stats_.pairs_colliding = known_.colliding() + unasked_colliding;
 }
 
-// Bounds what is kept for a program that never makes a pass, where nothing else is forgotten.
-void BatchCollider::count_outside(std::size_t pairs) {
+// Bounds what is kept for a program whose passes hold no pair, where nothing else is forgotten.
+// `pairs`: that are asked for at once.
+void BatchCollider::age_outside(std::size_t pairs) {
   if (is_within_a_pass()) return;  // a pass forgets by itself, and needs what it has
-  asked_outside_ += pairs;
-  if (asked_outside_ <= kAnswersOutside) return;
-  known_.clear();
-  asked_outside_ = 0;
+  if (computed_outside_ <= std::max(kAnswersOutside, kTimesAsked * pairs)) return;
+  known_.age();
+  computed_outside_ = 0;
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
@@ -187,7 +191,9 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     known->last_round = known_.round();
     known->passes_unasked = 0;
   }
-  const auto holds_now = [&] { return known != nullptr && known_.holds(*known, g1, g2, !alone); };
+  // Outside of any pass nothing has read the meshes since the last question.
+  if (alone) known_.look_again();
+  const auto holds_now = [&] { return known != nullptr && known_.holds(*known, g1, g2, true); };
   const auto is_given_up = [&] { return !alone && known != nullptr && known_.is_given_up(*known); };
   try {
     if (holds_now()) return known;
@@ -201,10 +207,10 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
       if (is_given_up()) return nullptr;
     }
     if (alone) make_anew_what_keeps_failing();
-    count_outside(1);
+    age_outside(1);
+    if (alone) ++computed_outside_;
     known = &known_.entry(g1, g2);
     known->last_round = known_.round();
-    if (alone) known_.look_again();
     known_.begin_batch(false);
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});
     known_.compute(nullptr);

@@ -78,7 +78,7 @@ class BatchCollider {
   void compute_ahead(std::span<const GatheredPair> pairs, const PassRoot& root);
   void compute_pairs(std::span<const dGeomID> geoms);
   const Answer* find_or_compute(dGeomID g1, dGeomID g2);
-  void count_outside(std::size_t pairs);
+  void age_outside(std::size_t pairs);
   bool is_within_a_pass() const { return depth_ != 0; }
   // visit(i, what is known of the pair of the i-th contact, it).
   template <class Visit>
@@ -113,11 +113,11 @@ class BatchCollider {
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
-  std::uint64_t asked_outside_ = 0;
-  bool failed_ = false;         // the pass that runs is answered by ODE's own collider
-  bool failure_said_ = false;   // one message per run of failures
-  bool given_up_said_ = false;  // one as long as passes have pairs that are given up
-  bool failed_alone_ = false;   // the status tells of a question outside of any pass
+  std::uint64_t computed_outside_ = 0;  // of any pass, since what is known aged
+  bool failed_ = false;                 // the pass that runs is answered by ODE's own collider
+  bool failure_said_ = false;           // one message per run of failures
+  bool given_up_said_ = false;          // one as long as passes have pairs that are given up
+  bool failed_alone_ = false;           // the status tells of a question outside of any pass
   DeviceHealth health_;
 
   // What was announced of meshes and not heard yet, each with whether it is gone: whoever announces

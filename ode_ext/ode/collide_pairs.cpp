@@ -93,7 +93,7 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
 
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
   if (!is_within_a_pass()) known_.look_again();
-  count_outside(geoms.size() / 2);
+  age_outside(geoms.size() / 2);
   known_.begin_batch(is_within_a_pass());
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
     const dGeomID g1 = geoms[2 * i], g2 = geoms[2 * i + 1];
@@ -106,6 +106,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
   stats_.pairs = static_cast<long long>(geoms.size() / 2);
   known_.compute(nullptr);
   note_report();
+  if (!is_within_a_pass()) computed_outside_ += static_cast<std::uint64_t>(stats_.pairs_computed);
 }
 
 }  // namespace ode_ext

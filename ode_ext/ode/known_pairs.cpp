@@ -17,9 +17,9 @@ KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, boo
       collider_(std::make_unique<Collider>(options)),
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
-bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass) {
-  const PairMember* a = current_member(answer, g1, g2, within_a_pass);
-  const PairMember* b = a != nullptr ? current_member(answer, g2, g1, within_a_pass) : nullptr;
+bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool reads) {
+  const PairMember* a = current_member(answer, g1, g2, reads);
+  const PairMember* b = a != nullptr ? current_member(answer, g2, g1, reads) : nullptr;
   return b != nullptr && answer.holds(*a, *b);
 }
 
@@ -33,13 +33,12 @@ Members::Seen& KnownPairs::seen(Answer& answer, dGeomID geom, dGeomID other) {
   return *seen;
 }
 
-// Within a pass every mesh is looked at once.
 const PairMember* KnownPairs::current_member(Answer& answer, dGeomID geom, dGeomID other,
-                                             bool within_a_pass) {
+                                             bool reads) {
   const dTriMeshDataID data = dGeomTriMeshGetData(geom);
   const std::shared_ptr<const Mesh> mesh =
-      within_a_pass ? meshes_.refresh(data, dGeomTriMeshGetTriangleCount(geom), look_, round())
-                    : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
+      reads ? meshes_.refresh(data, dGeomTriMeshGetTriangleCount(geom), look_, round())
+            : meshes_.known(data, dGeomTriMeshGetTriangleCount(geom));
   if (mesh == nullptr) return nullptr;
   return Members::find_same(seen(answer, geom, other), data, mesh.get(), pose_of(geom), round());
 }
@@ -79,10 +78,14 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
       meshes_.refresh(data, dGeomTriMeshGetTriangleCount(placed.geom), look_, round());
   PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), round());
   member.scene = scene_.number();
-  if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
-  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
-  if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
+  note_status(member);
   return member;
+}
+
+void KnownPairs::note_status(const PairMember& member) {
+  if (meshes_.is_refused(member.data)) stats_.status |= dBatchStatusMeshRefused;
+  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
+  if (meshes_.has_left_box(member.data)) stats_.status |= dBatchStatusMeshLeftBox;
 }
 
 void KnownPairs::make_collider_anew() {
@@ -127,10 +130,11 @@ void KnownPairs::prune() {
   meshes_.prune(round());
 }
 
-void KnownPairs::clear() {
+void KnownPairs::age() {
   answers_.clear();
   members_.clear();
-  meshes_.clear();
+  meshes_.forget_before(round());
+  rounds_.end();
 }
 
 }  // namespace ode_ext

@@ -51,8 +51,9 @@ class KnownPairs {
   Answer* find(dGeomID g1, dGeomID g2) { return answers_.find(g1, g2); }
   Answer& entry(dGeomID g1, dGeomID g2) { return answers_.entry(g1, g2); }
   void prefetch(dGeomID g1, dGeomID g2) const { answers_.prefetch(g1, g2); }
-  // Whether an answer is of the geoms as they are now.
-  bool holds(Answer& answer, dGeomID g1, dGeomID g2, bool within_a_pass);
+  // Whether an answer is of the geoms as they are now. `reads`: their meshes too, where these were
+  // not since look_again(); else as they were last read.
+  bool holds(Answer& answer, dGeomID g1, dGeomID g2, bool reads);
   // Of one that holds.
   AnswerCopy copy_of(const Answer& answer) const;
 
@@ -68,6 +69,8 @@ class KnownPairs {
   // With its geoms as they are, each looked at once for a batch.
   void add(Answer& answer, const GatheredPair& pair);
   void add(Answer& answer, PairMember& a, PairMember& b);
+  // What a status bit says of one that is met.
+  void note_status(const PairMember& member);
   // Throws DeviceError; the batch is to be dropped then.
   void compute(PassMemory* memory);
   void drop_batch() { scene_.drop(); }
@@ -80,16 +83,18 @@ class KnownPairs {
   // Answers of the batch with contacts, those that were there before among them.
   long long colliding() const { return scene_.colliding(); }
 
-  // Forgets what no round met of late; all.
+  // Forgets what no round met of late.
   void prune();
-  void clear();
+  // Where no pass ages what is known: forgets all pairs, and meshes that nothing met since the last
+  // time.
+  void age();
 
  private:
   void give_up(std::size_t pair, const std::string& why);
   // What is known of one geom of an answer: looked up once for it, and not again in every pass.
   Members::Seen& seen(Answer& answer, dGeomID geom, dGeomID other);
   PairMember& member_of(Members::Seen& seen, const PlacedGeom& placed);
-  const PairMember* current_member(Answer& answer, dGeomID geom, dGeomID other, bool within_a_pass);
+  const PairMember* current_member(Answer& answer, dGeomID geom, dGeomID other, bool reads);
 
   PassStats& stats_;
   std::unique_ptr<Collider> collider_;

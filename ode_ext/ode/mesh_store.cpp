@@ -127,12 +127,6 @@ void MeshStore::forget(dTriMeshDataID data) {
   if (entries_.erase(data) != 0) resident_is_stale_ = true;
 }
 
-void MeshStore::clear() {
-  std::erase_if(entries_, [](const auto& item) { return !item.second.deformable; });
-  for (auto& [data, entry] : entries_) drop(entry);
-  resident_is_stale_ = true;
-}
-
 bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint64_t round) {
   const auto drop_where = [&](const auto& is_spare) {
     bool any = false;
@@ -152,10 +146,14 @@ bool MeshStore::make_room(const std::unordered_set<const Mesh*>& used, std::uint
 void MeshStore::prune(std::uint64_t round) {
   if (round < pruned_round_ + kRoundsBetweenLooks) return;
   pruned_round_ = round;
+  if (round > kRoundsKept) forget_before(round - kRoundsKept);
+}
+
+void MeshStore::forget_before(std::uint64_t round) {
   for (auto item = entries_.begin(); item != entries_.end();) {
     Entry& entry = item->second;
     const auto next = std::next(item);
-    if (entry.last_round + kRoundsKept < round) {
+    if (entry.last_round < round) {
       if (entry.mesh != nullptr) resident_is_stale_ = true;
       drop(entry);
       if (!entry.deformable) entries_.erase(item);  // else it is to be known as such again

@@ -49,7 +49,8 @@ class MeshStore {
   void announce_change(dTriMeshDataID data);
   void set_deformable(dTriMeshDataID data, bool deformable);
   void forget(dTriMeshDataID data);
-  void clear();  // forgets all, but for which are deformable
+  // Forgets meshes that no round from this one on has met, but for which are deformable.
+  void forget_before(std::uint64_t round);
   // Forgets meshes that no round has met for a long time. Looks every so many rounds.
   void prune(std::uint64_t round);
   // Drops meshes that this round has not met; where there are none, all but those in use. They are

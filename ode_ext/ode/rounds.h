@@ -24,15 +24,17 @@ class Rounds {
   // all roots of the round before have come.
   void note_pass(const PassRoot& root, std::size_t pairs) {
     if ((missing_.empty() && roots_.contains(root)) || passes_ >= kPassesInARound ||
-        pairs_ >= kPairsInARound) {
-      ++number_;
-      passes_ = pairs_ = 0;
-      missing_ = std::exchange(roots_, {});
-    }
+        pairs_ >= kPairsInARound)
+      end();
     roots_.insert(root);
     missing_.erase(root);
     ++passes_;
     pairs_ += pairs;
+  }
+  void end() {
+    ++number_;
+    passes_ = pairs_ = 0;
+    missing_ = std::exchange(roots_, {});
   }
   std::uint64_t number() const { return number_; }
 

@@ -26,6 +26,8 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
     place->second.data = data;
     place->second.mesh = known.meshes().keep(data, known.round());
     place->second.given = pose_of(placed);
+    const PairMember& now = known.members().seen(placed.geom).now;
+    if (place->second.mesh != nullptr && now.stamp != 0 && now.data == data) known.note_status(now);
   }
   pairs_.push_back({pair.first.geom, pair.second.geom});
 }
@@ -38,8 +40,10 @@ bool UnaskedPairs::wakes_by_question() {
 void UnaskedPairs::compute(KnownPairs& known) {
   known.begin_batch(true);
   const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
-    return known.members().note(known.members().seen(geom), geom, as.data, as.mesh, as.given,
-                                known.round());
+    PairMember& member = known.members().note(known.members().seen(geom), geom, as.data, as.mesh,
+                                              as.given, known.round());
+    known.note_status(member);
+    return member;
   };
   for (const auto& [first, second] : pairs_) {
     const PairMember &a = members_.at(first), &b = members_.at(second);

@@ -80,6 +80,15 @@ auto rank(const DeviceInfo& device) {
 
 }  // namespace
 
+std::string selection_of(const DeviceInfo& device, const std::vector<DeviceInfo>& devices) {
+  const auto is_it = [&](const DeviceInfo& other) {
+    return other.index == device.index && other.type == device.type && other.name == device.name &&
+           other.platform_name == device.platform_name;
+  };
+  if (std::any_of(devices.begin(), devices.end(), is_it)) return std::to_string(device.index);
+  return device.platform_name + ":" + type_name(device.type) + ":" + device.name;
+}
+
 const char* type_name(cl_device_type type) {
   if (type & CL_DEVICE_TYPE_GPU) return "gpu";
   if (type & CL_DEVICE_TYPE_ACCELERATOR) return "accelerator";

@@ -19,6 +19,10 @@ Choice choose_among(const std::vector<DeviceInfo>& devices, const std::string& s
 // Those that can be used, in the order in which they are taken where nothing is selected.
 std::vector<DeviceInfo> in_default_order(const std::vector<DeviceInfo>& devices);
 
+// What chooses a device again: its number, where that is still one like it, for there may be others
+// of its name; else its names.
+std::string selection_of(const DeviceInfo& device, const std::vector<DeviceInfo>& devices);
+
 // "gpu", "accelerator", "cpu" or "other".
 const char* type_name(cl_device_type type);
 

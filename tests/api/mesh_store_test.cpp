@@ -47,6 +47,16 @@ TEST_F(MeshStoreTest, BuildsEqualContentOnceWhoeverHoldsIt) {
   EXPECT_EQ(store_.resident().size(), 2u);
 }
 
+TEST_F(MeshStoreTest, ForgetsWhatNoRoundHasMetAndNothingElse) {
+  const OdeMesh& other = world_.mesh(make_icosphere(1.5, 2));
+  const Mesh* built = &pass();
+  store_.refresh(other.id(), triangles_of(other), pass_, pass_);
+  EXPECT_EQ(&pass(), built);
+  store_.forget_before(pass_);
+  EXPECT_EQ(store_.size(), 1u);
+  EXPECT_EQ(&pass(), built);
+}
+
 TEST_F(MeshStoreTest, DoesNotTakeMeshesOfOneHashForOne) {
   const auto forged = cube_and_plate_of_one_hash();
   for (int i = 0; i < 2; ++i) {

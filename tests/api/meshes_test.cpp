@@ -40,6 +40,49 @@ TEST_F(ApiMeshes, EditedInPlaceAreSeenAtTheNextPassUnannounced) {
   EXPECT_EQ(difference_with_geoms(after, right()), "");
 }
 
+// As by a program that never makes a pass.
+TEST_F(ApiMeshes, EditedInPlaceAreSeenByAQuestionOutsideOfPasses) {
+  const BatchCollider collider;
+  const Contacts before = collide(g1, g2);
+  EXPECT_EQ(difference_with_geoms(before, right()), "");
+  dent();
+  const Contacts after = collide(g1, g2);
+  EXPECT_NE(difference(after, before), "");
+  EXPECT_EQ(difference_with_geoms(after, right()), "");
+}
+
+TEST_F(ApiMeshes, EditedInPlaceAreSeenAfterAPassThatDoesNotMeetThem) {
+  const BatchCollider collider;
+  const dSpaceID other = world.space(SpaceKind::Simple);
+  world.geom(hard, {}, other);
+  world.geom(hard, at(0.5, 0, 0), other);
+  collider.pass(space);
+  dent();
+  collider.pass(other);
+  EXPECT_EQ(difference_with_geoms(collide(g1, g2), right()), "");
+}
+
+TEST_F(ApiMeshes, EditedInPlaceAreSeenAfterPassesInWhichNobodyAskedForThem) {
+  const BatchCollider collider;
+  collider.pass(space);
+  const auto sleep = [&](int passes) {
+    const auto ask_nothing = [](void*, dGeomID, dGeomID) {};
+    for (int i = 0; i < passes; ++i)
+      ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, nullptr, ask_nothing), 1);
+  };
+  sleep(12);
+  dent();
+  sleep(3);
+  EXPECT_EQ(difference_with_geoms(collide(g1, g2), right()), "");
+}
+
+TEST_F(ApiMeshes, ThatAreTrustedAreNotReadByAQuestion) {
+  const BatchCollider collider(trusting());
+  const Contacts before = collide(g1, g2);
+  dent();
+  EXPECT_EQ(difference_with_geoms(collide(g1, g2), before), "");
+}
+
 TEST_F(ApiMeshes, EditedInPlaceAreSeenAtOnceWhenAnnounced) {
   const BatchCollider collider;
   collider.pass(space);

@@ -72,6 +72,27 @@ TEST_F(ApiOpenTarget, AGroundPushesABallUpByAsMuchAsItSank) {
   }
 }
 
+// A car and its engine, a tower of blocks, a bar through a ball: the way through each goes past the
+// walls of its parts.
+TEST_F(ApiOpenTarget, AGroundPushesABodyUpOfWhichPartsAreInOneAnother) {
+  const dGeomID ground = world.geom(world.mesh(make_sheet(8, 1)), {});
+  const TestMesh car = merged(make_cube(1), make_icosphere(0.3, 2));
+  const TestMesh tower =
+      merged(moved(make_cube(0.5), {0, 0, -0.25}), moved(make_cube(0.5), {0, 0, 0.25}));
+  const TestMesh barbell = merged(make_box({1, 1, 1}), make_box({2, 0.2, 0.2}));
+  for (const TestMesh& mesh : {car, tower, barbell})
+    for (const bool deformable : {false, true}) {
+      const OdeMesh& body = world.mesh(mesh);
+      dBatchColliderTriMeshDataSetDeformable(collider, body.id(), deformable ? 1 : 0);
+      const dGeomID geom = world.geom(body, {});
+      for (const double sunk : {0.01, 0.1, 0.3}) {
+        set_pose(geom, at(0.123, 0.234, 0.5 - sunk));
+        EXPECT_NEAR(pushed_up(geom, ground), sunk, 1e-4)
+            << mesh.triangle_count() << " triangles, deformable " << deformable;
+      }
+    }
+}
+
 TEST_F(ApiOpenTarget, AGroundPushesAPlankUpThatLiesAcrossItsBorder) {
   const dGeomID ground = world.geom(world.mesh(make_sheet(8, 16)), {});
   const dGeomID plank = world.geom(world.mesh(make_box({2, 1, 0.1}, 16, 8, 1)), {});

@@ -169,5 +169,59 @@ TEST_F(ApiCollidePairsRefuses, AGeomThatIsNoMesh) {
   EXPECT_EQ(dBatchColliderCollidePairs(collider, pairs.data(), 2, 2, contacts, kSkip, counts), -1);
 }
 
+// Forty cubes and forty more, each of the former with each of the latter.
+class ApiManyPairs : public ::testing::Test {
+ protected:
+  ApiManyPairs() {
+    for (int i = 0; i < 80; ++i) geoms.push_back(world.geom(cube, at(0.01 * i, 0, 0)));
+    for (std::size_t i = 0; i < 40; ++i)
+      for (std::size_t k = 40; k < 80; ++k) pairs.insert(pairs.end(), {geoms[i], geoms[k]});
+    contacts.resize(pairs.size() / 2);
+  }
+  void ask() {
+    dBatchColliderCollidePairs(collider, pairs.data(), static_cast<int>(contacts.size()), 1,
+                               contacts.data(), kSkip, nullptr);
+  }
+  void move() {
+    for (const dGeomID geom : geoms) dGeomSetPosition(geom, dGeomGetPosition(geom)[0] + 1e-4, 0, 0);
+  }
+
+  OdeWorld world;
+  OdeMesh& cube = world.mesh(make_cube(1));
+  std::vector<dGeomID> geoms, pairs;
+  Contacts contacts;
+  BatchCollider collider;
+};
+
+// What passes do not age is bounded all the same: those without meshes keep nothing.
+TEST_F(ApiManyPairs, AreForgottenBetweenPassesWithoutMeshes) {
+  const dSpaceID empty = world.space(SpaceKind::Simple);
+  const dGeomID kept[] = {world.geom(cube, {}), world.geom(cube, at(0.9, 0, 0))};
+  const auto alone_after_asking = [&] {
+    EXPECT_FALSE(collide(kept[0], kept[1]).empty());
+    return collider.stats().pairs_alone;
+  };
+  const auto ask_for_others = [&](int calls) {
+    for (int i = 0; i < calls; ++i) {
+      move();
+      ask();
+      ASSERT_EQ(collider.stats().pairs_computed, 1600);
+      collider.pass(empty);
+    }
+  };
+  const long long alone = alone_after_asking();
+  ask_for_others(20);
+  EXPECT_EQ(alone_after_asking(), alone) << "it is kept";
+  ask_for_others(25);
+  EXPECT_EQ(alone_after_asking(), alone + 1) << "it is not";
+}
+
+TEST_F(ApiManyPairs, ThatRestAreKeptHoweverOftenTheyAreAskedFor) {
+  for (int call = 0; call < 50; ++call) {
+    ask();
+    ASSERT_EQ(collider.stats().pairs_computed, call == 0 ? 1600 : 0) << call;
+  }
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -220,6 +220,27 @@ TEST_F(ApiLongjmpDeathTest, OutOfACallbackLeavesAColliderThatCanBeDestroyed) {
       ::testing::ExitedWithCode(0), "good");
 }
 
+TEST_F(ApiLongjmpDeathTest, OutOfACallbackLeavesAColliderThatReadsMeshesAnew) {
+  EXPECT_EXIT(
+      {
+        Scene& scene = *new Scene;
+        OdeMesh& soft = scene.world.mesh(make_icosphere(0.5, 2));
+        dGeomID pair[2];
+        pair[0] = scene.world.geom(soft, {});
+        pair[1] = scene.world.geom(soft, at(0.9, 0, 0));
+        leave(scene);
+        Contacts contacts(64);
+        const auto count = [&] {
+          return dBatchColliderCollidePairs(scene.collider, pair, 1, 64, contacts.data(),
+                                            sizeof(dContactGeom), nullptr);
+        };
+        const bool met = count() > 0;
+        for (float& c : soft.edit().vertices) c *= 0.5f;
+        end(met && count() == 0);
+      },
+      ::testing::ExitedWithCode(0), "good");
+}
+
 TEST_F(ApiLongjmpDeathTest, OutOfACallbackLeavesAColliderThatGoesOn) {
   EXPECT_EXIT(
       {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pairs that the program stopped asking for (both bodies asleep) and asks for again, all in one
 // pass: they are computed together, not one at a time.
+#include <algorithm>
+
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {
@@ -55,6 +57,23 @@ TEST_F(ApiWaking, ComputesNothingOfWhatHasNotMoved) {
   EXPECT_EQ(collider.stats().pairs_alone, 0);
   EXPECT_EQ(collider.stats().pairs_computed, 0);
   EXPECT_EQ(difference_with_geoms(awake, before), "");
+}
+
+// Of a pile that rests and of one that wakes.
+TEST_F(ApiWaking, SaysOfAGeomAtNoPoseWhatAPassSaysThatAsks) {
+  const dGeomID skewed = pile.geoms[5];
+  collider.pass(space);
+  sleep(12);
+  dMatrix3 rotation;
+  std::copy_n(dGeomGetRotation(skewed), 12, rotation);
+  rotation[0] *= 2;
+  dGeomSetRotation(skewed, rotation);
+  nudge();
+  collider.pass(space);  // its callback wakes them
+  EXPECT_NE(collider.stats().status & dBatchStatusPoseRefused, 0u);
+  sleep(12);
+  EXPECT_EQ(collider.stats().pairs_computed, 0) << "the pile does not sleep";
+  EXPECT_NE(collider.stats().status & dBatchStatusPoseRefused, 0u);
 }
 
 TEST_F(ApiWaking, DoesNotStallAfterTheLongestSleep) {

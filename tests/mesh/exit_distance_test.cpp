@@ -87,6 +87,37 @@ TEST(Exits, PassOverAFaceTheVertexLiesOn) {
   EXPECT_EQ(checked, 4);
 }
 
+// A car and its engine: the ray enters and leaves the part within before it leaves the other.
+TEST(Exits, GoThroughAPartWithinAnother) {
+  const TriangleSoup soup =
+      shapes::joined(shapes::cube(), shapes::box({0.25f, 0.25f, 0.25f}, {0.75f, 0.75f, 0.75f}));
+  const Mesh mesh = build_mesh(soup);
+  ASSERT_TRUE(mesh.closed());
+  int checked = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const float x = (mesh.vertices[i] + mesh.origin).x;
+    if (x != 0 && x != 1) continue;
+    EXPECT_NEAR(mesh.exits[i], std::sqrt(3.0f), 1e-6f);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 8);
+}
+
+// A tower of two blocks: where one ends the other begins, and it is solid all the same.
+TEST(Exits, GoThroughPartsThatAbut) {
+  const Mesh mesh = build_mesh(shapes::joined(shapes::box({0, 0, 0}, {4, 4, 1}, 4),
+                                              shapes::box({0.5f, 0.5f, 1}, {3.5f, 3.5f, 3})));
+  ASSERT_TRUE(mesh.closed());
+  int checked = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3f at = mesh.vertices[i] + mesh.origin;
+    if (at.z != 0 || std::fabs(mesh.normals[i].z) < 0.999f) continue;
+    EXPECT_NEAR(mesh.exits[i], 3, 1e-5f);
+    ++checked;
+  }
+  EXPECT_EQ(checked, 9);
+}
+
 TEST(Exits, AreZeroWithoutANormal) {
   const Mesh mesh =
       build_mesh(TriangleSoup{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {.open_thickness = 1});
@@ -110,7 +141,7 @@ TEST(Exits, ThatMeetAFrontFaceFirstAreInfinite) {
   const auto exit_of_first = [&](const std::vector<Triangle>& triangles) {
     return exit_distances(vertices, normals, triangles, build_bvh(vertices, triangles))[0];
   };
-  EXPECT_EQ(exit_of_first({{1, 2, 3}, {4, 6, 5}}), kInfinity);
+  EXPECT_EQ(exit_of_first({{1, 2, 3}, {4, 6, 5}}), kInfinity);  // and leaves what it entered alone
   EXPECT_EQ(exit_of_first({{1, 3, 2}, {4, 5, 6}}), 2);
   EXPECT_EQ(exit_of_first({{4, 6, 5}}), 4);
 }

@@ -234,5 +234,30 @@ TEST(PlatformAdvice, IsForPoclAlone) {
   EXPECT_EQ(platform_advice("NVIDIA CUDA"), "");
 }
 
+// There may be several of one name, and names that are part of others.
+TEST(Choice, OfADeviceThatIsThereChoosesItAgain) {
+  std::vector<DeviceInfo> twins = kDevices;
+  twins.push_back(make(6, CL_DEVICE_TYPE_GPU, "NVIDIA CUDA", "RTX large", 80));
+  twins.push_back(make(7, CL_DEVICE_TYPE_GPU, "NVIDIA CUDA", "RTX large plus", 90));
+  for (const DeviceInfo& device : twins)
+    EXPECT_EQ(choose_among({device}, selection_of(device, {})).device != nullptr,
+              why_unusable(device).empty());
+  for (const DeviceInfo& device : twins) {
+    if (!why_unusable(device).empty()) continue;
+    const Choice choice = choose_among(twins, selection_of(device, twins));
+    ASSERT_NE(choice.device, nullptr) << device.index;
+    EXPECT_EQ(choice.device->index, device.index);
+  }
+}
+
+TEST(Choice, OfADeviceWhoseNumberIsAnothersGoesByItsNames) {
+  std::vector<DeviceInfo> others = kDevices;
+  std::swap(others[2], others[3]);
+  std::swap(others[2].index, others[3].index);
+  const Choice choice = choose_among(others, selection_of(kDevices[2], others));
+  ASSERT_NE(choice.device, nullptr);
+  EXPECT_EQ(choice.device->name, kDevices[2].name);
+}
+
 }  // namespace
 }  // namespace ode_ext

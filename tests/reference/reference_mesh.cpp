@@ -107,11 +107,21 @@ void compute_exits(ReferenceMesh& mesh, double open_thickness) {
       const auto& triangle = mesh.triangles[c.triangle];
       return c.t < -slack || std::count(triangle.begin(), triangle.end(), v) > 0;
     });
+    // It leaves where it has left as often as it had entered; at an edge it does so once.
+    int inside = 1;
+    double wall = -kInfinity;
     for (const Crossing& c : others) {
       if (depends_on_rounding(c, others, slack)) mesh.doubtful[v] = true;
-      if (c.t < 0 || c.margin < 0) continue;
-      if (c.facing > 0) mesh.exits[v] = std::min(c.t, bound);
-      break;  // a front face first: the normal points inwards here, nothing bounds the ray
+      if (c.t < 0 || c.margin < 0 || c.t <= wall) continue;
+      wall = c.t + slack;
+      const auto is_met_too = [&](const Crossing& other) {
+        return other.margin >= 0 && other.t >= c.t && other.t <= wall &&
+               (other.facing > 0) != (c.facing > 0);
+      };
+      if (!std::any_of(others.begin(), others.end(), is_met_too)) inside += c.facing > 0 ? -1 : 1;
+      if (inside > 0) continue;
+      mesh.exits[v] = std::min(c.t, bound);
+      break;
     }
   }
 }

@@ -236,6 +236,16 @@ TEST_F(Flood, FindsWhatLiesAcrossWhereTwoPartsAbut) {
   EXPECT_GT(hits_, 2 * 150u);
 }
 
+// In the second of four layers: whatever way a ray goes it leaves that where it enters the next.
+TEST_F(Flood, FindsWhatIsWhollyInsideWhereManyPartsAbut) {
+  TestMesh stack;
+  for (int i = 0; i < 4; ++i)
+    stack = merged(stack, moved(make_box({6.0 - i, 6.0 - i, 1}), {0, 0, 0.5 + i}));
+  find(one_pair(stack, TestPose{}, make_cube(0.5), at(0, 0, 1.5)).scene);
+  EXPECT_EQ(hits_, 8u);
+  EXPECT_FALSE(records_.contacts.empty());
+}
+
 // Buried with one corner just below the ground, the one that is asked first.
 TEST_F(Flood, FindsACrateWhoseFirstCornerIsJustBelowTheSurface) {
   const TestMesh ground = moved(make_box({1000, 1000, 10}), {0, 0, -5});

@@ -127,6 +127,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_found, first),
     OFFSET_OF(ox_found, placed),
     OFFSET_OF(ox_found, candidates),
+    OFFSET_OF(ox_found, at_border),
     SIZE_OF(ox_list),
     OFFSET_OF(ox_list, first),
     OFFSET_OF(ox_list, capacity),

@@ -10,8 +10,7 @@
 namespace ode_ext::replay {
 namespace {
 
-// The collider forgets after 65,536 pairs that no pass brought, deformable meshes as they were
-// built among them. What a call of so many pairs writes is 50 MB.
+// What a call of so many pairs writes is 50 MB.
 constexpr std::size_t kPairsACall = 32768;
 
 constexpr int kMostContacts = 0xffff;
