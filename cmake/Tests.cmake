@@ -207,7 +207,9 @@ add_test(NAME bench_of_a_pile COMMAND pile_times
          --bodies 6 --triangles 100 --steps 40 --first 36 --every 2 --csv pile_times.csv)
 add_test(NAME bench_of_meshes COMMAND mesh_times
          --triangles 1000 --repetitions 1 --csv mesh_times.csv)
-set_tests_properties(bench_of_pairs bench_of_a_pile bench_of_meshes PROPERTIES TIMEOUT 120)
+add_test(NAME tables_of_documents COMMAND ${PROJECT_SOURCE_DIR}/tests/bench/tables_test.sh)
+set_tests_properties(bench_of_pairs bench_of_a_pile bench_of_meshes tables_of_documents PROPERTIES
+                     TIMEOUT 120)
 
 # Every check of the sources has a test that it fails where it should.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)

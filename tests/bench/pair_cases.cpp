@@ -11,6 +11,7 @@ namespace ode_ext::bench {
 namespace {
 
 using test::operator*;
+using test::operator+;
 
 using test::Point;
 
@@ -21,21 +22,34 @@ double size_of(const TestMesh& mesh) {
   return 2 * largest;
 }
 
-}  // namespace
+// Where B comes from: along a line past A's middle.
+struct Line {
+  Point from, direction;
+};
 
-PairCase make_case(const std::string& name, const TestMesh& a, const TestMesh& b,
-                   const Depth& depth, int count, std::uint64_t seed) {
+Line any_line(const TestPose&, test::Random& random) { return {{}, random.direction()}; }
+
+// So that A comes down on B, anywhere but near its rim.
+Line line_from_above(const TestMesh& b, const TestPose& pose, test::Random& random) {
+  const double most = 0.2 * size_of(b);
+  const Point aside{most * random.uniform(-1, 1), most * random.uniform(-1, 1), 0};
+  return {rotate(pose, aside), rotate(pose, Point{0, 0, -1})};
+}
+
+template <typename MakeLine>
+PairCase make_case_along(const MakeLine& make_line, const std::string& name, const TestMesh& a,
+                         const TestMesh& b, const Depth& depth, int count, std::uint64_t seed) {
   const test::FclSurface surface_a(a), surface_b(b);
   const double size = std::min(size_of(a), size_of(b));
   test::Random random(seed);
   PairCase result{name, a, b, {}};
   for (int i = 0; i < count; ++i) {
     PosedPair pair{random.pose(0), random.pose(0)};
-    const Point direction = random.direction();
+    const Line line = make_line(pair.b, random);
     // From afar to where the surfaces first meet; first to within a step, then to within rounding.
     double apart = 0.5 * (size_of(a) + size_of(b)) * 1.001, met = apart;
     const auto meet = [&](double distance) {
-      pair.b.position = distance * direction;
+      pair.b.position = line.from + distance * line.direction;
       return test::surfaces_intersect(surface_a, pair.a, surface_b, pair.b);
     };
     while (met > 0 && !meet(met)) apart = std::exchange(met, met - 0.01 * size);
@@ -44,10 +58,25 @@ PairCase make_case(const std::string& name, const TestMesh& a, const TestMesh& b
       (meet(middle) ? met : apart) = middle;
     }
     const double off = depth.depth + depth.spread * random.uniform(-1, 1);
-    pair.b.position = (met - off * size) * direction;
+    pair.b.position = line.from + (met - off * size) * line.direction;
     result.pairs.push_back(pair);
   }
   return result;
+}
+
+}  // namespace
+
+PairCase make_case(const std::string& name, const TestMesh& a, const TestMesh& b,
+                   const Depth& depth, int count, std::uint64_t seed) {
+  return make_case_along(any_line, name, a, b, depth, count, seed);
+}
+
+PairCase make_case_from_above(const std::string& name, const TestMesh& a, const TestMesh& b,
+                              const Depth& depth, int count, std::uint64_t seed) {
+  const auto from_above = [&](const TestPose& pose, test::Random& random) {
+    return line_from_above(b, pose, random);
+  };
+  return make_case_along(from_above, name, a, b, depth, count, seed);
 }
 
 TestMesh make_rock(int triangles) {
@@ -88,6 +117,10 @@ TestMesh make_hills(int triangles) {
     mesh.vertices[i + 2] =
         0.1f * std::sin(9 * mesh.vertices[i]) * std::cos(7 * mesh.vertices[i + 1]);
   return mesh;
+}
+
+TestMesh make_ground(int triangles) {
+  return test::make_waves(4, std::max(1, static_cast<int>(std::sqrt(triangles / 2.0))));
 }
 
 }  // namespace ode_ext::bench

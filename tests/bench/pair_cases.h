@@ -34,10 +34,17 @@ struct Depth {
 PairCase make_case(const std::string& name, const TestMesh& a, const TestMesh& b,
                    const Depth& depth, int count, std::uint64_t seed);
 
+// The same, but A, turned anyhow, comes down on B: against B's +z, and not near its rim.
+PairCase make_case_from_above(const std::string& name, const TestMesh& a, const TestMesh& b,
+                              const Depth& depth, int count, std::uint64_t seed);
+
 // A closed, bumpy ball, 1 m wide, of about so many triangles.
 TestMesh make_rock(int triangles);
 
 // An open mesh of about so many triangles: hills, 1 m wide, of which the top is +z.
 TestMesh make_hills(int triangles);
+
+// The same of 4 m, and less steep.
+TestMesh make_ground(int triangles);
 
 }  // namespace ode_ext::bench
