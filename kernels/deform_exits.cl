@@ -15,18 +15,18 @@ typedef struct {
   float front_t, back_t;
 } ox_wall;
 
-// Beyond `from`, and not at the vertex.
+// Beyond `from`, and not at the vertex; of the farther one it matters whether it is met at once.
 static ox_wall ox_next_wall(__global const ox_move* move, __global const uint* topology,
                             __global const ox_meshlet* meshlets,
                             __global const ox_meshlet_node* meshlet_nodes, const ox_cast* cast,
-                            float from, uint vertex) {
+                            float from, float at_once, uint vertex) {
   __global const ox_mesh* shape = &move->shape;
   ox_wall wall = {INFINITY, INFINITY};
   uint work = 0u;
   ox_ray_walk walk = ox_begin_ray_walk(shape);
   for (;;) {
-    // A little more, for the rounding of t: the nearest is met whatever the order of the meshlets.
-    const float limit = ox_min(wall.front_t, wall.back_t) + move->on_surface;
+    // More than t rounds: so the nearest is met whatever the order of the meshlets.
+    const float limit = ox_min(wall.front_t, wall.back_t) + at_once;
     const uint next = ox_next_on_ray(&walk, cast, shape, meshlet_nodes, 0.0f, limit, &work);
     if (next == OX_NONE) return wall;
     __global const ox_meshlet* meshlet = meshlets + next;
@@ -56,23 +56,26 @@ static ox_wall ox_next_wall(__global const ox_move* move, __global const uint* t
   }
 }
 
-// Each takes a walk down the tree.
+// As in mesh/exit_distance.cpp. Each wall takes a walk down the tree.
+#define OX_ALONG_RAY 8.0f
 #define OX_MOST_WALLS 16
 
 // Where it has left as often as it had entered, its start among that; INFINITY: it never does. What
-// lies within on_surface is where it starts, and faces no farther apart are met at once.
+// lies within on_surface is where it starts.
 static float ox_exit(__global const ox_move* move, __global const uint* topology,
                      __global const ox_meshlet* meshlets,
                      __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
                      uint vertex) {
   const ox_cast cast = ox_cast_from((float3)(0.0f), origin, direction);
+  const float at_once = OX_ALONG_RAY * move->on_surface;
   float from = move->on_surface;
   int inside = 1;
   for (int wall = 0; wall < OX_MOST_WALLS; ++wall) {
-    const ox_wall next = ox_next_wall(move, topology, meshlets, meshlet_nodes, &cast, from, vertex);
+    const ox_wall next =
+        ox_next_wall(move, topology, meshlets, meshlet_nodes, &cast, from, at_once, vertex);
     const float t = ox_min(next.front_t, next.back_t);
     if (t == INFINITY) break;
-    from = t + move->on_surface;
+    from = t + at_once;
     inside += (next.front_t <= from ? 1 : 0) - (next.back_t <= from ? 1 : 0);
     if (inside == 0) return t;
   }

@@ -17,6 +17,10 @@ namespace {
 // apart: by sqrt(3) * 2^-24 of the mesh's size each, so 2^-22 together.
 constexpr double kOnSurface = 0x1p-22;
 
+// Along a ray two walls so near one another are farther apart, the more so the flatter it meets
+// them: so many times at less than 83 degrees.
+constexpr double kAlongRay = 8;
+
 // Each takes a ray; more are in the way in heaps of parts alone.
 constexpr int kMostWalls = 16;
 
@@ -55,7 +59,7 @@ std::vector<float> exit_distances(const std::vector<Vec3f>& vertices,
     ray.t_min = on_surface;
     ray.t_max = static_cast<double>(thickness);
     ray.excluded_vertex = static_cast<std::uint32_t>(i);
-    ray.near = on_surface;
+    ray.near = kAlongRay * on_surface;
     exits[i] = std::min(static_cast<float>(exit_along(ray, bvh, vertices, triangles)), thickness);
   };
   const auto exits_of = [&](auto self, std::size_t first, std::size_t last,

@@ -16,8 +16,8 @@
 namespace ode_ext {
 namespace {
 
-// How many answers computed outside of any pass are kept, for programs that never make one, or so
-// many times those that are asked for at once.
+// How many answers made outside of any pass are kept, for programs that never make one, or so many
+// times the most that are asked for at once.
 constexpr std::uint64_t kAnswersOutside = 65536;
 constexpr std::uint64_t kTimesAsked = 8;
 
@@ -82,7 +82,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   known_.look_again();
   if (depth_ == 1 && may_hold_pair) {
     known_.note_outermost(root, pairs.size());
-    computed_outside_ = 0;
+    made_outside_ = 0;
   }
   failed_ = false;
   begin_stats(depth_ > 1);  // this pass is one of them
@@ -154,9 +154,11 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
 // `pairs`: that are asked for at once.
 void BatchCollider::age_outside(std::size_t pairs) {
   if (is_within_a_pass()) return;  // a pass forgets by itself, and needs what it has
-  if (computed_outside_ <= std::max(kAnswersOutside, kTimesAsked * pairs)) return;
+  most_at_once_ = std::max<std::uint64_t>(most_at_once_, pairs);
+  if (made_outside_ <= std::max(kAnswersOutside, kTimesAsked * most_at_once_)) return;
   known_.age();
-  computed_outside_ = 0;
+  made_outside_ = 0;
+  most_at_once_ = pairs;
 }
 
 int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* contacts, int skip) {
@@ -208,7 +210,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     }
     if (alone) make_anew_what_keeps_failing();
     age_outside(1);
-    if (alone) ++computed_outside_;
+    if (alone) ++made_outside_;
     known = &known_.entry(g1, g2);
     known->last_round = known_.round();
     known_.begin_batch(false);

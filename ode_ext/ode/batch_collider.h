@@ -113,11 +113,12 @@ class BatchCollider {
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
-  std::uint64_t computed_outside_ = 0;  // of any pass, since what is known aged
-  bool failed_ = false;                 // the pass that runs is answered by ODE's own collider
-  bool failure_said_ = false;           // one message per run of failures
-  bool given_up_said_ = false;          // one as long as passes have pairs that are given up
-  bool failed_alone_ = false;           // the status tells of a question outside of any pass
+  // Outside of any pass, since what is known aged: answers made, and the most asked for at once.
+  std::uint64_t made_outside_ = 0, most_at_once_ = 0;
+  bool failed_ = false;         // the pass that runs is answered by ODE's own collider
+  bool failure_said_ = false;   // one message per run of failures
+  bool given_up_said_ = false;  // one as long as passes have pairs that are given up
+  bool failed_alone_ = false;   // the status tells of a question outside of any pass
   DeviceHealth health_;
 
   // What was announced of meshes and not heard yet, each with whether it is gone: whoever announces

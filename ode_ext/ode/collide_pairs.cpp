@@ -104,9 +104,9 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
     known_.add(answer, GatheredPair{{g1, g1}, {g2, g2}});
   }
   stats_.pairs = static_cast<long long>(geoms.size() / 2);
+  if (!is_within_a_pass()) made_outside_ += known_.changed();
   known_.compute(nullptr);
   note_report();
-  if (!is_within_a_pass()) computed_outside_ += static_cast<std::uint64_t>(stats_.pairs_computed);
 }
 
 }  // namespace ode_ext

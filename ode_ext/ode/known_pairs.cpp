@@ -78,14 +78,14 @@ PairMember& KnownPairs::member_of(Members::Seen& seen, const PlacedGeom& placed)
       meshes_.refresh(data, dGeomTriMeshGetTriangleCount(placed.geom), look_, round());
   PairMember& member = members_.note(seen, placed.geom, data, mesh, pose_of(placed), round());
   member.scene = scene_.number();
-  note_status(member);
+  note_status(data, member.is_placed);
   return member;
 }
 
-void KnownPairs::note_status(const PairMember& member) {
-  if (meshes_.is_refused(member.data)) stats_.status |= dBatchStatusMeshRefused;
-  if (!member.is_placed) stats_.status |= dBatchStatusPoseRefused;
-  if (meshes_.has_left_box(member.data)) stats_.status |= dBatchStatusMeshLeftBox;
+void KnownPairs::note_status(dTriMeshDataID data, bool is_placed) {
+  if (meshes_.is_refused(data)) stats_.status |= dBatchStatusMeshRefused;
+  if (!is_placed) stats_.status |= dBatchStatusPoseRefused;
+  if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
 }
 
 void KnownPairs::make_collider_anew() {

@@ -69,8 +69,8 @@ class KnownPairs {
   // With its geoms as they are, each looked at once for a batch.
   void add(Answer& answer, const GatheredPair& pair);
   void add(Answer& answer, PairMember& a, PairMember& b);
-  // What a status bit says of one that is met.
-  void note_status(const PairMember& member);
+  // What status bits say of a geom that is met, of a mesh that is known.
+  void note_status(dTriMeshDataID data, bool is_placed);
   // Throws DeviceError; the batch is to be dropped then.
   void compute(PassMemory* memory);
   void drop_batch() { scene_.drop(); }
@@ -82,6 +82,8 @@ class KnownPairs {
   std::int64_t given_up() const { return given_up_; }
   // Answers of the batch with contacts, those that were there before among them.
   long long colliding() const { return scene_.colliding(); }
+  // Answers of the batch that are other ones than before, or will be.
+  std::size_t changed() const { return scene_.changed(); }
 
   // Forgets what no round met of late.
   void prune();

@@ -68,6 +68,13 @@ const PairMember* Members::find_same(Seen& seen, dTriMeshDataID data, const Mesh
   return is_as(before, data, mesh, given) ? &before : nullptr;
 }
 
+bool Members::is_placed(const PairMember& noted, const Pose& given) {
+  if (noted.stamp != 0 && same(noted.given, given)) return noted.is_placed;
+  Pose meant = given;
+  meant.rotation = nearest_rotation(given.rotation);
+  return is_usable(meant);
+}
+
 const PairMember& Members::at(dGeomID geom, std::uint64_t stamp) const {
   const auto& [now, before] = map_.at(geom);
   return now.stamp == stamp ? now : before;

@@ -46,6 +46,8 @@ class Members {
   // geom, collide it, and move it back. Null: it is not.
   static const PairMember* find_same(Seen& seen, dTriMeshDataID data, const Mesh* mesh,
                                      const Pose& given, std::uint64_t round);
+  // Whether contacts can be computed of a geom at a pose that may be the one it was noted at.
+  static bool is_placed(const PairMember& noted, const Pose& given);
   // As it was with this stamp, one of the last two.
   const PairMember& at(dGeomID geom, std::uint64_t stamp) const;
   // Forgets those that nobody asked for of late. Looks every so many rounds.

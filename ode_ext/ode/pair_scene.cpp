@@ -14,6 +14,7 @@ void PairScene::begin() {
   members_.clear();
   ++number_;
   colliding_ = 0;
+  changed_ = 0;
 }
 
 void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_collide) {
@@ -21,6 +22,7 @@ void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_colli
     colliding_ += answer.contacts.empty() ? 0 : 1;
     return;
   }
+  ++changed_;
   const bool ordered = in_canonical_order(a, b);
   PairMember &first = ordered ? a : b, &second = ordered ? b : a;
   answer.geoms = {first.geom, second.geom};

@@ -33,6 +33,8 @@ class PairScene {
   void drop();
   // Answers with contacts, those that were there before among them.
   long long colliding() const { return colliding_; }
+  // Those whose answer is made anew.
+  std::size_t changed() const { return changed_; }
 
  private:
   std::uint32_t object_of(PairMember& member);
@@ -46,6 +48,7 @@ class PairScene {
   std::vector<const PairMember*> members_;  // its objects
   std::vector<Answer*> pending_;            // of its pairs
   long long colliding_ = 0;
+  std::size_t changed_ = 0;
 };
 
 }  // namespace ode_ext

@@ -21,13 +21,14 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
   for (const PlacedGeom& placed : {pair.first, pair.second}) {
     const auto [place, is_new] = members_.try_emplace(placed.geom);
     if (!is_new) continue;
-    known.members().seen(placed.geom).now.last_round = known.round();  // it may be asked for again
+    PairMember& now = known.members().seen(placed.geom).now;
+    now.last_round = known.round();  // it may be asked for again
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     place->second.data = data;
     place->second.mesh = known.meshes().keep(data, known.round());
     place->second.given = pose_of(placed);
-    const PairMember& now = known.members().seen(placed.geom).now;
-    if (place->second.mesh != nullptr && now.stamp != 0 && now.data == data) known.note_status(now);
+    if (place->second.mesh != nullptr)
+      known.note_status(data, Members::is_placed(now, place->second.given));
   }
   pairs_.push_back({pair.first.geom, pair.second.geom});
 }
@@ -42,7 +43,7 @@ void UnaskedPairs::compute(KnownPairs& known) {
   const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
     PairMember& member = known.members().note(known.members().seen(geom), geom, as.data, as.mesh,
                                               as.given, known.round());
-    known.note_status(member);
+    known.note_status(as.data, member.is_placed);
     return member;
   };
   for (const auto& [first, second] : pairs_) {

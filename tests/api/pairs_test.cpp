@@ -169,13 +169,14 @@ TEST_F(ApiCollidePairsRefuses, AGeomThatIsNoMesh) {
   EXPECT_EQ(dBatchColliderCollidePairs(collider, pairs.data(), 2, 2, contacts, kSkip, counts), -1);
 }
 
-// Forty cubes and forty more, each of the former with each of the latter.
+// So many cubes and as many more, each of the former with each of the latter.
 class ApiManyPairs : public ::testing::Test {
  protected:
-  ApiManyPairs() {
-    for (int i = 0; i < 80; ++i) geoms.push_back(world.geom(cube, at(0.01 * i, 0, 0)));
-    for (std::size_t i = 0; i < 40; ++i)
-      for (std::size_t k = 40; k < 80; ++k) pairs.insert(pairs.end(), {geoms[i], geoms[k]});
+  void make(std::size_t half, const TestPose& pose = {}) {
+    for (std::size_t i = 0; i < 2 * half; ++i) geoms.push_back(world.geom(cube, pose));
+    move();
+    for (std::size_t i = 0; i < half; ++i)
+      for (std::size_t k = half; k < 2 * half; ++k) pairs.insert(pairs.end(), {geoms[i], geoms[k]});
     contacts.resize(pairs.size() / 2);
   }
   void ask() {
@@ -183,40 +184,74 @@ class ApiManyPairs : public ::testing::Test {
                                contacts.data(), kSkip, nullptr);
   }
   void move() {
-    for (const dGeomID geom : geoms) dGeomSetPosition(geom, dGeomGetPosition(geom)[0] + 1e-4, 0, 0);
+    ++moves;
+    for (std::size_t i = 0; i < geoms.size(); ++i)
+      dGeomSetPosition(geoms[i], 0.01 * static_cast<double>(i) + 1e-4 * moves, 0, 0);
+  }
+  // Pairs computed one by one so far, a pair more than before if this one is not known.
+  long long alone_after_asking() {
+    EXPECT_FALSE(collide(kept[0], kept[1]).empty());
+    return collider.stats().pairs_alone;
+  }
+  void ask_for_moved(int calls) {
+    for (int i = 0; i < calls; ++i) {
+      move();
+      ask();
+    }
   }
 
   OdeWorld world;
   OdeMesh& cube = world.mesh(make_cube(1));
+  const dGeomID kept[2] = {world.geom(cube, {}), world.geom(cube, at(0.9, 0, 0))};
   std::vector<dGeomID> geoms, pairs;
   Contacts contacts;
+  int moves = 0;
   BatchCollider collider;
 };
 
 // What passes do not age is bounded all the same: those without meshes keep nothing.
 TEST_F(ApiManyPairs, AreForgottenBetweenPassesWithoutMeshes) {
+  make(40);
   const dSpaceID empty = world.space(SpaceKind::Simple);
-  const dGeomID kept[] = {world.geom(cube, {}), world.geom(cube, at(0.9, 0, 0))};
-  const auto alone_after_asking = [&] {
-    EXPECT_FALSE(collide(kept[0], kept[1]).empty());
-    return collider.stats().pairs_alone;
-  };
-  const auto ask_for_others = [&](int calls) {
+  const auto ask_between_passes = [&](int calls) {
     for (int i = 0; i < calls; ++i) {
-      move();
-      ask();
+      ask_for_moved(1);
       ASSERT_EQ(collider.stats().pairs_computed, 1600);
       collider.pass(empty);
     }
   };
   const long long alone = alone_after_asking();
-  ask_for_others(20);
+  ask_between_passes(20);
   EXPECT_EQ(alone_after_asking(), alone) << "it is kept";
-  ask_for_others(25);
+  ask_between_passes(25);
   EXPECT_EQ(alone_after_asking(), alone + 1) << "it is not";
 }
 
+// Nothing of them is computed, and they are known all the same.
+TEST_F(ApiManyPairs, OfWhichNothingCanBeComputedAreForgottenToo) {
+  TestPose skewed;
+  skewed.rotation[0] = 2;
+  make(40, skewed);
+  const long long alone = alone_after_asking();
+  ask_for_moved(45);
+  EXPECT_EQ(collider.stats().pairs_computed, 0);
+  EXPECT_EQ(alone_after_asking(), alone + 1);
+}
+
+// Eight times as many as are asked for at once are kept, and a question for one changes nothing.
+TEST_F(ApiManyPairs, AreKeptWhereAsManyAreAskedForAtOnce) {
+  make(100);
+  const long long alone = alone_after_asking();
+  ask_for_moved(7);
+  EXPECT_EQ(alone_after_asking(), alone);
+  ask();
+  EXPECT_EQ(collider.stats().pairs_computed, 0);
+  ask_for_moved(3);
+  EXPECT_EQ(alone_after_asking(), alone + 1);
+}
+
 TEST_F(ApiManyPairs, ThatRestAreKeptHoweverOftenTheyAreAskedFor) {
+  make(40);
   for (int call = 0; call < 50; ++call) {
     ask();
     ASSERT_EQ(collider.stats().pairs_computed, call == 0 ? 1600 : 0) << call;

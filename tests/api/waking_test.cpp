@@ -76,6 +76,24 @@ TEST_F(ApiWaking, SaysOfAGeomAtNoPoseWhatAPassSaysThatAsks) {
   EXPECT_NE(collider.stats().status & dBatchStatusPoseRefused, 0u);
 }
 
+TEST_F(ApiWaking, SaysOfAGeomThatNobodyAsksForWhatItsPoseIsNow) {
+  const dGeomID geom = pile.geoms[5];
+  collider.pass(space);
+  sleep(12);
+  dMatrix3 upright, skewed;
+  std::copy_n(dGeomGetRotation(geom), 12, upright);
+  std::copy_n(upright, 12, skewed);
+  skewed[0] *= 2;
+  for (int i = 0; i < 2; ++i) {
+    dGeomSetRotation(geom, skewed);
+    sleep(1);
+    EXPECT_NE(collider.stats().status & dBatchStatusPoseRefused, 0u);
+    dGeomSetRotation(geom, upright);
+    sleep(1);
+    EXPECT_EQ(collider.stats().status & dBatchStatusPoseRefused, 0u);
+  }
+}
+
 TEST_F(ApiWaking, DoesNotStallAfterTheLongestSleep) {
   collider.pass(space);
   sleep(700);  // longer than meshes that nobody meets are kept

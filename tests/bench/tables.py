@@ -135,6 +135,8 @@ def pairs(results):
     rows = []
     for name in ["tori", "rocks", "hills", "ground"]:
         runs = [pairs_of(text) for text in texts(results, name)]
+        if len({len(run) for run in runs}) != 1:
+            raise Missing(f"{results}: runs of {name} have not the same rows")
         for of_row in zip(*runs):
             shape, depth, colliding, count, first = of_row[0]
             of = lambda k: [row[4][k] for row in of_row]  # noqa: E731
