@@ -131,20 +131,25 @@ def shaped(shape):
     return f"{kind}, {int(triangles):,} triangles"
 
 
-def pairs(results):
-    rows = []
+def pair_rows(results):
+    """Of each case what all runs say of it."""
     for name in ["tori", "rocks", "hills", "ground"]:
         runs = [pairs_of(text) for text in texts(results, name)]
         if len({len(run) for run in runs}) != 1:
             raise Missing(f"{results}: runs of {name} have not the same rows")
-        for of_row in zip(*runs):
-            shape, depth, colliding, count, first = of_row[0]
-            of = lambda k: [row[4][k] for row in of_row]  # noqa: E731
-            title = depth if depth != "apart" else f"{shaped(shape)}, {depth}"
-            rows.append([title, f"{colliding} of {count}",
-                         f"{first[CROSSINGS]:,.0f}, {first[RAYS]:,.0f}"]
-                        + [digits(statistics.median(of(k))) for k in (BATCH, ALONE, ODE)]
-                        + [spread(of(OVER_BATCH)), spread(of(OVER_ALONE))])
+        yield from zip(*runs)
+
+
+def pairs(results):
+    rows = []
+    for of_row in pair_rows(results):
+        shape, depth, colliding, count, first = of_row[0]
+        of = lambda k: [row[4][k] for row in of_row]  # noqa: E731
+        title = depth if depth != "apart" else f"{shaped(shape)}, {depth}"
+        rows.append([title, f"{colliding} of {count}",
+                     f"{first[CROSSINGS]:,.0f}, {first[RAYS]:,.0f}"]
+                    + [digits(statistics.median(of(k))) for k in (BATCH, ALONE, ODE)]
+                    + [spread(of(OVER_BATCH)), spread(of(OVER_ALONE))])
     return table(["", "colliding", "crossings, rays of vertices a pair", "batch", "alone", "ODE",
                   "ODE / batch", "ODE / alone"], rows)
 
@@ -192,7 +197,20 @@ def summary(results):
                   "ODE drives, piles are deep"], rows)
 
 
-TABLES = {f.__name__: f for f in [bowl, stages, piles, pairs, objects, hard, meshes, summary]}
+def pair_summary(results):
+    """README's: ratios of batches alone."""
+    shapes = {}
+    for of_row in pair_rows(results):
+        shape, depth = of_row[0][:2]
+        shapes.setdefault(shape, {})[depth] = spread([row[4][OVER_BATCH] for row in of_row])
+    depths = ["apart", "near", "shallow", "deep"]
+    return table(["ODE's time over the batch's", "apart", "near first contact", "1 % deep",
+                  "20 % deep"],
+                 [[shaped(shape)] + [of[depth] for depth in depths] for shape, of in shapes.items()])
+
+
+TABLES = {f.__name__: f for f in [bowl, stages, piles, pairs, objects, hard, meshes, summary,
+                                  pair_summary]}
 
 
 def with_tables(document, results):
