@@ -23,7 +23,16 @@ install(FILES ${PROJECT_BINARY_DIR}/ode_ext-config.cmake
               cmake/FindODE.cmake
         DESTINATION ${package_dir} COMPONENT dev)
 
-# Relative to the file itself, so that an installed tree can be moved.
+# Relative to the file itself, so that an installed tree can be moved; but for what is given as an
+# absolute path.
+set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+set(pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+foreach(dir includedir libdir)
+  string(TOUPPER ${dir} DIR)
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_${DIR}}")
+    set(pc_${dir} "${CMAKE_INSTALL_${DIR}}")
+  endif()
+endforeach()
 file(RELATIVE_PATH pc_to_prefix
      ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" pc_to_prefix ${pc_to_prefix})

@@ -26,7 +26,7 @@ file(GLOB shim_sources CONFIGURE_DEPENDS ode_ext/preload/*.c)
 preload_library(ode_ext_preload preload.map ${shim_sources})
 # For quotes only: <ode/rotation.h> is ODE's.
 target_compile_options(ode_ext_preload PRIVATE
-  "SHELL:-iquote ${PROJECT_SOURCE_DIR}/ode_ext"
+  "SHELL:-iquote \"${PROJECT_SOURCE_DIR}/ode_ext\""
   -fexceptions)  # a program's callback may throw through the preload, as through ODE
 target_include_directories(ode_ext_preload PRIVATE ${ode_includes})
 target_compile_definitions(ode_ext_preload PRIVATE _GNU_SOURCE)

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene_file/gravity.h"
-
 namespace falling_objects {
 namespace {
 
@@ -21,7 +19,7 @@ constexpr double kBending = 0.3;  // share of a fold that a substep takes back
 constexpr double kRise = 0.5;
 // A vertex that ends a step having moved at less than this speed [m/s] has not moved: static
 // friction of the threads. What is not held up gains g / 60 = 0.16 m/s in a step, so nothing that
-// should fall is kept by it.
+// should fall is kept by it; where gravity is less, so is this.
 constexpr double kRestSpeed = 0.03;
 // Contacts come and go from step to step, and a vertex between two of them would swing from one to
 // the other for ever. One that turns back in a step moves by half of what it would in the next, and
@@ -34,10 +32,12 @@ constexpr double kCalmAfter = 0.5;   // [s]
 
 }  // namespace
 
-Cloth::Cloth(unsigned quads, double size)
+Cloth::Cloth(unsigned quads, double size, Vector gravity)
     : quads_(quads),
       spacing_(size / quads),
-      vertex_mass_(kDensity * size * size / (side() * side())) {
+      vertex_mass_(kDensity * size * size / (side() * side())),
+      gravity_(gravity),
+      rest_speed_(kRestSpeed * std::min(1.0, length(gravity) / kGravity)) {
   for (unsigned j = 0; j <= quads; ++j) {
     for (unsigned i = 0; i <= quads; ++i) {
       positions_.push_back({i * spacing_ - size / 2, j * spacing_ - size / 2, 0});
@@ -55,8 +55,7 @@ Cloth::Cloth(unsigned quads, double size)
 }
 
 Vector Cloth::free_flight(std::size_t vertex, double dt) const {
-  const Vector gravity{0, 0, -kGravity};
-  return positions_[vertex] + dt * (velocities_[vertex] + dt * gravity);
+  return positions_[vertex] + dt * (velocities_[vertex] + dt * gravity_);
 }
 
 void Cloth::step(double dt, std::span<ClothContact> contacts) {
@@ -78,7 +77,7 @@ void Cloth::step(double dt, std::span<ClothContact> contacts) {
   for (int substep = 1; substep <= kSubsteps; ++substep) {
     previous_ = positions_;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
-      velocities_[i] = kept * (velocities_[i] + Vector{0, 0, -kGravity * h});
+      velocities_[i] = kept * (velocities_[i] + h * gravity_);
       positions_[i] = positions_[i] + h * velocities_[i];
     }
     solve_distances();
@@ -175,7 +174,7 @@ void Cloth::settle(double dt) {
     eagerness = dot(way, last_ways_[i]) < 0 ? std::max(kLeastEagerness, kTurnedBack * eagerness)
                                             : std::min(1.0, went_on * eagerness);
     last_ways_[i] = way;
-    const bool moves = eagerness * length(way) >= kRestSpeed * dt;
+    const bool moves = eagerness * length(way) >= rest_speed_ * dt;
     const double share = moves ? eagerness : 0;
     positions_[i] = start_[i] + share * way;
     velocities_[i] = share * velocities_[i];

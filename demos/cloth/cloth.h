@@ -11,6 +11,7 @@
 
 #include "geometry/vector.h"
 #include "meshes/triangle_mesh.h"
+#include "scene_file/gravity.h"
 
 namespace falling_objects {
 
@@ -33,7 +34,7 @@ struct ClothContact {
 class Cloth {
  public:
   // quads x quads squares of two triangles each, `size` [m] long, level around the origin.
-  Cloth(unsigned quads, double size);
+  Cloth(unsigned quads, double size, Vector gravity = {0, 0, -kGravity});
 
   unsigned side() const { return quads_ + 1; }  // vertices along a side
   double spacing() const { return spacing_; }   // [m] between neighbours
@@ -67,6 +68,8 @@ class Cloth {
   unsigned quads_;
   double spacing_;
   double vertex_mass_;
+  Vector gravity_;     // [m/s^2]
+  double rest_speed_;  // [m/s] a vertex that is slower rests
   std::vector<unsigned> triangles_;
   std::vector<Vector> positions_, velocities_;
   std::vector<Vector> start_;     // positions when the step began

@@ -15,8 +15,8 @@ const double kReach = 1.1 * kSheetSize / std::sqrt(2.0);
 // ODE takes the box of a mesh when it is built, and never again (dGeomTriMeshDataUpdate does not
 // look): the mesh is built with two vertices at the corners of a box that is always large enough.
 // show() puts them where they belong.
-Sheet::Sheet(dSpaceID space)
-    : cloth_(kSheetQuads, kSheetSize),
+Sheet::Sheet(dSpaceID space, Vector gravity)
+    : cloth_(kSheetQuads, kSheetSize, gravity),
       vertices_(3 * cloth_.positions().size()),
       data_(dGeomTriMeshDataCreate()) {
   for (std::size_t k = 0; k < 3; ++k) {

@@ -30,7 +30,7 @@ inline constexpr double kSheetReach = 0.016;
 class Sheet {
  public:
   // Its geom has no body: impulses on it are the cloth's own business.
-  explicit Sheet(dSpaceID space);
+  Sheet(dSpaceID space, Vector gravity);
   ~Sheet();
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;

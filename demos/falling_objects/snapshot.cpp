@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "falling_objects/snapshot.h"
 
+#include <limits>
 #include <string>
 
 #include "simulation/pose.h"
@@ -10,7 +11,10 @@ namespace {
 
 class ObjWriter {
  public:
-  explicit ObjWriter(std::ostream& out) : out_(out) {}
+  // As many digits as tell one float from the next: far from the origin fewer move what touches.
+  explicit ObjWriter(std::ostream& out) : out_(out) {
+    out_.precision(std::numeric_limits<float>::max_digits10);
+  }
 
   void write(const std::string& name, const std::vector<Vector>& vertices,
              const std::vector<unsigned>& triangles) {

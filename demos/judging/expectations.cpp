@@ -176,7 +176,7 @@ Outcome Expectations::judge_screw(const Watch& watch) const {
   const auto seconds = static_cast<std::size_t>(steps_ / hz_);
   for (std::size_t s = static_cast<std::size_t>(std::ceil(watch.what.after)); s < seconds; ++s)
     slowest = std::min(slowest, std::abs(turning.by_second[s]) / kTurn);
-  const double off = watch.farthest / watch.what.value;
+  const double off = watch.farthest / std::abs(watch.what.value);
   // A second in which next to nothing is turned is one in which it is stuck.
   const bool stuck = slowest < 0.1 * turns / std::max(1.0, steps_ / hz_);
   return {format("%s turns by %.2f, expected %.2f at least, %.3f in the slowest second; off its "

@@ -133,6 +133,7 @@ Expectation read_expectation(TomlTable& table, const SceneDescription& scene,
   } else if (kind == "screw") {
     e.kind = Kind::kScrew;
     e.value = table.number("pitch");
+    if (e.value == 0) table.fail("pitch", "'pitch' must not be 0: a screw rises as it turns");
     e.within = table.number("within", 0.25, kNotNegative);
     e.turns = table.number("turns", 0, kNotNegative);
   } else if (kind == "still") {

@@ -23,8 +23,11 @@ constexpr unsigned kThreads = 2;
 
 Sheets::Sheets(std::size_t count, std::uint64_t seed, Scene& scene)
     : scene_(scene), contacts_(scene, sheets_, count) {
+  dVector3 g;
+  dWorldGetGravity(scene.world(), g);
+  const Vector gravity{g[0], g[1], g[2]};
   for (std::size_t i = 0; i < count; ++i) {
-    sheets_.push_back(std::make_unique<Sheet>(scene.space()));
+    sheets_.push_back(std::make_unique<Sheet>(scene.space(), gravity));
     const Sheet& sheet = *sheets_.back();
     set_index(sheet.geom(), scene.objects().size() + 1 + i);
     dGeomSetCategoryBits(sheet.geom(), kSheetBit);

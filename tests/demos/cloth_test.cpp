@@ -73,6 +73,17 @@ TEST(Cloth, FallsAsAnythingFallsBeforeTheAirHoldsIt) {
   EXPECT_NEAR(strains(cloth).second, 1, 1e-9);
 }
 
+TEST(Cloth, FallsByTheGravityOfItsWorld) {
+  Cloth cloth(8, 0.8, {1.5, 0, -0.5});
+  const Vector begin = cloth.positions()[0];
+  for (int i = 0; i < 3; ++i) cloth.step(kStep, {});
+  const Vector way = cloth.positions()[0] - begin;
+  const double t = 3 * kStep;
+  EXPECT_NEAR(way.x, 0.5 * 1.5 * t * t, 0.12 * 0.5 * 1.5 * t * t);
+  EXPECT_NEAR(way.z, way.x * -0.5 / 1.5, 1e-12);
+  EXPECT_NEAR(way.y, 0, 1e-12);
+}
+
 TEST(Cloth, FallsThroughAirAtAConstantSpeedInTheEnd) {
   Cloth cloth = make_cloth(0);
   for (int i = 0; i < 120; ++i) cloth.step(kStep, {});

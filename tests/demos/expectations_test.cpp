@@ -98,6 +98,17 @@ TEST_F(Expecting, AScrewFailsThatSlipsThrough) {
   EXPECT_FALSE(holds());
 }
 
+TEST_F(Expecting, ALeftHandedScrewIsJudgedByItsOwnThread) {
+  const char* left_handed =
+      "kind = \"screw\"\nbody = \"a\"\npitch = -0.1\nturns = 2\nwithin = 0.25\n";
+  expect(left_handed);
+  move(0.5, 0, -0.05, 5);
+  EXPECT_TRUE(holds()) << words();
+  expect(left_handed);
+  move(-0.5, 0, -0.05, 5);  // the other way
+  EXPECT_FALSE(holds());
+}
+
 TEST_F(Expecting, AScrewFailsThatJams) {
   expect(kScrew);
   move(-1, 0, -0.1, 3);

@@ -225,6 +225,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[body]]\nmesh = \"cube\"\n[[body]]\nname = \"wall\"\nmesh = \"cube\"\n"
               "motion = \"fixed\"\n[[expect]]\nkind = \"stays\"\nbody = \"wall\"\ndistance = 1\n",
               "9: ", "'wall' is fixed: nothing can be expected of what cannot move"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"screw\"\nbody = \"cube\"\n"
+              "pitch = 0\n",
+              "6: ", "'pitch' must not be 0"},
         Wrong{"[drop]\nobjects = 3\nmeshes = []\n", "3: ", "'meshes' must be texts in brackets"},
         Wrong{"[drop]\nmeshes = [\"plate\"]\n", "1: ", "must fit into a ball of radius 0.5"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[drop]\nmeshes = [\"jack\"]\n", "3: ", "not both"}));

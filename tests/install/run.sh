@@ -77,6 +77,11 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 cc $warnings -std=c11 "$here/consumer.c" -o "$work/pc_c" $(flags --cflags --libs)
 c++ $warnings "$here/consumer.cpp" -o "$work/pc_cpp" $(flags --cflags --libs)
 LD_LIBRARY_PATH=$libraries "$work/pc_c"
+# Folders may be absolute, as where every package has a prefix of its own.
+cmake -S "$here/../.." -B "$work/absolute" -G "$generator" -DODE_EXT_BUILD_TESTS=OFF \
+  -DODE_EXT_BUILD_DEMOS=OFF -DCMAKE_INSTALL_INCLUDEDIR=/absolute/include > "$work/absolute.log"
+grep -q -x 'includedir=/absolute/include' "$work/absolute/ode_ext.pc" ||
+  fail "ode_ext.pc does not take an absolute folder of headers"
 LD_LIBRARY_PATH=$libraries "$work/pc_cpp"
 
 echo "tools:"

@@ -74,6 +74,7 @@ TEST(Film, MakesAFilm) {
 TEST(Film, SaysWhyItCannotBeMade) {
   const TemporaryFolder folder("film_test");
   EXPECT_THAT(error_of([] { write_png("/nowhere/a.png", grey({8, 8})); }), HasSubstr("/nowhere"));
+  EXPECT_THAT(error_of([] { write_png("/dev/full", grey({8, 8})); }), HasSubstr("/dev/full"));
   testing::internal::CaptureStderr();
   const std::string bad = error_of([&] {
     view::Film film("", folder / "a.nonsense", {64, 64}, 30);
