@@ -16,8 +16,9 @@
  * depth * normal [m] clears the contact; `side1` / `side2` are the triangles of g1 / g2.
  *
  * An answer to a limit of K contacts is the first K of the pair's: the deepest first, then what
- * spreads best. CONTACTS_UNIMPORTANT (stop as soon as there are enough, for ODE's own collider)
- * changes nothing: the contacts are there when dCollide asks, and the same are returned.
+ * spreads best; of a deformable mesh the deepest, unless max_contacts_deformable is set.
+ * CONTACTS_UNIMPORTANT (stop as soon as there are enough, for ODE's own collider) changes nothing:
+ * the contacts are there when dCollide asks, and the same are returned.
  *
  * A contact of a vertex stands for all triangles that meet there, one of an edge for those at the
  * edge, one of a facet for one triangle; `side1` / `side2` name one of them. A program that has
@@ -295,7 +296,8 @@ enum {
                                            (9.3e-10) across; its pairs get no contacts */
   dBatchStatusGatherSkipped = 1 << 3, /**< the space was known to hold no mesh pair */
   dBatchStatusMeshLeftBox = 1 << 4,   /**< a mesh has vertices outside of the box that ODE knows of
-                                           it: pairs may go unnoticed by ODE's broad phase */
+                                           it: pairs may go unnoticed by ODE's broad phase. Seen of
+                                           meshes that it does report a pair of */
   dBatchStatusMissed = 1 << 5,        /**< misprediction=ignore: something was lost */
   dBatchStatusBacktracked = 1 << 6,   /**< misprediction=backtrack: nothing was delivered */
   dBatchStatusPoseRefused = 1 << 7    /**< a mesh's position is not finite, or beyond 1e36 m, or its

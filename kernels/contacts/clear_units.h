@@ -142,34 +142,78 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
   return ox_stays_inside(r, seed->side, ox_middle_of(r, seed->unit), &choice->plane, choice->depth);
 }
 
-// The best plane for a unit. Where one does not separate it, the way along its normal is past all
-// of both bodies. Of a surface that bends inwards there are many that cost less than what the unit
-// proposes itself and do not separate it; so that is asked after few of them, and taken if it takes
-// no more of the moves before it back.
+// Planes of which none separates a unit alone, and which may do so together: at the foot of a wall
+// it is behind the floor too.
+typedef struct {
+  ox_plane_choice first;  // the least of them; what all of them cost
+  float3 way;             // that takes the unit past one after the other
+  bool is_corner;         // one faces another way than the first
+} ox_joint_choice;
+
+static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane_choice* choice,
+                                   ox_joint_choice* joint) {
+  const bool is_first = joint->first.plane.kind == OX_PLANE_NONE;
+  const float3 n = choice->plane.normal;
+  const float rest = ox_way_past(r, choice->depth) - (is_first ? 0.0f : ox_dot(joint->way, n));
+  if (is_first) {
+    joint->first = *choice;
+    joint->way = rest * n;
+    joint->is_corner = false;
+  } else if (rest > 0.0f) {
+    joint->first.judged += rest;
+    joint->way += rest * n;
+    joint->is_corner |= ox_dot(joint->first.plane.normal, n) <= OX_SAME_WAY;
+  }
+}
+
+// The least of them, where all together separate it and do not face one way, as those of a surface
+// that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is better up to twice the
+// price of all: it clears more.
+static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
+                                               const ox_joint_choice* joint,
+                                               const ox_plane_choice* known) {
+  ox_plane_choice choice = joint->first;
+  choice.judged *= OX_WORTH;
+  if (!joint->is_corner || !ox_is_better_choice(&choice, known)) return ox_no_choice();
+  const float3 way = ox_way_of(seed->side, joint->way);
+  return ox_is_still_inside(r, seed->side, ox_middle_of(r, seed->unit) + way, way) ? ox_no_choice()
+                                                                                   : choice;
+}
+
+// The best plane for a unit. Where one does not separate it, that and those that do not either may
+// do so together: then the least of them is its. Else the way along its normal is past all of both
+// bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
+// itself and do not separate it; so that is asked after few of them, and taken if it takes no more
+// of the moves before it back.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_moves* before) {
   ox_seed seed = ox_seed_of(r, unit, before);
-  ox_plane_choice of_body = ox_no_choice();
+  ox_plane_choice known = ox_no_choice();  // the best that does separate it
+  ox_joint_choice joint;
+  joint.first = ox_no_choice();
   while (seed.refused.count < OX_FEW) {
     ox_plane_choice choice = ox_search_for(r, &seed);
-    if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &of_body)) break;
+    if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &known)) break;
     if (!ox_unit_stays(r, &seed, &choice)) return choice;
     ox_refuse(&seed.refused, &choice.plane);
+    ox_add_to_joint(r, &choice, &joint);
+    const ox_plane_choice together = ox_leave_jointly(r, &seed, &joint, &known);
+    if (ox_is_better_choice(&together, &known)) known = together;
     const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
     choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
-    if (ox_is_better_choice(&choice, &of_body)) of_body = choice;
+    if (ox_is_better_choice(&choice, &known)) known = choice;
   }
-  if (seed.refused.count < OX_FEW) return of_body;
-  ox_plane_choice own = of_body;
+  if (seed.refused.count < OX_FEW) return known;
+  ox_plane_choice own = known;
   const ox_plane plane = ox_own_plane(r, unit);
   ox_try_unit(r, &seed, &plane, &own);
-  const float allowed = ox_taken_back(before, of_body.plane.normal, of_body.depth) +
+  const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
                         OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  return ox_is_better_choice(&own, &of_body) &&
+  return ox_is_better_choice(&own, &known) &&
                  ox_taken_back(before, own.plane.normal, own.depth) <= allowed &&
                  !ox_unit_stays(r, &seed, &own)
              ? own
-             : of_body;
+             : known;
 }
 
 // The plane by which the last move clears a unit: its own, or else the least of the unit's best and

@@ -18,7 +18,8 @@
 #define OX_ASIDE (1.0f / 3.0f)
 // A direction of which the best plane costs so many times the least is not looked around.
 #define OX_WORTH 2.0f
-// Contacts nearer to one another hold a body no better than one; of the smaller radius.
+// Contacts that face the same way, and are nearer to one another, hold a body no better than one;
+// of the smaller radius.
 #define OX_MERGE 0.02f
 // Limits: of what there is mostly one of; of the planes of a region in units; of what is looked at
 // one by one.

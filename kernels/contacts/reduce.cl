@@ -12,8 +12,7 @@
 #include "lib/lanes.h"
 
 // What one is taken for, one after the other: as the deepest of its region, or of its manifold, or
-// for its distance. The first two are bits too, of candidates of whose region or manifold one is
-// taken.
+// for its distance. Bits too, of candidates that do not come into question for that any more.
 #define OX_FOR_REGION 0u
 #define OX_FOR_MANIFOLD 1u
 #define OX_FOR_DISTANCE 2u
@@ -44,8 +43,10 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
 }
 
 // What candidates are to one that is taken: how far from it, those that face the same way across
-// their normal, since one above the other holds no more; of its region; of its manifold.
-static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
+// their normal, since one above the other holds no more; of its region; of its manifold, or near
+// it. What is near and faces another way comes into question for its distance, after all else: at
+// the foot of a wall the floor holds what the wall does not.
+static void ox_note_taken(const ox_fields* list, uint count, uint taken, float merge2) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
   const float3 p = ox_vector_of(list, OX_CANDIDATE_POSITION, taken);
   const int region = (int)ox_words_of(list, OX_CANDIDATE_REGION)[taken];
@@ -58,7 +59,8 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
     ox_floats cosine;
     ox_dot_fields(list, OX_CANDIDATE_NORMAL, block, n, &cosine);
     const ox_floats along = x * n.x + y * n.y + z * n.z;
-    const ox_floats drop = cosine > OX_SAME_WAY ? along : (ox_floats)(0.0f);
+    const ox_ints faces_same_way = cosine > OX_SAME_WAY;
+    const ox_floats drop = faces_same_way ? along : (ox_floats)(0.0f);
     x -= drop * n.x;
     y -= drop * n.y;
     z -= drop * n.z;
@@ -69,7 +71,9 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
         of_region & (OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == manifold);
     ox_ints flags = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
     flags |= of_region ? none + (1 << OX_FOR_REGION) : none;
-    flags |= of_manifold ? none + (1 << OX_FOR_MANIFOLD) : none;
+    const ox_ints is_near = off2 <= merge2;
+    flags |= of_manifold | is_near ? none + (1 << OX_FOR_MANIFOLD) : none;
+    flags |= faces_same_way & is_near ? none + (1 << OX_FOR_DISTANCE) : none;
     const ox_floats distance2 = OX_LESSER(off2, so_far);
     OX_STORE_FLOATS(list, OX_CANDIDATE_DISTANCE2, block, count, distance2);
     OX_STORE_WORDS(list, OX_CANDIDATE_TAKEN, block, count, flags);
@@ -77,42 +81,40 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken) {
 }
 
 // How good each of a block is for something; less than nothing: it does not come into question, as
-// what is taken never does, since of its own region and manifold it is one, and at no distance.
-static void ox_rate(const ox_fields* list, uint count, uint block, uint what, float merge2,
-                    ox_floats* rating) {
+// what is taken never does, since of its own region and manifold it is one, and near itself.
+static void ox_rate(const ox_fields* list, uint count, uint block, uint what, ox_floats* rating) {
   const ox_floats none = (ox_floats)(-1.0f);
   const ox_floats distance2 = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
   const ox_floats depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
   const ox_ints taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
   const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
   *rating = left > 0 ? (what == OX_FOR_DISTANCE ? distance2 : depth) : none;
-  const ox_ints of_one_taken = taken & (ox_ints)(1 << what);
-  if (what != OX_FOR_DISTANCE) *rating = of_one_taken == 0 ? *rating : none;
-  if (what != OX_FOR_REGION) *rating = distance2 > merge2 ? *rating : none;
+  const ox_ints out = taken & (ox_ints)(1 << what);
+  *rating = out == 0 ? *rating : none;
 }
 
 // Of as many blocks as are looked at at once.
-static void ox_rate_blocks(const ox_fields* list, uint count, uint first, uint what, float merge2,
+static void ox_rate_blocks(const ox_fields* list, uint count, uint first, uint what,
                            ox_floats* ratings) {
   const uint last = (count - 1u) / OX_VECTOR_WIDTH;
   for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k)
-    ox_rate(list, count, min(first + k, last), what, merge2, ratings + k);
+    ox_rate(list, count, min(first + k, last), what, ratings + k);
 }
 
 // The best for something; OX_NONE: there is none.
-static uint ox_best_for(const ox_fields* list, uint count, uint what, float merge2) {
+static uint ox_best_for(const ox_fields* list, uint count, uint what) {
   const uint blocks = (count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats best = (ox_floats)(-1.0f);
   ox_floats rating[OX_BLOCKS_AT_ONCE];
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
-    ox_rate_blocks(list, count, first, what, merge2, rating);
+    ox_rate_blocks(list, count, first, what, rating);
     for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k) best = OX_GREATER(rating[k], best);
   }
   const float most = ox_greatest_of(&best);
   if (most < 0.0f) return OX_NONE;
   uint best_one = OX_NONE;
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
-    ox_rate_blocks(list, count, first, what, merge2, rating);
+    ox_rate_blocks(list, count, first, what, rating);
     for (uint k = 0u; k < OX_BLOCKS_AT_ONCE && first + k < blocks; ++k) {
       const ox_ints is = rating[k] == most;
       for (uint equal = ox_mask_of(&is); equal != 0u; equal &= equal - 1u) {
@@ -145,15 +147,15 @@ static void ox_reduce_candidates(const ox_scene* scene) {
     const uint most = deformable ? scene->max_deformable : scene->max_contacts;
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;
-    // Where none comes into question for something, none ever will: distances only fall.
+    // Where none comes into question for something, none ever will: bits are only added.
     for (uint what = OX_FOR_REGION; what <= OX_FOR_DISTANCE && n < most;) {
-      const uint next = ox_best_for(&mine, count, what, merge * merge);
+      const uint next = ox_best_for(&mine, count, what);
       if (next == OX_NONE) {
         ++what;
         continue;
       }
       taken[n++] = next;
-      if (n < most) ox_note_taken(&mine, count, next);
+      if (n < most) ox_note_taken(&mine, count, next, merge * merge);
       ox_settle();
     }
     const uint room = ox_place_contacts(scene, n, scene->pair_ranges + p);

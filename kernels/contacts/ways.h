@@ -40,18 +40,27 @@ static inline float3 ox_target_base(const ox_region_view* r, uint side) {
   return ox_base(r->scene->pairs + r->pair, 1u - side);
 }
 
-// Whether a point of mesh `side` is still inside the other where a plane takes it: another part of
-// that lies there, or the plane is of one that goes on behind. Of an open mesh it is not known.
-static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
-                                   const ox_plane* plane, float depth) {
+// Whether a point of mesh `side`, which was taken along `away`, is inside the other. Of an open
+// mesh it is not known.
+static inline bool ox_is_still_inside(const ox_region_view* r, uint side, float3 p, float3 away) {
   __global const ox_mesh* target = ox_target_of(r, side);
   if ((target->flags & OX_MESH_CLOSED) == 0u) return false;
-  const float epsilon = r->scene->pairs[r->pair].epsilon;
+  return ox_winds_about(ox_target_base(r, side), ox_in_target(r, side, p),
+                        side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away),
+                        r->scene->pairs[r->pair].epsilon, target, &r->scene->surfaces);
+}
+
+// How far it is past a plane, for a point so deep below it, to where it is not on it [m].
+static inline float ox_way_past(const ox_region_view* r, float depth) {
+  return depth + OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+}
+
+// Whether a point of mesh `side` is still inside the other where a plane takes it: another part of
+// that lies there, or the plane is of one that goes on behind.
+static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
+                                   const ox_plane* plane, float depth) {
   const float3 away = ox_way_of(side, plane->normal);
-  const float3 there = p + (depth + OX_MARGIN * epsilon) * away;
-  return ox_winds_about(ox_target_base(r, side), ox_in_target(r, side, there),
-                        side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away), epsilon,
-                        target, &r->scene->surfaces);
+  return ox_is_still_inside(r, side, p + ox_way_past(r, depth) * away, away);
 }
 
 // The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a

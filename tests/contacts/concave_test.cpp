@@ -50,6 +50,58 @@ TEST(Concave, ContactsOfABoxInACornerArePushedOutOfTheFloorAndTheWall) {
     }
 }
 
+// A floor and on it a ramp that falls from x = 0, where it is so high, to the right, in one closed
+// mesh.
+TestMesh floor_and_ramp(double height) {
+  const std::vector<std::array<double, 2>> profile{{-3, -1},    {4.5, -1}, {4.5, 0}, {1.5, 0},
+                                                   {0, height}, {0, 0},    {-3, 0}};
+  const int count = static_cast<int>(profile.size());
+  TestMesh mesh;
+  for (const double y : {-2.0, 2.0})
+    for (const auto& [x, z] : profile)
+      for (const double c : {x, y, z}) mesh.vertices.push_back(static_cast<float>(c));
+  for (const auto& [a, b, c] : {std::array{0, 1, 5}, {0, 5, 6}, {1, 2, 3}, {1, 3, 5}, {3, 4, 5}})
+    for (const int i : {a, b, c, count + a, count + c, count + b})
+      mesh.indices.push_back(static_cast<unsigned>(i));
+  for (int a = 0; a < count; ++a) {
+    const int b = (a + 1) % count;
+    for (const int i : {a, count + a, b, b, count + a, count + b})
+      mesh.indices.push_back(static_cast<unsigned>(i));
+  }
+  return mesh;
+}
+
+// The vertex at the foot of the wall is behind the floor and the wall, and no plane of one of them
+// separates it: the ramp's slope does, which is half a metre away.
+TEST(Concave, ContactsAtTheFootOfARampsTallEndAreNoDeeperThanTheCubeIsInItAndInTheFloor) {
+  const double tilt = 0.001, floor = 0.003, wall = 0.002;
+  TestPose pose = turned({0, 1, 0}, tilt);
+  const Point foot = rotate(pose, {0.5, 0, -0.5});
+  pose.position = {wall - foot[0], 0.03, -floor - foot[2]};
+  const Placed placed{make_cube(1), floor_and_ramp(0.5), pose, TestPose{}};
+  for (const TestPose& frame : some_frames()) {
+    const std::vector<Contact> contacts = placed.contacts(frame);
+    EXPECT_GE(contacts.size(), 4u);
+    for (const Contact& c : contacts)
+      EXPECT_LE(c.depth, 1.01 * floor) << c.normal.x << " " << c.normal.y << " " << c.normal.z;
+  }
+}
+
+TEST(Concave, ContactsAtTheFootOfAWallHoldBothFrontCornersFromTheFloorToo) {
+  const double floor = 0.0005, wall = 0.002;
+  const Placed placed{make_cube(1), floor_and_ramp(2), at(wall - 0.5, 0.03, 0.5 - floor),
+                      TestPose{}};
+  for (const TestPose& frame : some_frames()) {
+    int left = 0, right = 0;
+    for (const Contact& c : placed.contacts(frame)) {
+      if (!(c.normal.z > 0.99) || c.position.x < -0.1) continue;
+      (c.position.y < 0 ? left : right) += 1;
+    }
+    EXPECT_GE(left, 1);
+    EXPECT_GE(right, 1);
+  }
+}
+
 // Its lower edges go through both blocks, which overlap: they are inside from the one end to the
 // other, and a chord from the second wall to the third would hold it up in the middle alone.
 TEST(Concave, ContactsOfARodAcrossTwoPartsThatOverlapHoldBothOfItsEnds) {

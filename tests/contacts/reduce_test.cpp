@@ -134,6 +134,18 @@ TEST(Reduction, TakesWhatThePlainRuleTakesOfEveryPairOfAScene) {
   }
 }
 
+// At the foot of a wall: what the floor holds up there, the wall does not.
+TEST(Reduction, KeepsWhatIsNearAndFacesAnotherWay) {
+  const double near = 0.1 * merge();
+  const std::vector<Candidate> corner{
+      candidate({0, 0, 0}, 0.002f, 0, 0, {1, 0, 0}), candidate({near, 0, 0}, 0.001f, 0, 1),
+      candidate({0, 0.5, 0}, 0.002f, 0, 0, {1, 0, 0}), candidate({near, 0.5, 0}, 0.001f, 0, 1)};
+  EXPECT_EQ(reduced(corner).size(), 4u);
+  std::vector<Candidate> floor = corner;
+  for (Candidate& c : floor) c.normal[0] = 0, c.normal[2] = 1;
+  EXPECT_EQ(reduced(floor).size(), 2u);
+}
+
 TEST(Reduction, GivesAPrefixOfTheLongAnswerForASmallLimit) {
   Random random(43);
   for (int i = 0; i < 10; ++i) {
@@ -191,7 +203,7 @@ TEST(Reduction, TakesTheDeepestOfEveryManifoldUnlessOneIsThere) {
   const Candidate there = candidate({0.5 * merge(), 0, 0}, 0.2f, 0, 1, aside);
   const Candidate beside = candidate({0, 0.1, 0}, 0.1f, 0, 1, aside);
   const Candidate far = candidate({1, 0, 0}, 0.25f, 0, 0);
-  EXPECT_EQ(reduced({far, there, beside, deepest}), words_of_all({deepest, beside, far}));
+  EXPECT_EQ(reduced({far, there, beside, deepest}), words_of_all({deepest, beside, far, there}));
 }
 
 TEST(Reduction, ThenTakesWhatIsFarthestAndOfEquallyFarOnesTheDeepest) {

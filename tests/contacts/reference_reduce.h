@@ -32,7 +32,7 @@ struct Reduction {
 
 class ReferenceReduce {
  public:
-  // `merge` [m]: what is nearer to another adds nothing.
+  // `merge` [m]: what is nearer to another that faces the same way adds nothing.
   ReferenceReduce(std::vector<Candidate> candidates, float merge, double size)
       : left_(std::move(candidates)), merge_(merge), size_(size) {
     std::sort(left_.begin(), left_.end(), [](const Candidate& a, const Candidate& b) {
@@ -50,13 +50,16 @@ class ReferenceReduce {
  private:
   static Vec3f vec(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
+  bool face_same_way(const Candidate& c, const Candidate& taken) {
+    const float cosine = dot(vec(taken.normal), vec(c.normal));
+    decided(static_cast<double>(cosine) - 0.9);
+    return cosine > 0.9f;
+  }
   // From a contact that is taken, across its normal if both face one way.
   float apart2(const Candidate& c, const Candidate& taken) {
     const Vec3f n = vec(taken.normal);
     Vec3f d = vec(c.position) - vec(taken.position);
-    const float cosine = dot(n, vec(c.normal));
-    decided(static_cast<double>(cosine) - 0.9);
-    if (cosine > 0.9f) d = d - dot(d, n) * n;
+    if (face_same_way(c, taken)) d = d - dot(d, n) * n;
     return dot(d, d);
   }
   float nearest2(const Candidate& c) {
@@ -64,10 +67,18 @@ class ReferenceReduce {
     for (const Candidate& t : result_.taken) nearest = std::min(nearest, apart2(c, t));
     return nearest;
   }
-  bool is_apart(const Candidate& c) {
-    const float nearest = nearest2(c);
-    decided((std::sqrt(static_cast<double>(nearest)) - static_cast<double>(merge_)) / size_);
-    return nearest > merge_ * merge_;
+  bool is_near(const Candidate& c, const Candidate& taken) {
+    const float gap2 = apart2(c, taken);
+    decided((std::sqrt(static_cast<double>(gap2)) - static_cast<double>(merge_)) / size_);
+    return gap2 <= merge_ * merge_;
+  }
+  bool is_near_any(const Candidate& c) {
+    return std::any_of(result_.taken.begin(), result_.taken.end(),
+                       [&](const Candidate& t) { return is_near(c, t); });
+  }
+  bool adds_nothing(const Candidate& c) {
+    return std::any_of(result_.taken.begin(), result_.taken.end(),
+                       [&](const Candidate& t) { return face_same_way(c, t) && is_near(c, t); });
   }
   void decided(double by) { result_.margin = std::min(result_.margin, std::fabs(by)); }
 
@@ -93,14 +104,14 @@ class ReferenceReduce {
   }
   bool take_of_new_manifold() {
     return take_first([&](const Candidate& c) {
-      return !manifolds_.contains({c.region, c.manifold}) && is_apart(c);
+      return !manifolds_.contains({c.region, c.manifold}) && !is_near_any(c);
     });
   }
   bool take_farthest() {
     std::size_t best = left_.size();
-    float farthest = 0, next = 0;
+    float farthest = -1, next = 0;
     for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (!is_apart(left_[i])) continue;
+      if (adds_nothing(left_[i])) continue;
       const float nearest = nearest2(left_[i]);
       if (nearest > farthest) {
         next = farthest;

@@ -8,11 +8,15 @@
 namespace ode_ext::test {
 namespace {
 
+bool face_same_way(const ReferenceContact& a, const ReferenceContact& b) {
+  return dot(a.normal, b.normal) > kSamePatch;
+}
+
 // What faces one way is compared across the normal: how far one is in front of the other spreads
 // nothing.
 double apart(const ReferenceContact& a, const ReferenceContact& b) {
   const Point d = a.position - b.position;
-  if (!(dot(a.normal, b.normal) > kSamePatch)) return length(d);
+  if (!face_same_way(a, b)) return length(d);
   return length(d - dot(d, a.normal) * a.normal);
 }
 
@@ -21,15 +25,18 @@ double apart(const ReferenceContact& a, const ReferenceContact& b) {
 std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
                                       std::size_t max_contacts, double merge) {
   std::vector<ReferenceContact> kept;
-  std::vector<bool> taken(all.size(), false);
+  std::vector<bool> is_near(all.size(), false);  // something that is kept and faces the same way
   std::vector<double> gaps(all.size(), ContactBox::infinity);  // to the nearest that is kept
   std::set<std::size_t> regions, manifolds;
   const auto take = [&](std::size_t i) {
-    taken[i] = true;
     kept.push_back(all[i]);
     regions.insert(all[i].region);
     manifolds.insert(all[i].manifold);
-    for (std::size_t k = 0; k < all.size(); ++k) gaps[k] = std::min(gaps[k], apart(all[k], all[i]));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double gap = apart(all[k], all[i]);
+      gaps[k] = std::min(gaps[k], gap);
+      if (face_same_way(all[k], all[i]) && gap <= merge) is_near[k] = true;
+    }
   };
   for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
     if (regions.count(all[i].region) == 0) take(i);
@@ -41,8 +48,7 @@ std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
   while (kept.size() < max_contacts) {
     std::size_t farthest = all.size();
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (!taken[i] && gaps[i] > merge && (farthest == all.size() || gaps[i] > gaps[farthest]))
-        farthest = i;
+      if (!is_near[i] && (farthest == all.size() || gaps[i] > gaps[farthest])) farthest = i;
     if (farthest == all.size()) break;
     take(farthest);
   }
