@@ -68,8 +68,9 @@ static void ox_choose_parts(ox_manifold* m) {
 
 // A sheet has no inside: what is behind it is what its ray meets it for, on whichever side. Each
 // vertex is cleared by the face that it is behind. Where there is none, the edge that goes through
-// the sheet with its shorter end the least is drawn back; where there is none of those either, the
-// edge of the sheet that goes through the other mesh the least.
+// the sheet with its shorter end the least is drawn back, or through another open mesh with the end
+// that is behind that; where there is none of those either, the edge of the sheet that goes through
+// the other mesh the least.
 static void ox_choose_sheet(ox_manifold* m) {
   const ox_region_view* r = m->region;
   bool any = false;
@@ -109,8 +110,12 @@ static void ox_choose_sheet(ox_manifold* m) {
       const float3 from = ox_vertex_of(r->scene, r->pair, side, edge->vertex[0]);
       const float3 to = ox_vertex_of(r->scene, r->pair, side, edge->vertex[1]);
       const float3 d = to - from;
-      const float depth =
-          ox_plane_depth(&choice.plane, side, f->t * f->t < 0.25f * ox_dot(d, d) ? from : to);
+      const float of_from = ox_plane_depth(&choice.plane, side, from);
+      const float of_to = ox_plane_depth(&choice.plane, side, to);
+      // A sheet has no front; of the ends of an edge through another open mesh one is behind it.
+      float depth = ox_max(ox_max(of_from, of_to), 0.0f);
+      if ((target->flags & OX_MESH_TWO_SIDED) != 0u)
+        depth = f->t * f->t < 0.25f * ox_dot(d, d) ? of_from : of_to;
       if (depth < 0.0f) choice.plane.normal = -choice.plane.normal;
       choice.depth = ox_min(fabs(depth), target->reach);
     }

@@ -89,9 +89,16 @@ static inline void ox_take_origins(__global ox_pair* pair) {
   }
 }
 
+// How far from a base the box of a mesh reaches [m].
+static inline float ox_reach_of_box(__global const ox_mesh* mesh, float3 base) {
+  const float3 far = fabs(vload3(0, mesh->box_centre) - base) + vload3(0, mesh->box_half);
+  return sqrt(ox_dot(far, far));
+}
+
 // Takes bases where one mesh is small beside what there is of the pair, `size`: its own origin, and
-// the place of that in the other mesh. Of that one what the box of the small one meets counts.
-// Returns how large coordinates then are [m].
+// the place of that in the other mesh. Of that one what the box of the small one meets counts; of a
+// deformable one all of it, since its meshlets are cut in a shape that it had before. Returns how
+// large coordinates then are [m].
 static inline float ox_choose_bases(const ox_scene* scene, __global const ox_object* a,
                                     __global const ox_object* b, float size,
                                     __global ox_pair* pair) {
@@ -107,7 +114,9 @@ static inline float ox_choose_bases(const ox_scene* scene, __global const ox_obj
   if (!(limit > 0.0f && limit < INFINITY)) return size;
   const float3 base = vload3(0, pair->offset[small]);
   const ox_box box = ox_target_box(pair, large, small_mesh);
-  const float reach = ox_reach_in_box(scene, large_mesh, &box, base, limit);
+  const float reach = (large_mesh->flags & OX_MESH_DEFORMABLE) != 0u
+                          ? ox_reach_of_box(large_mesh, base)
+                          : ox_reach_in_box(scene, large_mesh, &box, base, limit);
   if (!(reach <= limit)) return size;
   const float3 rest =
       ox_rest_of_turned_back(is_small ? b : a, is_small ? ox_apart(a, b) : ox_apart(b, a));

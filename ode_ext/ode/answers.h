@@ -35,7 +35,7 @@ struct Answer {
   std::uint64_t passes_unasked = 0;  // that gathered it since the program last asked
   std::uint64_t given_up = 0;        // the last one in which the device had no room for it; 0: none
   std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead
-  std::array<const Mesh*, 2> given_up_meshes{};  // it was of these then; compared only
+  std::array<const MeshTopology*, 2> given_up_meshes{};  // it was of these then; compared only
   // What is known of the geoms, the lower handle's first; of this generation of members.
   std::array<Members::Seen*, 2> seen{};
   std::uint64_t generation = 0;

@@ -58,7 +58,7 @@ void KnownPairs::add(Answer& answer, const GatheredPair& pair) {
 void KnownPairs::add(Answer& answer, PairMember& a, PairMember& b) {
   const auto are = [&](const PairMember& first, const PairMember& second) {
     return answer.given_up_meshes ==
-           std::array<const Mesh*, 2>{first.mesh.get(), second.mesh.get()};
+           std::array{first.mesh->topology.get(), second.mesh->topology.get()};
   };
   if (skips_given_up_ && is_given_up(answer) && (are(a, b) || are(b, a))) {
     answer.valid = false;

@@ -52,7 +52,8 @@ const PairContacts& PairScene::collide(const void* identity, Collider& collider,
                                        std::uint64_t round, PassMemory* memory) {
   const auto captured = capture_pass(identity, members_, scene_.pairs);
   const PairContacts& found = collide_with_room(collider, meshes, round, memory);
-  if (collider.report().given_up.empty()) capture_contacts(captured, found);
+  const BatchReport& report = collider.report();
+  if (report.given_up.empty() && !report.backtracked) capture_contacts(captured, found);
   return found;
 }
 
@@ -86,7 +87,7 @@ void PairScene::give_up(std::size_t pair, std::uint64_t pass) {
   answer.valid = false;
   answer.given_up = pass;
   for (std::size_t k = 0; k < 2; ++k)
-    answer.given_up_meshes[k] = members_[scene_.pairs[pair][k]]->mesh.get();
+    answer.given_up_meshes[k] = members_[scene_.pairs[pair][k]]->mesh->topology.get();
 }
 
 void PairScene::store(const PairContacts& found) {

@@ -148,9 +148,10 @@ void DeviceMeshes::add_move(std::uint32_t mesh, const Mesh& shape, bool rests) {
       placed.range.topology_first + static_cast<ox_u32>(incident_words(*shape.topology));
   move.record.scale = scale_for(move.record.shape.extent);
   move.record.thickness = thickness_of(shape);
-  // A vertex may lie on a face that is not its own (mesh/exit_distance.cpp); rounding, here of
-  // the ray test too, sees them less than 16 roundings of the size apart (ray_step.cl).
-  move.record.on_surface = 0x1p-20f * 2 * shape.radius;
+  // A vertex may lie on a face that is not its own (mesh/exit_distance.cpp); rounding, of its
+  // coordinates and of the ray test, sees them less than 16 roundings of these apart
+  // (ray_step.cl): they are as large as the mesh, or as it is far from its origin.
+  move.record.on_surface = 0x1p-20f * std::max(2 * shape.radius, move.record.shape.extent);
   move.rests = rests;
   moves_.push_back(move);
   if (!rests) positions_.insert(positions_.end(), shape.vertices.begin(), shape.vertices.end());
