@@ -22,6 +22,12 @@ none=$(ODE_EXT_DEVICE=nosuch "$info") || code=$?
 [[ $code -eq 3 ]] || fail "exit code $code without a device"
 [[ $(grep -c 'matches "nosuch"' <<< "$none") -eq 1 ]] || fail "says not once what matches nothing"
 
+kept=$(mktemp)
+trap 'rm -f "$kept"' EXIT
+echo "of another program" > "$kept"
+ODE_EXT_CAPTURE=$kept ODE_EXT_TRACE=$kept "$info" > /dev/null
+[[ $(cat "$kept") == "of another program" ]] || fail "begins the capture of another program anew"
+
 settings=$("$info" --settings)
 for name in rays edges organization deformable_target workload prediction misprediction; do
   grep -q "^$name = " <<< "$settings" || fail "--settings lacks $name"

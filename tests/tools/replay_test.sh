@@ -69,6 +69,24 @@ refused 2 "ends within record" "$work/cut"
 refused 2 "--partial replays what is before that" "$work/cut"
 "$replay" "$work/cut" --partial > "$work/log" || fail "--partial: $(cat "$work/log")"
 grep -q "has no contacts in the capture" "$work/log" || fail "--partial: $(cat "$work/log")"
+# Cut before the first contacts: nothing can be compared, which is not to be the same.
+first=$(python3 - "$work/rigid.capture" << 'PYTHON'
+import struct, sys
+
+data, at, contacts = open(sys.argv[1], "rb").read(), 16, 4
+while struct.unpack_from("<I", data, at)[0] != contacts:
+    at += 16 + struct.unpack_from("<Q", data, at + 8)[0]
+print(at)
+PYTHON
+)
+head -c $((first + 5)) "$work/rigid.capture" > "$work/cut"
+refused 2 "not compared" "$work/cut" --partial
+# What was not delivered has no contacts either, and the rest of the capture is as good.
+capture "$work/backtracked.capture" "$tests" \
+  --gtest_filter='ApiMode.BacktrackingDeliversNothingMakesNoCallbackAndReturnsZero'
+"$replay" "$work/backtracked.capture" > "$work/log" 2>&1 || [[ $? -eq 1 ]] ||
+  fail "misprediction=backtrack: $(cat "$work/log")"
+grep -q "has no contacts in the capture" "$work/log" || fail "nothing was backtracked"
 for length in 0 7 12 16 20 33 1000 100000; do
   head -c "$length" "$work/rigid.capture" > "$work/cut"
   refused 2 "$work/cut" "$work/cut"

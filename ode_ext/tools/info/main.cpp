@@ -49,6 +49,9 @@ int try_to_create(const char* selection) {
 
 int main(int argc, char** argv) {
   setenv("POCL_AFFINITY", "1", 0);  // as in falling_objects: read when OpenCL starts
+  // Files of another program, which the collider that is tried here would begin anew.
+  unsetenv("ODE_EXT_CAPTURE");
+  unsetenv("ODE_EXT_TRACE");
   CLI::App app("Prints the OpenCL devices that ode_ext sees, the one it chooses, and why.",
                "ode_ext-info");
   app.footer(

@@ -29,7 +29,7 @@ struct Options {
 
 struct Totals {
   long long passes = 0, pairs = 0, contacts = 0;
-  long long passes_differing = 0, pairs_differing = 0;
+  long long passes_compared = 0, passes_differing = 0, pairs_differing = 0;
   double ms = 0;
   std::uint64_t captured = kHashStart, replayed = kHashStart;
   std::string first_difference;
@@ -99,6 +99,7 @@ class Replay {
 
   void play(const PassRecord& pass, const ContactsRecord& captured) {
     const std::vector<Played> all = play_all(pass);
+    ++totals_.passes_compared;
     totals_.captured = mix(totals_.captured, captured.counts, captured.contact_list);
     totals_.replayed = mix(totals_.replayed, all.back().counts, all.back().contacts);
     for (const Played& played : all) {
@@ -131,6 +132,10 @@ int report(const Options& options, const Totals& totals) {
   if (totals.passes == 0) throw CaptureError("there is no whole pass in '" + options.file + "'");
   std::printf("replayed    %lld passes, %lld pairs, %lld contacts, %.3f ms\n", totals.passes,
               totals.pairs, totals.contacts, totals.ms);
+  if (totals.passes_compared == 0) {
+    std::printf("not compared: no pass has its contacts in the capture\n");
+    return kExitUsage;
+  }
   std::printf("captured    hash %016llx\n", static_cast<unsigned long long>(totals.captured));
   std::printf("replayed    hash %016llx\n", static_cast<unsigned long long>(totals.replayed));
   if (totals.passes_differing == 0) {
@@ -172,7 +177,8 @@ int main(int argc, char** argv) {
       "The time is that of the calls that collide; meshes are made in the first that meets them.\n"
       "Settings whose contacts depend on passes before are not replayed to the byte:\n"
       "rays=iterative-paper, misprediction=ignore, misprediction=backtrack.\n"
-      "Exit codes: 0 the same, 1 different, 2 wrong usage or no capture, 3 no device.");
+      "Exit codes: 0 the same, 1 different, 2 wrong usage, no capture or nothing to compare,\n"
+      "3 no device.");
   Options options;
   app.add_option("file", options.file, "The capture (required)");
   const auto* device = app.add_option("--device", options.device,

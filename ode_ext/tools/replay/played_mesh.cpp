@@ -19,7 +19,8 @@ PlayedMesh::PlayedMesh(dBatchColliderID collider, const MeshRecord& mesh, const 
   if (!is_shape_) return;
   show_base();
   corners_ = mesh.corners;  // of the same size, so they stay where they are
-  dGeomTriMeshDataUpdate(data_);
+  // ODE has no tree of a single triangle, and looks for its root.
+  if (indices_.size() > 3) dGeomTriMeshDataUpdate(data_);
   dBatchColliderTriMeshDataUpdate(collider_, data_);
 }
 
