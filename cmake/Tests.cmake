@@ -324,7 +324,8 @@ if(PROJECT_IS_TOP_LEVEL AND NOT ODE_EXT_SANITIZE)
   add_test(NAME documentation_site COMMAND ${scripts}/docs)
   set_tests_properties(documentation_site PROPERTIES TIMEOUT 120)
   add_test(NAME package_recipes COMMAND ${PROJECT_SOURCE_DIR}/tests/install/recipes.sh)
-  add_test(NAME part_of_another_project COMMAND ${PROJECT_SOURCE_DIR}/tests/install/subproject.sh)
+  add_test(NAME part_of_another_project
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/install/subproject.sh ${PROJECT_BINARY_DIR})
   set_tests_properties(install_consumer package_recipes part_of_another_project
                        PROPERTIES TIMEOUT 300)
 endif()

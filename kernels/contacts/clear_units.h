@@ -166,15 +166,16 @@ static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane_choic
   }
 }
 
-// The least of them, where all together separate it and do not face one way, as those of a surface
-// that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is better up to twice the
-// price of all: it clears more.
+// The least of them, where all together separate it, past that one too, and do not face one way, as
+// those of a surface that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is better
+// up to twice the price of all: it clears more.
 static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
                                                const ox_joint_choice* joint,
                                                const ox_plane_choice* known) {
   ox_plane_choice choice = joint->first;
   choice.judged *= OX_WORTH;
-  if (!joint->is_corner || !ox_is_better_choice(&choice, known)) return ox_no_choice();
+  const bool is_past = ox_dot(joint->way, choice.plane.normal) >= choice.depth;
+  if (!joint->is_corner || !is_past || !ox_is_better_choice(&choice, known)) return ox_no_choice();
   const float3 way = ox_way_of(seed->side, joint->way);
   return ox_is_still_inside(r, seed->side, ox_middle_of(r, seed->unit) + way, way) ? ox_no_choice()
                                                                                    : choice;

@@ -45,7 +45,8 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
 // What candidates are to one that is taken: how far from it, those that face the same way across
 // their normal, since one above the other holds no more; of its region; of its manifold, or near
 // it. What is near and faces another way comes into question for its distance, after all else: at
-// the foot of a wall the floor holds what the wall does not.
+// the foot of a wall the floor holds what the wall does not. But two that face one another in one
+// place hold nothing: they jam.
 static void ox_note_taken(const ox_fields* list, uint count, uint taken, float merge2) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
   const float3 p = ox_vector_of(list, OX_CANDIDATE_POSITION, taken);
@@ -73,7 +74,8 @@ static void ox_note_taken(const ox_fields* list, uint count, uint taken, float m
     flags |= of_region ? none + (1 << OX_FOR_REGION) : none;
     const ox_ints is_near = off2 <= merge2;
     flags |= of_manifold | is_near ? none + (1 << OX_FOR_MANIFOLD) : none;
-    flags |= faces_same_way & is_near ? none + (1 << OX_FOR_DISTANCE) : none;
+    const ox_ints adds_nothing = is_near & (faces_same_way | (cosine < -OX_SAME_WAY));
+    flags |= adds_nothing ? none + (1 << OX_FOR_DISTANCE) : none;
     const ox_floats distance2 = OX_LESSER(off2, so_far);
     OX_STORE_FLOATS(list, OX_CANDIDATE_DISTANCE2, block, count, distance2);
     OX_STORE_WORDS(list, OX_CANDIDATE_TAKEN, block, count, flags);

@@ -80,10 +80,14 @@ TEST(Concave, ContactsAtTheFootOfARampsTallEndAreNoDeeperThanTheCubeIsInItAndInT
   pose.position = {wall - foot[0], 0.03, -floor - foot[2]};
   const Placed placed{make_cube(1), floor_and_ramp(0.5), pose, TestPose{}};
   for (const TestPose& frame : some_frames()) {
-    const std::vector<Contact> contacts = placed.contacts(frame);
-    EXPECT_GE(contacts.size(), 4u);
-    for (const Contact& c : contacts)
+    int up = 0, aside = 0;
+    for (const Contact& c : placed.contacts(frame)) {
       EXPECT_LE(c.depth, 1.01 * floor) << c.normal.x << " " << c.normal.y << " " << c.normal.z;
+      up += c.normal.z > 0.99 && c.depth > 0.6 * floor;
+      aside += c.normal.x < -0.99 && c.depth > 0.9 * wall;
+    }
+    EXPECT_GE(up, 2);
+    EXPECT_GE(aside, 2);
   }
 }
 

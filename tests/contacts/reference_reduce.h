@@ -32,7 +32,7 @@ struct Reduction {
 
 class ReferenceReduce {
  public:
-  // `merge` [m]: what is nearer to another that faces the same way adds nothing.
+  // `merge` [m]: what is nearer to another that faces the same way, or it, adds nothing.
   ReferenceReduce(std::vector<Candidate> candidates, float merge, double size)
       : left_(std::move(candidates)), merge_(merge), size_(size) {
     std::sort(left_.begin(), left_.end(), [](const Candidate& a, const Candidate& b) {
@@ -54,6 +54,11 @@ class ReferenceReduce {
     const float cosine = dot(vec(taken.normal), vec(c.normal));
     decided(static_cast<double>(cosine) - 0.9);
     return cosine > 0.9f;
+  }
+  bool face_one_another(const Candidate& c, const Candidate& taken) {
+    const float cosine = dot(vec(taken.normal), vec(c.normal));
+    decided(static_cast<double>(cosine) + 0.9);
+    return cosine < -0.9f;
   }
   // From a contact that is taken, across its normal if both face one way.
   float apart2(const Candidate& c, const Candidate& taken) {
@@ -77,8 +82,9 @@ class ReferenceReduce {
                        [&](const Candidate& t) { return is_near(c, t); });
   }
   bool adds_nothing(const Candidate& c) {
-    return std::any_of(result_.taken.begin(), result_.taken.end(),
-                       [&](const Candidate& t) { return face_same_way(c, t) && is_near(c, t); });
+    return std::any_of(result_.taken.begin(), result_.taken.end(), [&](const Candidate& t) {
+      return (face_same_way(c, t) || face_one_another(c, t)) && is_near(c, t);
+    });
   }
   void decided(double by) { result_.margin = std::min(result_.margin, std::fabs(by)); }
 

@@ -4,6 +4,7 @@
 # includes by quotes finds its headers, and the variables of the project around stay as they were.
 set -euo pipefail
 
+build=${1:?usage: tests/install/subproject.sh <build directory>}
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -20,12 +21,18 @@ cp "$root/tests/install/subproject/CMakeLists.txt" "$project/around"
 cp -r "$root/CMakeLists.txt" "$root/LICENSE" "$root/cmake" "$root/include" "$root/kernels" \
   "$root/ode_ext" "$project/around/ode_ext"
 
+# of_build <name>: as the build has it.
+of_build() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+
 # configured_as <type of library> <option>...
 configured_as() {
   local type=$1
   shift
   rm -rf "$project/build"
-  cmake -S "$project/around" -B "$project/build" -G Ninja -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" \
+  cmake -S "$project/around" -B "$project/build" -G "$(of_build CMAKE_GENERATOR)" \
+    -DCMAKE_C_COMPILER="$(of_build CMAKE_C_COMPILER)" \
+    -DCMAKE_CXX_COMPILER="$(of_build CMAKE_CXX_COMPILER)" \
+    -DCMAKE_PREFIX_PATH="$(of_build CMAKE_PREFIX_PATH)" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" \
     > "$work/configure.log" 2>&1 || { cat "$work/configure.log"; fail "configuring"; }
   grep -q "ode_ext is a $type\$" "$work/configure.log" || fail "$* does not make a $type"
 }

@@ -8,6 +8,10 @@
 namespace ode_ext::test {
 namespace {
 
+bool face_one_another(const ReferenceContact& a, const ReferenceContact& b) {
+  return dot(a.normal, b.normal) < -kSamePatch;
+}
+
 bool face_same_way(const ReferenceContact& a, const ReferenceContact& b) {
   return dot(a.normal, b.normal) > kSamePatch;
 }
@@ -25,7 +29,8 @@ double apart(const ReferenceContact& a, const ReferenceContact& b) {
 std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
                                       std::size_t max_contacts, double merge) {
   std::vector<ReferenceContact> kept;
-  std::vector<bool> is_near(all.size(), false);  // something that is kept and faces the same way
+  // Something that is kept and faces the same way, or is faced by it.
+  std::vector<bool> is_near(all.size(), false);
   std::vector<double> gaps(all.size(), ContactBox::infinity);  // to the nearest that is kept
   std::set<std::size_t> regions, manifolds;
   const auto take = [&](std::size_t i) {
@@ -35,7 +40,8 @@ std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double gap = apart(all[k], all[i]);
       gaps[k] = std::min(gaps[k], gap);
-      if (face_same_way(all[k], all[i]) && gap <= merge) is_near[k] = true;
+      const bool adds = !face_same_way(all[k], all[i]) && !face_one_another(all[k], all[i]);
+      if (!adds && gap <= merge) is_near[k] = true;
     }
   };
   for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)

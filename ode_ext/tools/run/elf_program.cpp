@@ -34,7 +34,7 @@ std::string why_not_preloaded(const std::string& path) {
   if (stat(path.c_str(), &status) == 0 && (status.st_mode & (S_ISUID | S_ISGID)) != 0)
     return "runs with the rights of another user: nothing is preloaded there; start it as that "
            "user, from a copy without the set-user-ID bit";
-  if (geteuid() != 0 && getxattr(path.c_str(), "security.capability", nullptr, 0) > 0)
+  if (getuid() != 0 && getxattr(path.c_str(), "security.capability", nullptr, 0) > 0)
     return "has capabilities of its own: nothing is preloaded there; start a copy without them, or "
            "as root";
   std::ifstream file(path, std::ios::binary);
