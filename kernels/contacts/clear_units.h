@@ -167,8 +167,8 @@ static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane_choic
 }
 
 // The least of them, where all together separate it, past that one too, and do not face one way, as
-// those of a surface that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is better
-// up to twice the price of all: it clears more.
+// those of a surface that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is
+// better up to twice the price of all: it clears more.
 static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
                                                const ox_joint_choice* joint,
                                                const ox_plane_choice* known) {
