@@ -65,12 +65,12 @@ TEST_F(Sheet, VerticesInASolidTakeTheShorterWayOut) {
 // Most of the way: a centimetre of each edge that goes through the ground is above it.
 TEST_F(Sheet, EdgesThroughOpenGroundArePushedOutThroughItsFront) {
   const auto ground = rigid(make_sheet(4, 1));
-  const TestPose pose = turned({1, 0.02, 0}, 0.5 * std::acos(-1.0), {0.01, 0.1, 0.95});
+  const TestPose pose = turned({1, 0, 0}, 0.5 * std::acos(-1.0), {0.01, 0.1, 0.95});
   const auto found = contacts(pair_of(sheet, pose, ground));
   ASSERT_FALSE(found.empty());
   for (const Contact& contact : found) {
     EXPECT_GT(contact.normal.z, 0.999);
-    EXPECT_LT(contact.depth, 0.1);
+    EXPECT_NEAR(contact.depth, 0.05, 1e-5);  // of the lower ends
   }
 }
 
