@@ -8,14 +8,40 @@
 
 namespace ode_ext {
 
-std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices,
-                                 std::size_t tile_pairs) {
+namespace {
+
+ObjectSize size_of(const Mesh& mesh) {
+  const MeshTopology& built = *mesh.topology;
+  return {static_cast<std::uint32_t>(built.chunks.size()),
+          static_cast<std::uint32_t>(mesh.vertices.size()),
+          static_cast<std::uint32_t>(built.edges.size() + built.flat_edges.size()),
+          static_cast<std::uint32_t>(built.triangles.size()),
+          static_cast<std::uint32_t>(built.meshlets.meshlets.size()),
+          mesh.deformable};
+}
+
+std::uint64_t most_crossings(const ObjectSize& a, const ObjectSize& b) {
+  return std::uint64_t{a.edges} * b.triangles + std::uint64_t{b.edges} * a.triangles;
+}
+
+}  // namespace
+
+std::vector<ObjectSize> object_sizes(const Scene& scene) {
+  std::vector<ObjectSize> sizes;
+  sizes.reserve(scene.objects.size());
+  for (const Scene::Object& object : scene.objects)
+    sizes.push_back(size_of(*scene.meshes[object.mesh]));
+  return sizes;
+}
+
+std::vector<Tile> cut_into_tiles(const Scene& scene, const std::vector<ObjectSize>& sizes,
+                                 std::uint64_t tile_vertices, std::size_t tile_pairs) {
   std::vector<Tile> tiles;
   std::uint64_t vertices = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     std::uint64_t of_pair = 0;
     for (const std::uint32_t object : scene.pairs[i])
-      of_pair += kChunkVertices * scene.meshes[scene.objects[object].mesh]->topology->chunks.size();
+      of_pair += std::uint64_t{kChunkVertices} * sizes[object].chunks;
     if (tiles.empty() || vertices + of_pair > tile_vertices || tiles.back().count == tile_pairs) {
       tiles.push_back({i, 0});
       vertices = 0;
@@ -26,47 +52,27 @@ std::vector<Tile> cut_into_tiles(const Scene& scene, std::uint64_t tile_vertices
   return tiles;
 }
 
-namespace {
-
-std::uint64_t most_crossings(const Scene& scene, const std::array<std::uint32_t, 2>& pair) {
-  const MeshTopology& a = *scene.meshes[scene.objects[pair[0]].mesh]->topology;
-  const MeshTopology& b = *scene.meshes[scene.objects[pair[1]].mesh]->topology;
-  const auto edges = [](const MeshTopology& mesh) {
-    return std::uint64_t{mesh.edges.size()} + mesh.flat_edges.size();
-  };
-  return edges(a) * b.triangles.size() + edges(b) * a.triangles.size();
-}
-
-}  // namespace
-
-ListCounts most_records(const Scene& scene, Tile tile, const ColliderOptions& options) {
+ListCounts most_records(const Scene& scene, const std::vector<ObjectSize>& sizes, Tile tile,
+                        const ColliderOptions& options) {
   std::uint64_t chunks = 0, vertices = 0, meshlets = 0, meshlet_pairs = 0, crossings = 0,
                 contacts = 0;
   for (std::size_t i = tile.first; i < tile.first + tile.count; ++i) {
-    std::uint64_t of_pair = 0;
-    bool deformable = false;
-    for (const std::uint32_t object : scene.pairs[i]) {
-      const Mesh& mesh = *scene.meshes[scene.objects[object].mesh];
-      deformable = deformable || mesh.deformable;
-      chunks += mesh.topology->chunks.size();
-      of_pair += mesh.vertices.size();
-    }
+    const ObjectSize& a = sizes[scene.pairs[i][0]];
+    const ObjectSize& b = sizes[scene.pairs[i][1]];
+    const std::uint64_t of_pair = std::uint64_t{a.vertices} + b.vertices;
+    const std::uint64_t crossings_of_pair = options.edges ? most_crossings(a, b) : 0;
+    chunks += std::uint64_t{a.chunks} + b.chunks;
     vertices += of_pair;
+    crossings += crossings_of_pair;
     if (options.edges) {
-      const auto count = [&](std::size_t k) {
-        const Mesh& mesh = *scene.meshes[scene.objects[scene.pairs[i][k]].mesh];
-        return std::uint64_t{mesh.topology->meshlets.meshlets.size()};
-      };
-      meshlets += OX_MOST_SUBTREES * std::max(count(0), count(1));
-      meshlet_pairs += count(0) * count(1);
-      crossings += most_crossings(scene, scene.pairs[i]);
+      meshlets += std::uint64_t{OX_MOST_SUBTREES} * std::max(a.meshlets, b.meshlets);
+      meshlet_pairs += std::uint64_t{a.meshlets} * b.meshlets;
     }
-    if (!deformable)
+    if (!a.deformable && !b.deformable)
       contacts += options.max_contacts;
     else
-      contacts += options.max_contacts_deformable != 0
-                      ? options.max_contacts_deformable
-                      : of_pair + (options.edges ? most_crossings(scene, scene.pairs[i]) : 0);
+      contacts += options.max_contacts_deformable != 0 ? options.max_contacts_deformable
+                                                       : of_pair + crossings_of_pair;
   }
   // A chunk is in one list, a ray in two if the iterative algorithm hands it on.
   // A table has fewer than 8 places for each crossing it starts from, or 4 for each key: vertices

@@ -23,6 +23,7 @@ Workload::Workload(const ColliderOptions& options, const Device& device, AppendL
       device_(device.info()),
       lists_(lists),
       scene_(scene),
+      sizes_(object_sizes(scene)),
       memory_(memory),
       report_(report) {
   const std::size_t pairs = scene.pairs.size();
@@ -40,7 +41,7 @@ Workload::Workload(const ColliderOptions& options, const Device& device, AppendL
   }
   const std::size_t tile_pairs =
       memory != nullptr && memory->tile_pairs != 0 ? memory->tile_pairs : pairs;
-  for (const Tile tile : cut_into_tiles(scene, options.tile_vertices, tile_pairs))
+  for (const Tile tile : cut_into_tiles(scene, sizes_, options.tile_vertices, tile_pairs))
     tiles_.push_back({tile, share(expected, tile.count, pairs)});
   std::reverse(tiles_.begin(), tiles_.end());
 }
@@ -50,7 +51,7 @@ bool Workload::next() {
   tile_ = tiles_.back();
   tiles_.pop_back();
   // A prediction may be as far off as it likes: it costs no more than the worst case would.
-  most_ = most_records(scene_, tile_.tile, options_);
+  most_ = most_records(scene_, sizes_, tile_.tile, options_);
   for (std::size_t i = 0; i < kListCount; ++i)
     predicted_[i] = std::min(tile_.expected[i], most_[i]);
   if (!may_lose()) predicted_ = lists_.affordable(predicted_);

@@ -85,6 +85,7 @@ class Workload {
   const DeviceInfo& device_;
   AppendLists& lists_;
   const Scene& scene_;
+  const std::vector<ObjectSize> sizes_;
   PassMemory* memory_;
   BatchReport& report_;
   Misprediction misprediction_;

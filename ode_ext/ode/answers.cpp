@@ -14,11 +14,23 @@ bool Answer::holds(const PairMember& a, const PairMember& b) const {
   return valid && (is_of(a, b) || is_of(b, a));
 }
 
-void Answer::prefetch() const {
+namespace {
+
+template <class T>
+void prefetch_all(const T& value) {
   constexpr std::size_t kCacheLine = 64;  // [bytes]
-  const char* const first = reinterpret_cast<const char*>(this);
-  for (std::size_t at = 0; at < sizeof(Answer); at += kCacheLine) __builtin_prefetch(first + at);
-  __builtin_prefetch(first + sizeof(Answer) - 1);
+  const char* const first = reinterpret_cast<const char*>(&value);
+  for (std::size_t at = 0; at < sizeof(T); at += kCacheLine) __builtin_prefetch(first + at);
+  __builtin_prefetch(first + sizeof(T) - 1);
+}
+
+}  // namespace
+
+void Answer::prefetch() const { prefetch_all(*this); }
+
+void Answer::prefetch_seen() const {
+  for (const Members::Seen* known : seen)
+    if (known != nullptr) prefetch_all(known->now);
 }
 
 namespace {
@@ -94,35 +106,48 @@ Answer* Answers::find(dGeomID a, dGeomID b) {
 void Answers::prune(std::uint64_t round) {
   if (round < pruned_round_ + kRoundsRemembered) return;
   pruned_round_ = round;
-  const auto is_old = [&](const Slot& slot) {
-    return slot.kept->answer.last_round + kRoundsRemembered < round;
-  };
-  std::vector<Slot> kept;
-  for (const Slot& slot : slots_)
-    if (slot.kept != nullptr && !is_old(slot)) kept.push_back(slot);
-  if (kept.size() == size()) return;
-  // Open addressing finds nothing behind a slot that became free: what is kept is put in anew.
-  std::size_t count = kLeastSlots;
-  while (count < 2 * (kept.size() + 1)) count *= 2;
-  std::vector<Slot> slots(count);
-  std::vector<Kept*> free;
-  last_ = nullptr;
-  if (8 * kept.size() < answers_.size()) {
-    std::deque<Kept> together;
-    for (Slot& slot : kept) slot.kept = &together.emplace_back(Kept{slot.key, slot.kept->answer});
-    answers_.swap(together);
-  } else {
-    free = free_;
-    free.reserve(free.size() + size() - kept.size());
-    for (const Slot& slot : slots_) {
-      if (slot.kept == nullptr || !is_old(slot)) continue;
-      *slot.kept = {};
-      free.push_back(slot.kept);
-    }
+  std::vector<Kept*> old;
+  for (Kept& kept : answers_)
+    if (kept.key != Key{} && kept.answer.last_round + kRoundsRemembered < round)
+      old.push_back(&kept);
+  free_.reserve(free_.size() + old.size());
+  for (Kept* kept : old) {
+    free_slot(slot_of(kept->key));
+    *kept = {};
+    free_.push_back(kept);
   }
-  free_.swap(free);
+  if (!old.empty()) last_ = nullptr;
+  if (8 * size() < answers_.size()) move_together();
+}
+
+// A key is found as long as no slot is free from the one that it wants up to its own. So of those
+// behind a slot that becomes free the first that may stand there moves up, which frees another.
+void Answers::free_slot(Slot& slot) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t gap = static_cast<std::size_t>(&slot - slots_.data());
+  for (std::size_t place = (gap + 1) & mask; slots_[place].kept != nullptr;
+       place = (place + 1) & mask) {
+    const std::size_t from_wanted = (place - hash(slots_[place].key)) & mask;
+    if (from_wanted < ((place - gap) & mask)) continue;
+
+    slots_[gap] = slots_[place];
+    gap = place;
+  }
+  slots_[gap] = {};
+}
+
+void Answers::move_together() {
+  std::size_t count = kLeastSlots;
+  while (count < 2 * (size() + 1)) count *= 2;
+  std::vector<Slot> slots(count);
+  std::deque<Kept> together;
+  for (const Kept& kept : answers_)
+    if (kept.key != Key{}) together.push_back({kept.key, kept.answer});
   slots_.swap(slots);
-  for (const Slot& slot : kept) slot_of(slot.key) = slot;
+  answers_.swap(together);
+  free_.clear();
+  last_ = nullptr;
+  for (Kept& kept : answers_) slot_of(kept.key) = {kept.key, &kept};
 }
 
 void Answers::clear() {

@@ -44,6 +44,8 @@ struct Answer {
   bool holds(const PairMember& a, const PairMember& b) const;
   // Into the caches: it is about to be used.
   void prefetch() const;
+  // And then what is known of its geoms.
+  void prefetch_seen() const;
 };
 
 // By pair of geoms, unordered. A pass asks for each pair in turn, between two of which kernels have
@@ -78,6 +80,8 @@ class Answers {
   // Where the key is, or would be.
   Slot& slot_of(const Key& key);
   void grow();
+  void free_slot(Slot& slot);
+  void move_together();
 
   std::vector<Slot> slots_;  // a power of two, at most half of them taken
   std::deque<Kept> answers_;

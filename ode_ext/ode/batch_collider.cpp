@@ -74,7 +74,8 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   // program: it runs before the lock is taken.
   std::vector<GatheredPair> pairs;
   const bool may_hold_pair = may_hold_mesh_pair(root);
-  if (may_hold_pair) pairs = gather_pairs(root, traversed);
+  if (may_hold_pair) pairs = gather_pairs(root, traversed, gathered_);
+  gathered_ = pairs.size();
   const double ms_gather = whole.milliseconds();
 
   const HeldMessages held;
@@ -125,7 +126,8 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   long long unasked_colliding = 0;  // as far as is known
   bool familiar = pairs.empty();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch();
+    if (i + 2 * kAhead < pairs.size()) entries[i + 2 * kAhead]->prefetch();
+    if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch_seen();
     const GatheredPair& pair = pairs[i];
     Answer& answer = *entries[i];
     if (answer.gathering == known_.look()) continue;

@@ -126,6 +126,7 @@ class BatchCollider {
   std::mutex announced_mutex_;
   std::unordered_map<dTriMeshDataID, bool> announced_;
   std::atomic<bool> is_announced_{false};  // there are some: each question looks
+  std::atomic<std::size_t> gathered_{0};   // by the last pass
 };
 
 }  // namespace ode_ext

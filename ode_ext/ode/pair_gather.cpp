@@ -53,7 +53,9 @@ int count_meshes(dGeomID geom) {
 // Passes still to run, one at a time: nothing is entered while something else is traversed.
 class Gatherer {
  public:
-  explicit Gatherer(std::span<const PassRoot> traversed) : traversed_(traversed) {}
+  Gatherer(std::span<const PassRoot> traversed, std::size_t expected) : traversed_(traversed) {
+    pairs_.reserve(expected);
+  }
 
   std::vector<GatheredPair> run(const PassRoot& root) {
     pending_.push_back(root);
@@ -144,8 +146,9 @@ bool may_hold_mesh_pair(const PassRoot& root) {
   return count_meshes(root.first) + count_meshes(root.second) >= 2;
 }
 
-std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed) {
-  return Gatherer(traversed).run(root);
+std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed,
+                                       std::size_t expected) {
+  return Gatherer(traversed, expected).run(root);
 }
 
 }  // namespace ode_ext

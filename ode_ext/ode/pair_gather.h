@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -47,7 +48,9 @@ bool may_hold_mesh_pair(const PassRoot& root);
 // Runs ODE's own broad phase, with all its filters, over the root and over everything the program
 // could recurse into: across each pair of geoms that is reported with a space among them, and
 // inside each contained space. A pair that several ways lead to comes several times. Never enters a
-// sweep-and-prune space of `traversed`: its traversal keeps scratch lists in the space.
-std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed);
+// sweep-and-prune space of `traversed`: its traversal keeps scratch lists in the space. `expected`:
+// about how many pairs there are, to have room for them at once.
+std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed,
+                                       std::size_t expected = 0);
 
 }  // namespace ode_ext

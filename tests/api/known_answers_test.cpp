@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -85,6 +86,32 @@ TEST_F(KnownAnswers, AreTheSameWhereTheyAreMovedTogether) {
         EXPECT_EQ(found->gathering, i);
       }
     }
+}
+
+// In a table that is as full as it gets, where many stand behind others that wanted their place.
+TEST_F(KnownAnswers, AreThoseThatWereMetOfLateWhateverIsForgottenBetween) {
+  std::mt19937 random(1);
+  std::map<std::size_t, std::uint64_t> expected;  // the round that each was last met in
+  std::size_t forgotten = 0;
+  for (std::uint64_t round = 8; round < 800; round += 8) {
+    for (int i = 0; i < 40; ++i) {
+      const std::size_t key = random() % 400;
+      entry(key, round);
+      expected[key] = round;
+    }
+    answers_.prune(round);
+    forgotten += std::erase_if(
+        expected, [&](const auto& item) { return item.second + kRoundsRemembered < round; });
+    ASSERT_EQ(answers_.size(), expected.size()) << round;
+    for (std::size_t i = 0; i < 400; ++i) {
+      const Answer* found = find(i);
+      ASSERT_EQ(found != nullptr, expected.contains(i)) << i << " in round " << round;
+      if (found != nullptr) {
+        EXPECT_EQ(found->last_round, expected[i]);
+      }
+    }
+  }
+  EXPECT_GT(forgotten, 2000u);
 }
 
 }  // namespace
