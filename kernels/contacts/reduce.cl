@@ -42,14 +42,40 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
   return false;
 }
 
+// [m] Half of how thick a mesh is across a normal in its frame: of those axes of its box that do not
+// face that way, along the one that it is thinnest along.
+static float ox_half_across(__global const ox_mesh* mesh, float3 normal) {
+  const float3 half_size = vload3(0, mesh->box_half);
+  const float3 along = fabs(normal);
+  float least = INFINITY;
+  if (along.x <= OX_SAME_WAY) least = ox_min(least, half_size.x);
+  if (along.y <= OX_SAME_WAY) least = ox_min(least, half_size.y);
+  if (along.z <= OX_SAME_WAY) least = ox_min(least, half_size.z);
+  return least;
+}
+
+// [m] What is nearer than this to a contact with a normal, and faces the same way, holds no more
+// than it. But both sides of a pane that stands do, however thin it is, and of what lies on a rail.
+static float ox_merge_distance(const ox_scene* scene, uint p, float3 normal) {
+  __global const ox_pair* pair = scene->pairs + p;
+  __global const ox_mesh* a = scene->meshes + pair->mesh[0];
+  __global const ox_mesh* b = scene->meshes + pair->mesh[1];
+  const float across =
+      ox_min(ox_half_across(a, ox_rotate(pair, 1u, normal)), ox_half_across(b, normal));
+  return ox_min(OX_MERGE * ox_min(a->radius, b->radius), across);
+}
+
 // What candidates are to one that is taken: how far from it, those that face the same way across
 // their normal, since one above the other holds no more; of its region; of its manifold, or near
 // it. What is near and faces another way comes into question for its distance, after all else: at
 // the foot of a wall the floor holds what the wall does not. But two that face one another in one
 // place hold nothing: they jam.
-static void ox_note_taken(const ox_fields* list, uint count, uint taken, float merge2) {
+static void ox_note_taken(const ox_scene* scene, uint pair, const ox_fields* list, uint count,
+                          uint taken) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
   const float3 p = ox_vector_of(list, OX_CANDIDATE_POSITION, taken);
+  const float merge = ox_merge_distance(scene, pair, n);
+  const float merge2 = merge * merge;
   const int region = (int)ox_words_of(list, OX_CANDIDATE_REGION)[taken];
   const int manifold = (int)ox_words_of(list, OX_CANDIDATE_MANIFOLD)[taken];
   const ox_ints none = (ox_ints)(0);
@@ -145,7 +171,6 @@ static void ox_reduce_candidates(const ox_scene* scene) {
                          scene->contacts + scene->pair_ranges[p].first + i);
       continue;
     }
-    const float merge = OX_MERGE * ox_min(a->radius, b->radius);
     const uint most = deformable ? scene->max_deformable : scene->max_contacts;
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;
@@ -157,7 +182,7 @@ static void ox_reduce_candidates(const ox_scene* scene) {
         continue;
       }
       taken[n++] = next;
-      if (n < most) ox_note_taken(&mine, count, next, merge * merge);
+      if (n < most) ox_note_taken(scene, p, &mine, count, next);
       ox_settle();
     }
     const uint room = ox_place_contacts(scene, n, scene->pair_ranges + p);

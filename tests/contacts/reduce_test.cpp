@@ -43,7 +43,7 @@ std::vector<Words> contacts_of(const StepRecords& records, std::size_t pair = 0)
   return contacts;
 }
 
-// How large they are is all that the reduction knows of them.
+// How large and how thick they are is all that the reduction knows of them.
 const TestScene& cubes() {
   static const TestScene scene = one_pair(make_cube(1), at(0, 0, 0.9), make_cube(1), at(0, 0, 0));
   return scene;
@@ -51,14 +51,15 @@ const TestScene& cubes() {
 float radius() { return cubes().built_mesh_of(0, 0).radius; }
 double merge() { return 0.02 * static_cast<double>(radius()); }
 
-std::vector<Words> reduced(const std::vector<Candidate>& candidates, std::uint32_t limit = 16) {
-  return contacts_of(Rig::shared().run_reduction(cubes().scene, candidates, limit));
+std::vector<Words> reduced(const std::vector<Candidate>& candidates, std::uint32_t limit = 16,
+                           const TestScene& scene = cubes()) {
+  return contacts_of(Rig::shared().run_reduction(scene.scene, candidates, limit));
 }
 
 std::vector<Words> plainly_reduced(const std::vector<Candidate>& candidates, std::size_t limit,
-                                   float radius) {
+                                   const TestScene& scene = cubes(), std::size_t pair = 0) {
   std::vector<Words> contacts;
-  ReferenceReduce reduce(candidates, 0.02f * radius, static_cast<double>(radius));
+  ReferenceReduce reduce(candidates, scene, pair);
   for (const Candidate& c : reduce.run(limit).taken) contacts.push_back(words_of(c));
   return contacts;
 }
@@ -110,7 +111,7 @@ TEST(Reduction, TakesWhatThePlainRuleTakes) {
     for (int i = 0; i < 6; ++i) {
       const auto candidates = random_candidates(random, count, i % 2 == 1);
       for (const std::uint32_t limit : {1u, 2u, 4u, 16u, 64u})
-        EXPECT_EQ(reduced(candidates, limit), plainly_reduced(candidates, limit, radius()))
+        EXPECT_EQ(reduced(candidates, limit), plainly_reduced(candidates, limit))
             << count << " candidates, limit " << limit << ", case " << i;
     }
 }
@@ -122,9 +123,7 @@ TEST(Reduction, TakesWhatThePlainRuleTakesOfEveryPairOfAScene) {
         Rig::shared().run_with_edges(scene.scene, Organization::kPipelined, {8, 64}, true);
     std::size_t contacts = 0;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      const float smaller =
-          std::min(scene.built_mesh_of(i, 0).radius, scene.built_mesh_of(i, 1).radius);
-      EXPECT_EQ(contacts_of(records, i), plainly_reduced(records.candidates_of(i), 16, smaller))
+      EXPECT_EQ(contacts_of(records, i), plainly_reduced(records.candidates_of(i), 16, scene, i))
           << "pair " << i << " of " << pairs;
       contacts += records.ranges[i].count;
     }
@@ -222,6 +221,44 @@ TEST(Reduction, MeasuresAcrossTheNormalWhereBothFaceOneWay) {
   const Candidate tilted = candidate({0, 0, 0.5}, 0.2f, 0, 0, {0.6, 0, 0.8});
   EXPECT_EQ(reduced({above, deepest}), words_of_all({deepest}));
   EXPECT_EQ(reduced({tilted, deepest}), words_of_all({deepest, tilted}));
+}
+
+// A pane of 1 m and 2 mm, which stands on one of 1 mm, both turned: thinner than what is merged.
+const TestScene& panes() {
+  static const TestScene scene = one_pair(make_box({1, 1, 0.002}), turned({1, 0.2, 0.1}, 1.5),
+                                          make_box({2, 0.001, 2}), turned({0.3, 1, 0.2}, 0.4));
+  return scene;
+}
+
+TEST(Reduction, TakesWhatThePlainRuleTakesOfThinBodies) {
+  Random random(43);
+  std::size_t more = 0;
+  for (const int count : {17, 63, 300})
+    for (int i = 0; i < 6; ++i) {
+      auto candidates = random_candidates(random, count, false);
+      for (Candidate& c : candidates)
+        for (float& x : c.position) x *= 0.02f;
+      const std::vector<Words> taken = reduced(candidates, 64, panes());
+      EXPECT_EQ(taken, plainly_reduced(candidates, 64, panes())) << count << ", case " << i;
+      more += taken.size() - plainly_reduced(candidates, 64).size();
+    }
+  EXPECT_GT(more, 100u);
+}
+
+// Across x it is thinner than what is merged, which is as far as across y.
+TEST(Reduction, TakesBothSidesOfWhatIsThinAcrossTheNormal) {
+  const TestScene pane =
+      one_pair(make_box({0.01, 1, 1}), at(0, 0, 1), make_box({2, 2, 1}), at(0, 0, 0));
+  const double near = 0.009;
+  const Candidate deepest = candidate({0, 0, 0}, 0.3f);
+  const Candidate beside = candidate({near, 0, 0}, 0.2f);
+  EXPECT_EQ(reduced({deepest, beside}, 16, pane), words_of_all({deepest, beside}));
+  EXPECT_EQ(reduced({deepest, beside}), words_of_all({deepest}));
+  // Lying on it, it is as wide as any.
+  const Point x{1, 0, 0};
+  const Candidate lying = candidate({0, 0, 0}, 0.3f, 0, 0, x);
+  const Candidate by_it = candidate({0, near, 0}, 0.2f, 0, 0, x);
+  EXPECT_EQ(reduced({lying, by_it}, 16, pane), words_of_all({lying}));
 }
 
 }  // namespace

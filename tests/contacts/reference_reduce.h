@@ -14,6 +14,8 @@
 
 #include "contacts/field_records.h"
 #include "mesh/vec.h"
+#include "support/test_scene.h"
+#include "support/thickness.h"
 
 namespace ode_ext::test {
 
@@ -32,9 +34,11 @@ struct Reduction {
 
 class ReferenceReduce {
  public:
-  // `merge` [m]: what is nearer to another that faces the same way, or it, adds nothing.
-  ReferenceReduce(std::vector<Candidate> candidates, float merge, double size)
-      : left_(std::move(candidates)), merge_(merge), size_(size) {
+  // Of a pair of a scene, in multiples of the radius of its smaller mesh.
+  ReferenceReduce(std::vector<Candidate> candidates, const TestScene& scene, std::size_t pair)
+      : left_(std::move(candidates)), scene_(scene), pair_(pair) {
+    radius_ = std::min(scene.built_mesh_of(pair, 0).radius, scene.built_mesh_of(pair, 1).radius);
+    size_ = static_cast<double>(radius_);
     std::sort(left_.begin(), left_.end(), [](const Candidate& a, const Candidate& b) {
       return reduction_key(a) < reduction_key(b);
     });
@@ -74,8 +78,23 @@ class ReferenceReduce {
   }
   bool is_near(const Candidate& c, const Candidate& taken) {
     const float gap2 = apart2(c, taken);
-    decided((std::sqrt(static_cast<double>(gap2)) - static_cast<double>(merge_)) / size_);
-    return gap2 <= merge_ * merge_;
+    const float merge = merge_distance(vec(taken.normal));
+    decided((std::sqrt(static_cast<double>(gap2)) - static_cast<double>(merge)) / size_);
+    return gap2 <= merge * merge;
+  }
+  // [m] what is nearer to one with this normal and faces the same way, or it, adds nothing.
+  float merge_distance(Vec3f normal) const {
+    const Point in_b{double{normal.x}, double{normal.y}, double{normal.z}};
+    const Point in_world = rotate(scene_.pose_of(pair_, 1), in_b);
+    double least = static_cast<double>(0.02f * radius_);
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Vec3f size =
+          scene_.built_mesh_of(pair_, side).box.hi - scene_.built_mesh_of(pair_, side).box.lo;
+      const Point half{0.5 * double{size.x}, 0.5 * double{size.y}, 0.5 * double{size.z}};
+      least = std::min(
+          least, half_thickness_across(half, rotate_back(scene_.pose_of(pair_, side), in_world)));
+    }
+    return static_cast<float>(least);
   }
   bool is_near_any(const Candidate& c) {
     return std::any_of(result_.taken.begin(), result_.taken.end(),
@@ -137,8 +156,10 @@ class ReferenceReduce {
   std::vector<Candidate> left_;
   std::set<ox_u32> regions_;
   std::set<std::pair<ox_u32, ox_u32>> manifolds_;  // of a region each
-  float merge_;
-  double size_;
+  const TestScene& scene_;
+  std::size_t pair_;
+  float radius_ = 0;  // [m]
+  double size_ = 0;   // the same
   Reduction result_;
 };
 

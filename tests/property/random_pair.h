@@ -44,9 +44,7 @@ inline std::vector<Candidate> candidates_of(const TestScene& scene) {
 
 // By how much (in multiples of the smaller mesh's radius) the choice of contacts was clear.
 inline double reduction_margin(const TestScene& scene, const std::vector<Candidate>& candidates) {
-  const float radius = std::min(scene.built_mesh_of(0, 0).radius, scene.built_mesh_of(0, 1).radius);
-  ReferenceReduce reduce(candidates, 0.02f * radius, static_cast<double>(radius));
-  return reduce.run(16).margin;
+  return ReferenceReduce(candidates, scene, 0).run(16).margin;
 }
 
 }  // namespace ode_ext::test

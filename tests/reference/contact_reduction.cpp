@@ -27,10 +27,11 @@ double apart(const ReferenceContact& a, const ReferenceContact& b) {
 }  // namespace
 
 std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
-                                      std::size_t max_contacts, double merge) {
+                                      std::size_t max_contacts, const MergeDistance& merge) {
   std::vector<ReferenceContact> kept;
   // Something that is kept and faces the same way, or is faced by it.
   std::vector<bool> is_near(all.size(), false);
+  std::vector<bool> is_merged(all.size(), false);              // the same, whatever way it faces
   std::vector<double> gaps(all.size(), ContactBox::infinity);  // to the nearest that is kept
   std::set<std::size_t> regions, manifolds;
   const auto take = [&](std::size_t i) {
@@ -41,14 +42,16 @@ std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
       const double gap = apart(all[k], all[i]);
       gaps[k] = std::min(gaps[k], gap);
       const bool adds = !face_same_way(all[k], all[i]) && !face_one_another(all[k], all[i]);
-      if (!adds && gap <= merge) is_near[k] = true;
+      if (gap > merge(all[i].normal)) continue;
+      is_merged[k] = true;
+      if (!adds) is_near[k] = true;
     }
   };
   for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
     if (regions.count(all[i].region) == 0) take(i);
   for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
     if (manifolds.count(all[i].manifold) == 0) {
-      if (gaps[i] > merge) take(i);
+      if (!is_merged[i]) take(i);
       manifolds.insert(all[i].manifold);
     }
   while (kept.size() < max_contacts) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "reference/contact_constants.h"
+#include "support/thickness.h"
 
 namespace ode_ext::test {
 namespace {
@@ -176,8 +177,14 @@ ReferenceContacts reference_contacts(const ContactMesh& a, const TestPose& pa, c
   result.found = find_features(pair);
   result.manifolds = find_manifolds(pair, result.found, options);
   result.all = contacts_of(pair, result.found, result.manifolds);
-  result.contacts =
-      reduced(result.all, options.max_contacts, kMergeDistance * std::min(a.radius, b.radius));
+  const auto half_across = [](const ContactMesh& mesh, const TestPose& pose, const Point& normal) {
+    const ContactBox& box = mesh.tree.bounds();
+    return half_thickness_across(0.5 * (box.high - box.low), rotate_back(pose, normal));
+  };
+  result.contacts = reduced(result.all, options.max_contacts, [&](const Point& normal) {
+    return std::min({kMergeDistance * std::min(a.radius, b.radius), half_across(a, pa, normal),
+                     half_across(b, pb, normal)});
+  });
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "reference/contact_features.h"
@@ -43,8 +44,9 @@ std::vector<ReferenceContact> contacts_of(const ContactPair& pair, const Contact
                                           const std::vector<ContactManifold>& manifolds);
 
 // The deepest, the first of each region, of each manifold, then what spreads them most; of contacts
-// in order. `merge` [m]: closer ones hold no better than one.
+// in order. Those closer to one that is kept than the distance for its normal hold no better [m].
+using MergeDistance = std::function<double(const Point& normal)>;
 std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
-                                      std::size_t max_contacts, double merge);
+                                      std::size_t max_contacts, const MergeDistance& merge);
 
 }  // namespace ode_ext::test
