@@ -42,8 +42,8 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
   return false;
 }
 
-// [m] Half of how thick a mesh is across a normal in its frame: of those axes of its box that do not
-// face that way, along the one that it is thinnest along.
+// [m] Half of how thick a mesh is across a normal in its frame: the least half size of its box, of
+// axes that do not face that way.
 static float ox_half_across(__global const ox_mesh* mesh, float3 normal) {
   const float3 half_size = vload3(0, mesh->box_half);
   const float3 along = fabs(normal);

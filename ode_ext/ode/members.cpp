@@ -26,6 +26,10 @@ bool is_usable(const Pose& pose) {
   return true;
 }
 
+// Askew to all that things are lined up along: which of two copies in a stack or in a row comes
+// first does not depend on what one is off to the side by rounding.
+constexpr Vec3d kOrderAlong{577, 769, 1283};
+
 bool is_as(const PairMember& member, dTriMeshDataID data, const Mesh* mesh, const Pose& given) {
   return member.stamp != 0 && member.data == data && member.mesh.get() == mesh &&
          same(member.given, given);
@@ -108,11 +112,11 @@ void Members::prune(std::uint64_t round) {
 
 bool in_canonical_order(const PairMember& a, const PairMember& b) {
   if (a.mesh->shape_hash != b.mesh->shape_hash) return a.mesh->shape_hash < b.mesh->shape_hash;
-  const auto position = [](const PairMember& m) {
-    const Vec3d p = frame_pose(m.pose, *m.mesh).position;
-    return std::tuple(p.x, p.y, p.z);
-  };
-  if (position(a) != position(b)) return position(a) < position(b);
+  const Vec3d apart = frame_pose(a.pose, *a.mesh).position - frame_pose(b.pose, *b.mesh).position;
+  const double along = dot(kOrderAlong, apart);
+  if (along != 0) return along < 0;
+  const std::tuple by_axes(apart.x, apart.y, apart.z), none(0.0, 0.0, 0.0);
+  if (by_axes != none) return by_axes < none;
   const int poses = std::memcmp(&a.pose, &b.pose, sizeof(Pose));
   if (poses != 0) return poses < 0;
   const std::vector<Triangle>& triangles = a.mesh->topology->triangles;

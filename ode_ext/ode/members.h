@@ -71,8 +71,8 @@ class Members {
 
 // The order in which a pair is computed. It depends on the meshes and the poses alone, so that a
 // pair gives the same bytes whichever way round, whenever and in whatever company it is asked for;
-// only copies at one pose are told apart by their handles. Copies go by where they are, one axis
-// after the other: that is the same wherever the scene is, and mostly in the next pass.
+// only copies at one pose are told apart by their handles. Copies go by where they are, along a
+// direction that is askew: that is the same wherever the scene is, and mostly in the next pass.
 bool in_canonical_order(const PairMember& a, const PairMember& b);
 
 }  // namespace ode_ext
