@@ -228,7 +228,10 @@ if(TARGET falling_objects)
   set_tests_properties(same_contacts_in_every_run PROPERTIES TIMEOUT 120)
   add_test(NAME refusals_of_falling_objects
            COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/refusals_test.sh $<TARGET_FILE:falling_objects>)
-  set_tests_properties(refusals_of_falling_objects PROPERTIES TIMEOUT 120)
+  add_test(NAME outputs_of_falling_objects
+           COMMAND ${PROJECT_SOURCE_DIR}/tests/demos/outputs_test.sh $<TARGET_FILE:falling_objects>)
+  set_tests_properties(refusals_of_falling_objects outputs_of_falling_objects
+                       PROPERTIES TIMEOUT 120)
 endif()
 
 # What a work-group goes through together, which no processor's OpenCL can: compiled for the host.

@@ -14,8 +14,10 @@ int main(int argc, char** argv) {
   setenv("POCL_AFFINITY", "1", 0);
   const auto parsed = falling_objects::parse_options(argc, argv, std::cout, std::cerr);
   if (parsed.exit_code) return *parsed.exit_code;
-  if (parsed.options.wants_window(falling_objects::can_show_window())) {
-    return falling_objects::run_window(parsed.options, &falling_objects::show_window);
+  const auto& options = parsed.options;
+  if (options.pictures.window ||
+      (options.may_have_window() && falling_objects::can_show_window())) {
+    return falling_objects::run_window(options, &falling_objects::show_window);
   }
-  return falling_objects::run(parsed.options, &falling_objects::make_film);
+  return falling_objects::run(options, &falling_objects::make_film);
 }

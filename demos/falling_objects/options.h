@@ -36,9 +36,8 @@ struct Options : SimulationSettings {
     return check || check_rest || compare || !csv.empty() || !snapshot.empty() || !record.empty() ||
            pictures.has_film();
   }
-  bool wants_window(bool there_is_a_display) const {
-    return pictures.window ||
-           (there_is_a_display && !pictures.no_window && !quiet && !wants_more_than_a_window());
+  bool may_have_window() const {
+    return !pictures.no_window && !quiet && !wants_more_than_a_window();
   }
   // The last 0.5 s, over which speeds are judged.
   std::size_t rest_steps() const {

@@ -38,6 +38,24 @@ int steps_in(double seconds, double hz) {
   return std::max(1, static_cast<int>(std::lround(seconds * hz)));
 }
 
+// What a run leaves behind, one after the other: what cannot be written takes nothing else with it.
+class Outputs {
+ public:
+  template <class Write>
+  void write(Write write_one) {
+    try {
+      write_one();
+    } catch (const std::exception& e) {
+      std::cerr << e.what() << '\n';
+      complete_ = false;
+    }
+  }
+  bool complete() const { return complete_; }
+
+ private:
+  bool complete_ = true;
+};
+
 void close(std::ofstream& file, const std::string& path) {
   file.close();
   if (!file) throw std::runtime_error("writing '" + path + "' failed");
@@ -87,9 +105,11 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   const int drape_every = steps_in(kDrapeEvery, options.hz);
   const int record_every = steps_in(kRecordEvery, options.hz);
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
-  for (int step = 0; step < options.steps; ++step) {
+  Outputs outputs;
+  bool finite = true;
+  for (int step = 0; step < options.steps && finite && outputs.complete(); ++step) {
     StepRecord record = world.step();
-    const bool finite = checks.after_step(record, simulation.contacts());
+    finite = checks.after_step(record, simulation.contacts());
     expectations.after_step();
     if (finite && recorder && (step + 1) % record_every == 0) {
       recorder->record((step + 1) / options.hz);
@@ -111,8 +131,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     if (options.check_rest && step >= rest_from) checks.collect_speeds(record);
     records.push_back(record);
     progress.show(record);
-    if (spectator) spectator->after_step(record);
-    if (!finite) break;
+    if (spectator) outputs.write([&] { spectator->after_step(record); });
   }
   progress.finish();
   if (options.check_rest) checks.judge_rest();
@@ -121,22 +140,33 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);
-  if (spectator) spectator->finish(std::cout);
+  if (spectator && outputs.complete()) outputs.write([&] { spectator->finish(std::cout); });
   if (csv.is_open()) {
-    write_csv(csv, records);
-    close(csv, options.csv);
+    outputs.write([&] {
+      write_csv(csv, records);
+      close(csv, options.csv);
+    });
   }
-  if (recorder) recorder->write(options.record);
+  if (recorder) outputs.write([&] { recorder->write(options.record); });
   if (snapshot.is_open()) {
-    const std::vector<std::unique_ptr<Sheet>> none;
-    write_snapshot(snapshot, scene, sheets != nullptr ? sheets->all() : none);
-    close(snapshot, options.snapshot);
+    outputs.write([&] {
+      const std::vector<std::unique_ptr<Sheet>> none;
+      write_snapshot(snapshot, scene, sheets != nullptr ? sheets->all() : none);
+      close(snapshot, options.snapshot);
+    });
   }
   const int verdict = print_verdict(options, checks, expectations.outcomes());
-  if (static_cast<int>(records.size()) == options.steps) return verdict;
-  std::cerr << "stopped after step " << records.size() << " of " << options.steps
-            << ": a position or velocity is no longer finite\n";
-  return kExitCheckFailed;
+  outputs.write([] {
+    if (!std::cout.flush()) throw std::runtime_error("the report could not be written");
+  });
+  if (static_cast<int>(records.size()) < options.steps) {
+    std::cerr << "stopped after step " << records.size() << " of " << options.steps << ": "
+              << (finite ? "no pictures can be written"
+                         : "a position or velocity is no longer finite")
+              << '\n';
+    return kExitCheckFailed;
+  }
+  return outputs.complete() ? verdict : kExitCheckFailed;
 }
 
 template <class Work>

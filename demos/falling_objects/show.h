@@ -13,7 +13,7 @@ namespace falling_objects {
 // cannot be done.
 std::unique_ptr<Spectator> make_film(const World& world);
 
-// There is a display, and a window to put there.
+// There is a display, and a window to put there. Warns where the display cannot be had.
 bool can_show_window();
 
 // Until the user closes it. Returns the exit code.

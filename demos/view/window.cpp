@@ -27,8 +27,13 @@ bool has_display() {
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
 }
 
+std::string why_no_window() {
+  return glfwInit() == GLFW_FALSE ? "no window can be opened: " + problem() : "";
+}
+
 Window::Window(Size size, const std::string& title) {
-  if (glfwInit() == GLFW_FALSE) throw NoPictures("no window can be opened: " + problem());
+  const std::string why_not = why_no_window();
+  if (!why_not.empty()) throw NoPictures(why_not);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);

@@ -13,6 +13,8 @@ namespace view {
 
 // DISPLAY or WAYLAND_DISPLAY is set.
 bool has_display();
+// Why no window can be opened there, or "".
+std::string why_no_window();
 
 class Window {
  public:

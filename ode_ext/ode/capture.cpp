@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -13,7 +12,6 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -21,6 +19,7 @@
 
 #include "ode/capture_format.h"
 #include "ode/messages.h"
+#include "ode/output_of_environment.h"
 #include "opencl/fork_guard.h"
 
 namespace ode_ext {
@@ -207,14 +206,11 @@ struct CloseCapture {
 }  // namespace
 
 void open_capture_of_environment() {
-  const char* path = std::getenv("ODE_EXT_CAPTURE");
-  if (path == nullptr || *path == '\0') return;
+  const HeldMessages held;
   const std::lock_guard lock(capture_mutex);
   if (is_opened) return;
-  std::FILE* opened = std::fopen(path, "wb");
-  if (opened == nullptr)
-    throw std::runtime_error("ODE_EXT_CAPTURE names '" + std::string(path) +
-                             "', which cannot be written: " + std::strerror(errno));
+  std::FILE* opened = open_output_of_environment("ODE_EXT_CAPTURE");
+  if (opened == nullptr) return;
   file = new CaptureFile(opened);
   is_opened = capturing = true;
 }

@@ -5,14 +5,13 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
 #include "ode/messages.h"
+#include "ode/output_of_environment.h"
 #include "opencl/fork_guard.h"
 
 namespace ode_ext {
@@ -56,15 +55,11 @@ void write_event(const char* name, int track, double start_us, double duration_u
 }  // namespace
 
 void open_trace_of_environment() {
-  const char* path = std::getenv("ODE_EXT_TRACE");
-  if (path == nullptr || *path == '\0') return;
+  const HeldMessages held;
   const std::lock_guard lock(trace_mutex);
   if (trace != nullptr || is_given_up) return;
-  trace = std::fopen(path, "w");
-  if (trace == nullptr)
-    throw std::runtime_error("ODE_EXT_TRACE names '" + std::string(path) +
-                             "', which cannot be written: " + std::strerror(errno));
-  std::fputs("[\n", trace);
+  trace = open_output_of_environment("ODE_EXT_TRACE");
+  if (trace != nullptr) std::fputs("[\n", trace);
 }
 
 void trace_pass(std::chrono::steady_clock::time_point start, const PassStats& stats) {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <string>
 
+#include "api/params.h"
 #include "ode/messages.h"
 #include "ode/registry.h"
 #include "ode_ext/ode_ext.h"
@@ -20,40 +21,47 @@ constexpr int kAttempts = 16;
 std::atomic<bool> cannot_create{false};
 std::atomic<double> seconds{0};
 
-// A number of the environment that is not one, or too large, is as bad as one that a collider
-// refuses.
-int number_of_environment(const char* name, int otherwise, int most) {
-  const char* text = std::getenv(name);
-  if (text == nullptr || *text == '\0') return otherwise;
-  char* end = nullptr;
-  const long number = std::strtol(text, &end, 10);
-  return *end == '\0' && number >= 0 && number <= most ? static_cast<int>(number) : -1;
-}
-
 // What a program would say in code: settings of the environment.
-dBatchColliderParams params_of_environment() {
+struct Settings {
   dBatchColliderParams params;
-  dBatchColliderParamsInit(&params);
-  params.max_contacts = number_of_environment("ODE_EXT_MAX_CONTACTS", params.max_contacts, 1000000);
-  params.trust_meshes = number_of_environment("ODE_EXT_TRUST_MESHES", 0, 1);
-  params.config = std::getenv("ODE_EXT_CONFIG");
-  return params;
-}
+  std::string wrong;  // what of it is no setting, or ""
 
-// Null: it cannot be, which is said once and not tried again.
-dBatchColliderID create() {
+  Settings() {
+    dBatchColliderParamsInit(&params);
+    params.max_contacts =
+        number("ODE_EXT_MAX_CONTACTS", params.max_contacts, 1, static_cast<int>(kMaxContacts));
+    params.trust_meshes = number("ODE_EXT_TRUST_MESHES", 0, 0, 1);
+    params.config = std::getenv("ODE_EXT_CONFIG");
+  }
+
+ private:
+  int number(const char* name, int otherwise, int least, int most) {
+    const char* text = std::getenv(name);
+    if (text == nullptr || *text == '\0') return otherwise;
+    char* end = nullptr;
+    const long value = std::strtol(text, &end, 10);
+    if (*end == '\0' && value >= least && value <= most) return static_cast<int>(value);
+    wrong = std::string(name) + " is '" + text + "', expected " + std::to_string(least) + " to " +
+            std::to_string(most);
+    return otherwise;
+  }
+};
+
+// Null: it cannot be, which is said once and not tried again; or there is one, `only_the_first`.
+dBatchColliderID create(bool only_the_first = false) {
   static std::mutex one_at_a_time;
   const HeldMessages held;
   const std::lock_guard lock(one_at_a_time);
-  if (cannot_create) return nullptr;
+  if (cannot_create || (only_the_first && !live_colliders().empty())) return nullptr;
   const auto start = std::chrono::steady_clock::now();
-  const dBatchColliderParams params = params_of_environment();
-  const dBatchColliderID collider = dBatchColliderCreate(&params);
+  const Settings settings;
+  const dBatchColliderID collider =
+      settings.wrong.empty() ? dBatchColliderCreate(&settings.params) : nullptr;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   seconds = seconds + took.count();
   if (collider == nullptr) {
     cannot_create = true;
-    std::string why = dBatchColliderGetLastErrorMessage();
+    std::string why = settings.wrong.empty() ? dBatchColliderGetLastErrorMessage() : settings.wrong;
     while (why.ends_with('\n') || why.ends_with('.')) why.pop_back();
     // A list of devices has a line each.
     why += why.find('\n') == std::string::npos ? ". " : "\n";
@@ -110,7 +118,7 @@ bool collide_by_a_free_collider(const PassRoot& root, void* data, dNearCallback*
 }
 
 void have_a_collider() {
-  if (live_colliders().empty() && !cannot_create) create();
+  if (live_colliders().empty() && !cannot_create) create(true);
 }
 
 double seconds_of_starting() { return seconds; }

@@ -74,9 +74,9 @@ same_as_stock() {
 }
 
 same_as_stock ODE_EXT_DEVICE=nosuch:: "nosuch"
-same_as_stock ODE_EXT_MAX_CONTACTS=many "max_contacts"
+same_as_stock ODE_EXT_MAX_CONTACTS=many "ODE_EXT_MAX_CONTACTS is 'many', expected 1 to 64"
 same_as_stock ODE_EXT_CONFIG=rays=none "rays"
-same_as_stock ODE_EXT_TRUST_MESHES=no "trust_meshes"
+same_as_stock ODE_EXT_TRUST_MESHES=no "ODE_EXT_TRUST_MESHES is 'no', expected 0 to 1"
 same_as_stock ODE_EXT_LOG=loud "ODE_EXT_LOG"
 # lacking <function> <sentence>: an ODE whose table of names has another one in its place.
 lacking() {

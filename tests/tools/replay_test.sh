@@ -112,4 +112,11 @@ said=$(ODE_EXT_CAPTURE=$work/no/where "$falling_objects" --objects 2 --steps 1 -
 said=$(ODE_EXT_CAPTURE=/dev/full "$falling_objects" --objects 4 --steps 9 --quiet 2>&1) ||
   fail "a full disk ends the program: $said"
 [[ $said == *"cannot be written any more: No space left"* ]] || fail "a full disk: $said"
+
+# Programs that run at one time, as of one script, whose files have one name.
+said=$(flock "$work/shared" env ODE_EXT_CAPTURE="$work/shared" "$falling_objects" \
+  --objects 2 --steps 1 --quiet 2>&1)
+[[ $said == *"another process writes the file that ODE_EXT_CAPTURE names; this one writes"* ]] ||
+  fail "nothing is said of a file that another process writes: $said"
+[[ ! -s $work/shared && -s $(echo "$work"/shared.*) ]] || fail "two processes write one capture"
 echo "captures replay"

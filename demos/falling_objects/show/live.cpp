@@ -302,7 +302,12 @@ class Live {
 
 }  // namespace
 
-bool can_show_window() { return view::has_display(); }
+bool can_show_window() {
+  if (!view::has_display()) return false;
+  const std::string why_not = view::why_no_window();
+  if (!why_not.empty()) std::cerr << "warning: " << why_not << '\n';
+  return why_not.empty();
+}
 
 int show_window(const Options& options) {
   try {

@@ -1,0 +1,46 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# What falling_objects cannot write takes nothing else with it, and is not taken for written.
+set -euo pipefail
+
+program=${1:?usage: tests/demos/outputs_test.sh <falling_objects>}
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+unset DISPLAY WAYLAND_DISPLAY
+
+fail() { echo "outputs: $*" >&2; exit 1; }
+
+# ran <exit code> <option>...: with its report in $out/report
+ran() {
+  local expected=$1 code=0
+  shift
+  rm -f "$out"/run.*
+  timeout 60 "$program" --collider ode --objects 2 --steps 4 "$@" \
+    > "$out/report" 2> "$out/errors" || code=$?
+  [[ $code -eq $expected ]] || fail "$*: exit code $code instead of $expected: $(cat "$out/errors")"
+}
+has() { grep -q -F -e "$2" "$1" || fail "'$2' is not in $1: $(cat "$1")"; }
+snapshot="$out/run.obj"
+recording="$out/run.glb"
+
+ran 1 --quiet --check --csv /dev/full --snapshot "$snapshot" --record "$recording"
+has "$out/errors" "/dev/full"
+has "$out/report" "check: "
+[[ -s $snapshot && -s $recording ]] || fail "a CSV that is not written takes others with it"
+
+ln -s /dev/full "$out/full.glb"
+ran 1 --quiet --check --record "$out/full.glb" --snapshot "$snapshot"
+has "$out/errors" "$out/full.glb"
+has "$out/report" "check: "
+[[ -s $snapshot ]] || fail "a recording that is not written takes others with it"
+
+code=0
+"$program" --collider ode --objects 2 --steps 4 --quiet --snapshot "$snapshot" \
+  > /dev/full 2> "$out/errors" || code=$?
+[[ $code -eq 1 ]] || fail "a report that is not written: exit code $code"
+has "$out/errors" "the report could not be written"
+
+# A display that is not there, as in a shell of another machine.
+DISPLAY=:97 ran 0
+has "$out/report" "contact hash"
+echo "outputs: each by itself"
