@@ -6,8 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <limits>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "falling_objects/output_file.h"
+#include "falling_objects/within.h"
 #include "scene_file/scene_file.h"
 #include "scene_file/scene_list.h"
 
@@ -49,7 +52,10 @@ Examples:
   falling_objects --scene nut-on-bolt --check       what ought to hold, and does it?
   falling_objects --scene my.toml --mesh part.glb   a scene and a mesh of your own
 
-Exit codes: 0 done, 1 a check failed, 2 wrong usage or unreadable file, 3 no device.)";
+Ctrl-C ends a run after the step that it is in, and what there is of it is written.
+
+Exit codes: 0 done, 1 a check failed or an output could not be written, 2 wrong usage or unreadable
+file, 3 no device, 128 and its number: ended by a signal.)";
 
 }  // namespace
 
@@ -61,7 +67,6 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
   app.footer(kFooter);
   app.get_formatter()->column_width(36);
 
-  const auto positive = CLI::Range(1e-6, 1e6);
   app.add_option("--scene", o.scene, "The name of a scene, or a TOML file (default: rigid)")
       ->option_text("NAME|FILE.toml")
       ->group("Scene");
@@ -83,9 +88,10 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
           ->group("Scene");
   const CLI::Option* hz =
       app.add_option("--hz", o.hz, "Steps per simulated second (default: what the scene says)")
-          ->check(positive)
+          ->check(within(1e-6, 1e6))
           ->group("Scene");
   app.add_option("--seed", o.seed, "Of the placement and the ground")
+      ->check(is_seed())
       ->capture_default_str()
       ->group("Scene");
   app.add_option("--mesh", o.meshes,
@@ -133,8 +139,8 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
       ->check(why_not_written)
       ->group("Output");
   app.add_option("--record", o.record,
-                 "Write the run to this .glb file (glTF), 30 poses a second, for Blender and other "
-                 "viewers; without sheets")
+                 "Write the run to this .glb file (glTF), about 30 poses a second, for Blender and "
+                 "other viewers; without sheets")
       ->check(ends_in({".glb"}))
       ->check(why_not_written)
       ->group("Output");
@@ -171,6 +177,15 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
           "--window",
           "a window neither measures nor writes: leave out --check, --check-rest, "
           "--compare, --csv, --snapshot, --record, --frames and --video, or --window");
+    }
+    const std::vector<std::pair<const char*, std::string>> outputs = {
+        {"--csv", o.csv}, {"--snapshot", o.snapshot}, {"--record", o.record}};
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!outputs[i].second.empty() && outputs[i].second == outputs[k].second)
+          throw CLI::ValidationError(
+              outputs[i].first, "names the file that " + std::string(outputs[k].first) + " writes");
+      }
     }
     // ODE's own collider knows no open meshes with two sides.
     if (o.has_sheets() && (o.compare || o.collider == Collider::kOde)) {

@@ -27,7 +27,8 @@ std::string cannot_write(const std::string& path, int error) {
 
 std::string why_not_written(const std::string& path) {
   std::error_code none;
-  if (path.empty() || fs::is_directory(path, none)) return cannot_write(path, EISDIR);
+  if (path.empty()) return "a file's name is expected";
+  if (fs::is_directory(path, none)) return cannot_write(path, EISDIR);
   fs::path there = fs::exists(path, none) ? fs::path(path) : folder_of(path);
   const bool is_new = there != path;
   // What cannot be looked at is its own folder in the end: "." and "/" are.

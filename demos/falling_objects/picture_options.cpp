@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "falling_objects/output_file.h"
+#include "falling_objects/within.h"
 
 namespace falling_objects {
 namespace {
@@ -58,7 +59,7 @@ void add_picture_options(CLI::App& app, PictureOptions& o) {
          "Of pictures and window, pixels (default: 1280x720)")
       ->group("Pictures");
   add("--fps", o.fps, "Pictures per simulated second")
-      ->check(CLI::Range(0.1, 1000.0))
+      ->check(within(0.1, 1000))
       ->capture_default_str();
   add("--camera", o.camera,
       "Eye and target, x,y,z:x,y,z [m]; or azimuth,elevation[,distance] [degrees, m]");

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "falling_objects/interruption.h"
 #include "falling_objects/output_file.h"
 #include "falling_objects/report.h"
 #include "falling_objects/snapshot.h"
@@ -61,8 +62,13 @@ void close(std::ofstream& file, const std::string& path) {
   if (!file) throw std::runtime_error("writing '" + path + "' failed");
 }
 
+// Of a run that was cut short nothing is known.
 int print_verdict(const Options& options, const Checks& checks,
-                  const std::vector<Outcome>& outcomes) {
+                  const std::vector<Outcome>& outcomes, bool finished) {
+  if (!finished) {
+    if (options.check || options.check_rest) std::cout << "check: not finished\n";
+    return kExitCheckFailed;
+  }
   for (const Outcome& outcome : outcomes) {
     std::cout << (outcome.holds ? "holds: " : "does not hold: ") << outcome.words << '\n';
   }
@@ -107,7 +113,9 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   const int rest_from = options.steps - static_cast<int>(options.rest_steps());
   Outputs outputs;
   bool finite = true;
-  for (int step = 0; step < options.steps && finite && outputs.complete(); ++step) {
+  const Interruption interruption;
+  const auto goes_on = [&] { return finite && outputs.complete() && interruption.signal() == 0; };
+  for (int step = 0; step < options.steps && (step == 0 || goes_on()); ++step) {
     StepRecord record = world.step();
     finite = checks.after_step(record, simulation.contacts());
     expectations.after_step();
@@ -155,16 +163,18 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
       close(snapshot, options.snapshot);
     });
   }
-  const int verdict = print_verdict(options, checks, expectations.outcomes());
+  const bool finished = static_cast<int>(records.size()) == options.steps || !finite;
+  const int verdict = print_verdict(options, checks, expectations.outcomes(), finished);
   outputs.write([] {
     if (!std::cout.flush()) throw std::runtime_error("the report could not be written");
   });
   if (static_cast<int>(records.size()) < options.steps) {
     std::cerr << "stopped after step " << records.size() << " of " << options.steps << ": "
-              << (finite ? "no pictures can be written"
-                         : "a position or velocity is no longer finite")
+              << (!finite                      ? "a position or velocity is no longer finite"
+                  : interruption.signal() != 0 ? "interrupted"
+                                               : "no pictures can be written")
               << '\n';
-    return kExitCheckFailed;
+    return interruption.signal() != 0 ? 128 + interruption.signal() : kExitCheckFailed;
   }
   return outputs.complete() ? verdict : kExitCheckFailed;
 }

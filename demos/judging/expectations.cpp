@@ -118,7 +118,8 @@ std::vector<Outcome> Expectations::outcomes() const {
 
 Outcome Expectations::judge(const Watch& watch) const {
   const double last = std::isfinite(watch.what.until) ? watch.what.until : watch.what.after;
-  const double needed = std::ceil(last) + (watch.turnings.empty() ? 0 : 1);
+  const bool is_of_a_second = !watch.turnings.empty() || watch.what.kind == Kind::kStill;
+  const double needed = std::ceil(last) + (is_of_a_second ? 1 : 0);
   if (steps_ < needed * hz_) {
     return {format("%s: a run of %.1f s is too short to tell, %.0f s are needed",
                    name_of(watch).c_str(), steps_ / hz_, needed),

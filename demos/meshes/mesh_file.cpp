@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 
 #include "meshes/parts.h"
@@ -15,14 +17,20 @@
 namespace falling_objects {
 namespace {
 
-// The library leaves alone what is less across [m] (README, "Limits").
+// The library leaves alone what is less across or reaches farther [m] (README, "Limits").
 constexpr double kLeastExtent = 1.0 / (1 << 30);
+constexpr double kMostReach = static_cast<double>(std::uint64_t{1} << 36);
 // Of a closed mesh, a share of the cube of its largest extent. Vertices are floats: a needle whose
 // thickness is rounding, 6e-8 of its length, has 4e-15. ODE aborts where a mass is not positive,
 // and where dividing by it gives no number.
 constexpr double kLeastVolume = 1e-13;
 
 }  // namespace
+
+void check_reach(const TriangleMesh& mesh, const std::string& path) {
+  if (!(bounding_radius(mesh) <= kMostReach))
+    throw std::runtime_error("the mesh '" + path + "' is too large: the library takes 6.8e10 m");
+}
 
 void check_has_volume(const TriangleMesh& mesh, const std::string& path) {
   Point low = mesh.vertex(0), high = low;
@@ -48,6 +56,9 @@ void check_has_volume(const TriangleMesh& mesh, const std::string& path) {
 }
 
 TriangleMesh read_mesh_file(const std::string& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw std::runtime_error("cannot read the mesh '" + path + "': it is a folder");
+  }
   Assimp::Importer importer;
   // Normals and texture coordinates keep vertices apart that are one vertex to a collider.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
@@ -56,8 +67,8 @@ TriangleMesh read_mesh_file(const std::string& path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(
-      path, aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_SortByPType |
-                aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
+      path, aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_RemoveComponent |
+                aiProcess_SortByPType | aiProcess_PreTransformVertices);
   if (scene == nullptr) {
     throw std::runtime_error("cannot read the mesh '" + path + "': " + importer.GetErrorString());
   }

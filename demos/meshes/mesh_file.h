@@ -15,6 +15,10 @@ TriangleMesh read_mesh_file(const std::string& path);
 // The same, centred and scaled like the demo's own shapes.
 TriangleMesh load_mesh(const std::string& path);
 
+// Throws std::runtime_error where the library has no contacts for a mesh, since it reaches too far
+// from its origin.
+void check_reach(const TriangleMesh& mesh, const std::string& path);
+
 // Throws std::runtime_error where ODE would find no mass in a mesh of this shape and size, or
 // nothing could touch it.
 void check_has_volume(const TriangleMesh& mesh, const std::string& path);

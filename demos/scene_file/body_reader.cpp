@@ -112,12 +112,15 @@ void BodyReader::read_mesh(const std::string& name, TomlTable& table) {
     if (table.has("shape")) table.fail("shape", "a mesh has 'shape' or 'file', not both");
     const std::filesystem::path path = std::filesystem::path(folder_) / file;
     const auto radius = table.optional_number("radius", kPositive);
+    if (radius && table.has("scale"))
+      table.fail("scale", "a mesh has 'radius' or 'scale', not both");
     const double scale = table.number("scale", 1, kPositive);
     TriangleMesh mesh;
     try {
       mesh = read_mesh_file(path.string());
       center_on_mass(mesh);
       scale_mesh(mesh, radius ? *radius / bounding_radius(mesh) : scale);
+      check_reach(mesh, path.string());
       check_has_volume(mesh, path.string());
     } catch (const std::runtime_error& e) {
       table.fail("file", e.what());
@@ -167,7 +170,8 @@ void BodyReader::read_body(TomlTable& table) {
     if (axis == Point{0, 0, 0}) {
       table.fail("turn", "'turn' is an axis, which must have a length, and an angle in degrees");
     }
-    body.rotation = rotation_about(axis, (*v)[3] * std::numbers::pi / 180);
+    body.rotation =
+        rotation_about(direction_of(axis), std::fmod((*v)[3], 360) * std::numbers::pi / 180);
   }
   body.velocity = table.point("velocity", {0, 0, 0});
   body.spin = table.point("spin", {0, 0, 0});
@@ -208,6 +212,9 @@ std::size_t BodyReader::body_named(const char* key, const std::string& name,
   if (const auto count = std::count_if(found, bodies.end(), is_named); count > 1) {
     table.fail(key, std::to_string(count) + " bodies are named '" + name +
                         "': give each [[body]] a 'name' of its own");
+  }
+  if (bodies.empty()) {
+    table.fail(key, "there is no body '" + name + "': what is dropped has no names");
   }
   if (found == bodies.end()) {
     std::vector<std::string> names;

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_file/rotation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace falling_objects {
+
+Point direction_of(const Point& axis) {
+  const int exponent =
+      std::ilogb(std::max({std::abs(axis[0]), std::abs(axis[1]), std::abs(axis[2])}));
+  return {std::scalbn(axis[0], -exponent), std::scalbn(axis[1], -exponent),
+          std::scalbn(axis[2], -exponent)};
+}
 
 Quaternion rotation_about(const Point& axis, double angle) {
   const double scale = std::sin(angle / 2) / std::hypot(axis[0], axis[1], axis[2]);

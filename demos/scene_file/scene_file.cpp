@@ -8,6 +8,7 @@
 
 #include "meshes/mesh_file.h"
 #include "scene_file/body_reader.h"
+#include "scene_file/rotation.h"
 #include "scene_file/toml_table.h"
 
 namespace falling_objects {
@@ -88,6 +89,7 @@ JointDescription read_joint(TomlTable& table, const SceneDescription& scene,
   joint.anchor = table.point("anchor", scene.bodies[joint.body].position);
   joint.axis = table.point("axis", joint.axis);
   if (joint.axis == Point{0, 0, 0}) table.fail("axis", "'axis' must have a length");
+  joint.axis = direction_of(joint.axis);
   if (auto motor = table.table("motor")) {
     joint.motor = Motor{motor->number("speed"), motor->number("force", 1e9, kNotNegative)};
     motor->finish();

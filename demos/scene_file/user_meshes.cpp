@@ -2,6 +2,7 @@
 #include "scene_file/user_meshes.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <stdexcept>
 
@@ -33,10 +34,14 @@ void use_meshes(SceneDescription& scene, const std::vector<std::string>& meshes)
     for (const std::string& path : meshes) scene.meshes.push_back({path, load_mesh(path)});
     return;
   }
+  std::set<std::size_t> taken;
   for (const std::string& text : meshes) {
     const auto equals = text.find('=');
-    const bool named = equals != std::string::npos;
-    NamedMesh& mesh = scene.meshes[number_of(scene, named ? text.substr(0, equals) : "")];
+    const bool named = equals != std::string::npos && !std::filesystem::exists(text);
+    const std::size_t number = number_of(scene, named ? text.substr(0, equals) : "");
+    NamedMesh& mesh = scene.meshes[number];
+    if (!taken.insert(number).second)
+      throw std::runtime_error("--mesh: there are two for '" + mesh.name + "'");
     const double radius = bounding_radius(mesh.mesh);
     mesh.mesh = load_mesh(named ? text.substr(equals + 1) : text);
     scale_mesh(mesh.mesh, radius / kShapeRadius);

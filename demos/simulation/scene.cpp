@@ -140,9 +140,11 @@ void Scene::add_shapes(std::vector<std::string>& warnings) {
                          "inertia of a ball");
     }
     if (!closed) {
-      warnings.push_back("the mesh '" + shape.name +
-                         "' is open: it gets the mass and inertia of a ball, and how deep it gets "
-                         "into others cannot be measured");
+      warnings.push_back(
+          "the mesh '" + shape.name +
+          "' is not closed (of each edge two triangles are expected, wound to either "
+          "side): it gets the mass and inertia of a ball, and how deep it gets into "
+          "others cannot be measured");
     }
   }
 }

@@ -63,7 +63,13 @@ Video::Video(const std::string& path, Size size, double fps) : path_(path) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  const int error = posix_spawnp(&encoder_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+  // In a group of its own: Ctrl-C ends the run, and then the film.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  const int error =
+      posix_spawnp(&encoder_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);
   if (error != 0) {

@@ -207,6 +207,16 @@ TEST_F(Expecting, NothingHoldsOfAWayOfWhichOneEndWasSeen) {
   EXPECT_TRUE(holds()) << words();
 }
 
+// What falls has hardly begun to.
+TEST_F(Expecting, StillOfLessThanASecondIsNotTold) {
+  expect("kind = \"still\"\nspeed = 0.1\n");
+  move(0, 0, 0, 0.5);
+  EXPECT_FALSE(holds());
+  EXPECT_THAT(words(), testing::HasSubstr("too short to tell, 1 s are needed"));
+  move(0, 0, 0, 0.5);
+  EXPECT_TRUE(holds()) << words();
+}
+
 TEST_F(Expecting, StillLooksAtTheLastStepWhereASecondHasNone) {
   expect("kind = \"still\"\nspeed = 0.01\n");
   expectations_ = std::make_unique<Expectations>(*scene_, 0.5);

@@ -40,6 +40,18 @@ code=0
 [[ $code -eq 1 ]] || fail "a report that is not written: exit code $code"
 has "$out/errors" "the report could not be written"
 
+# As Ctrl-C, which a script's background jobs ignore.
+"$program" --collider ode --objects 2 --steps 100000000 --quiet --check --csv "$out/run.csv" \
+  --record "$recording" > "$out/report" 2> "$out/errors" &
+sleep 1
+kill -TERM $!
+code=0
+wait $! || code=$?
+[[ $code -eq 143 ]] || fail "a run that is ended has exit code $code"
+has "$out/errors" "stopped after step"
+has "$out/report" "check: not finished"
+[[ $(wc -l < "$out/run.csv") -gt 10 && -s $recording ]] || fail "a run that is ended is lost"
+
 # A display that is not there, as in a shell of another machine.
 DISPLAY=:97 ran 0
 has "$out/report" "contact hash"

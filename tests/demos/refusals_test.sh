@@ -24,6 +24,24 @@ printf 'v 5 0 0\nv 5.0000001 0 0\nv 5 0.0000001 0\nv 5 0 0.0000001\nf 1 3 2\nf 1
   > "$out/small.obj"
 refused "the mesh '$out/small.obj' is too small or too flat to have a volume" --objects 4 --mesh "$out/small.obj"
 
+{
+  printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n'
+  printf 'property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n'
+  printf '0 0 0\n1 0 0\n0 1 0\n3 0 1 900\n'
+} > "$out/damaged.ply"
+refused "cannot read the mesh '$out/damaged.ply'" --objects 4 --mesh "$out/damaged.ply"
+refused "'nan' is no number from" --hz nan
+refused "'-1' is no whole number from 0" --seed -1
+refused "names the file that --csv writes" --csv "$out/one" --snapshot "$out/one"
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' > "$out/a.obj"
+refused "there are two for 'cube'" --scene tower --mesh "$out/a.obj" --mesh "$out/a.obj"
+
+scene() { printf '[[body]]\nmesh = "cube"\nat = [0, 0, 1]\n%s\n' "$1" > "$out/scene.toml"; }
+scene $'[[body]]\nmesh = "far"\n[mesh.far]\nfile = "far.obj"'
+printf 'v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' \
+  > "$out/far.obj"
+refused "is too large" --scene "$out/scene.toml"
+
 # In 1 GB of memory.
 (
   ulimit -v 1000000

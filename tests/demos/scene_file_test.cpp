@@ -71,6 +71,17 @@ TEST(SceneFile, PlacesMeshesByTheirOwnOriginThoughBodiesAreAtTheirCenterOfMass) 
   EXPECT_NEAR(lowest, 4.5, 1e-6);
 }
 
+// Of which squares are 0 or infinite; ODE aborts where a rotation is none.
+TEST(SceneFile, TurnsAboutAxesOfAnyLength) {
+  for (const std::string turn :
+       {"[0, 0, 1e-320, 90]", "[0, 0, 1e300, 90]", "[0, 0, 3, 90]", "[0, 0, 1, 36000000090]"}) {
+    const SceneDescription scene = read("[[body]]\nmesh = \"cube\"\nturn = " + turn);
+    const Quaternion& q = scene.bodies[0].rotation;
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(q[k], k == 0 || k == 3 ? std::sqrt(0.5) : 0, 1e-6) << turn << ", " << k;
+  }
+}
+
 TEST(SceneFile, LaysOutGridsAndPyramids) {
   const SceneDescription grid = read(R"(
     [[body]]

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace ode_ext::replay {
 
@@ -116,6 +117,11 @@ ColliderRecord CaptureFile::collider(Payload& payload) {
   record.device = payload.take_text(record.device_length);
   record.version = payload.take_text(record.version_length);
   if (record.number != colliders_++) fail("is a collider out of order");
+  // What no collider was ever made with.
+  if (record.max_contacts < 1 || record.max_contacts > 64 || record.max_contacts_deformable > 64 ||
+      !(record.open_thickness == 0 || (record.open_thickness >= std::numeric_limits<float>::min() &&
+                                       record.open_thickness <= std::numeric_limits<float>::max())))
+    fail("is a collider with settings that there are none of");
   return record;
 }
 

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "falling_objects/interruption.h"
+
+#include <cstddef>
+
+namespace falling_objects {
+namespace {
+
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+
+volatile std::sig_atomic_t noted = 0;
+
+void note(int signal) { noted = signal; }
+
+}  // namespace
+
+Interruption::Interruption() {
+  noted = 0;
+  struct sigaction action {};
+  action.sa_handler = &note;
+  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  for (std::size_t i = 0; i < 2; ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    // A shell's background jobs ignore Ctrl-C, and go on doing so.
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
+}
+
+Interruption::~Interruption() {
+  for (std::size_t i = 0; i < 2; ++i) sigaction(kSignals[i], &before_[i], nullptr);
+}
+
+int Interruption::signal() const { return noted; }
+
+}  // namespace falling_objects
