@@ -63,6 +63,7 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_BEGINS 64u    // it begins a unit
 #define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
 #define OX_MEMBER_CLEARED 256u  // a unit: it waits for no plane any more
+#define OX_MEMBER_BEND 512u     // a unit: a chord of an edge at which its mesh bends inwards
 
 // A place in the table of the faces of a region, one of each facet.
 typedef struct ox_face {

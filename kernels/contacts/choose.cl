@@ -49,12 +49,40 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
   ++m->manifold;
 }
 
+// Whether a unit is a chord of an edge at which its mesh bends inwards a little, so that the faces
+// there face one way. It comes out past no face of the other mesh that does not: its own mesh goes
+// on beside it, as a floor does on both sides of where it begins to rise.
+static bool ox_is_of_bend(const ox_region_view* r, uint k) {
+  if (ox_is_vertex(ox_flags_of(r, k))) return false;
+  const uint edge = ox_feature_of(r, k)->source;
+  if (!ox_is_valley(r->scene, r->pair, edge)) return false;
+  __global const uint* faces = r->scene->edges[edge].triangle;
+  const float3 one = vload3(0, r->scene->surfaces.triangles[faces[0]].normal);
+  const float3 other = vload3(0, r->scene->surfaces.triangles[faces[1]].normal);
+  return ox_dot(one, other) > OX_SAME_WAY;
+}
+
+// The first of the members: those that begin a unit; returns how many they are. Of a bend no chord
+// is one where there is any other: what is deepest about it is of the other mesh.
+static uint ox_bring_units(const ox_region_view* r) {
+  const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
+  bool any = false;
+  for (uint k = OX_ITEM; k < units; k += OX_ITEMS) {
+    if (ox_is_of_bend(r, k))
+      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_BEND;
+    else
+      any = true;
+  }
+  ox_settle();
+  return ox_any_item(any) ? ox_bring_first(r, units, OX_MEMBER_BEND, 0u) : units;
+}
+
 // The units that wait to be cleared are the first of the members, ever fewer.
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
   ox_moves moves;
   moves.count = 0u;
-  uint waiting = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
+  uint waiting = ox_bring_units(r);
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);

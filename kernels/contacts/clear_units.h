@@ -195,7 +195,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   while (seed.refused.count < OX_FEW) {
     ox_plane_choice choice = ox_search_for(r, &seed);
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &known)) break;
-    if (!ox_unit_stays(r, &seed, &choice)) return choice;
+    if (ox_only_touches(r, &choice) || !ox_unit_stays(r, &seed, &choice)) return choice;
     ox_refuse(&seed.refused, &choice.plane);
     ox_add_to_joint(r, &choice, &joint);
     const ox_plane_choice together = ox_leave_jointly(r, &seed, &joint, &known);

@@ -55,6 +55,12 @@ static inline float ox_way_past(const ox_region_view* r, float depth) {
   return depth + OX_MARGIN * r->scene->pairs[r->pair].epsilon;
 }
 
+// Whether what a plane clears is no deeper than what is not known: it touches, and there is nothing
+// to be taken out of.
+static inline bool ox_only_touches(const ox_region_view* r, const ox_plane_choice* choice) {
+  return choice->depth <= OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+}
+
 // Whether a point of mesh `side` is still inside the other where a plane takes it: another part of
 // that lies there, or the plane is of one that goes on behind.
 static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,

@@ -317,7 +317,9 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
     ox_try_nearest(r, &search, &best);
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
     // Of what is wholly inside the planes of the other are not known all round.
-    if ((r->flags & OX_REGION_CROSSED) == 0u || !ox_whole_stays(r, &best)) return best;
+    if ((r->flags & OX_REGION_CROSSED) == 0u || ox_only_touches(r, &best) ||
+        !ox_whole_stays(r, &best))
+      return best;
     ox_refuse(&search.refused, &best.plane);
     best.judged = ox_max(best.judged, ox_depth_of_both(r, best.plane.normal));
     if (ox_is_better_choice(&best, &of_body)) of_body = best;

@@ -165,7 +165,8 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
   // A hit beyond the source's exit counts for proving the vertex inside. On the surface it is not:
   // it may be the far side of a plate thinner than epsilon.
   if (nearest->entered && !(nearest->back_t <= exit + query->epsilon)) inside = false;
-  if (query->known) inside = nearest->back != OX_NONE;
+  // What is known to be inside and lies on a face leaves by that, not by what is met behind it.
+  if (query->known) inside = nearest->back != OX_NONE && nearest->touching == OX_NONE;
   if (inside) {
     const float slope = ox_dot(query->direction, vload3(0, triangles[nearest->back].normal));
     const bool reversed = query->two_sided && slope < 0.0f;
@@ -181,7 +182,7 @@ static inline ox_outcome ox_judge(const ox_query* query, const ox_nearest* neare
   }
   ox_outcome outcome = ox_miss();
   if (nearest->touching == OX_NONE) return outcome;
-  outcome.kind = OX_HIT_TOUCHING;
+  outcome.kind = query->known ? OX_HIT_INSIDE : OX_HIT_TOUCHING;
   if (query->two_sided &&
       ox_dot(query->direction, vload3(0, triangles[nearest->touching].normal)) < 0.0f)
     outcome.kind |= OX_HIT_REVERSED;

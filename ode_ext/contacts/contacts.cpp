@@ -13,9 +13,15 @@ namespace {
 // distance from the origin at most, while ODE's broad phase sees the program's own. A body pushed
 // out to the last bit would be clear of ODE's boxes before it is clear of ours, and fall; so it is
 // left in by as much.
+//
+// But not all of it: ODE's dWorldStep finds no solution where two bodies that fall as one touch at
+// no depth, as of a stack that is put together without gaps, and lets them through the floor. What
+// is left, by how large they are, moves a body by what is not known in 2^24 steps and more.
 double known_depth(double depth, const Mesh& a, const Mesh& b) {
-  return std::max(0.0, depth - 0x1p-24 * (length(Vec3d(farthest_corner(box_as_given(a)))) +
-                                          length(Vec3d(farthest_corner(box_as_given(b))))));
+  const double unknown = 0x1p-24 * (length(Vec3d(farthest_corner(box_as_given(a)))) +
+                                    length(Vec3d(farthest_corner(box_as_given(b)))));
+  const double least = 0x1p-48 * (static_cast<double>(a.radius) + static_cast<double>(b.radius));
+  return std::max(least, depth - unknown);
 }
 
 // The program's index of a triangle of the device's.

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that touch or nearly do, to within what floats know of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "contacts/placed.h"
+#include "support/rig.h"
+
+namespace ode_ext::test {
+namespace {
+
+// Along y, open upwards: half a tube of 1 m and 1.1 m, of so many flat strips.
+TestMesh half_pipe(unsigned strips) {
+  TestMesh pipe;
+  const unsigned corners = 2 * (strips + 1);  // of a cross section
+  for (const double y : {-1.0, 1.0})
+    for (unsigned i = 0; i < corners; ++i) {
+      const bool inner = i <= strips;
+      const double angle = std::numbers::pi * (inner ? i : corners - 1 - i) / strips;
+      const double radius = inner ? 1 : 1.1;
+      for (const double x : {-radius * std::cos(angle), y, -radius * std::sin(angle)})
+        pipe.vertices.push_back(static_cast<float>(x));
+    }
+  const auto add = [&](unsigned a, unsigned b, unsigned c) {
+    pipe.indices.insert(pipe.indices.end(), {a, b, c});
+  };
+  for (unsigned i = 0; i < corners; ++i) {
+    const unsigned j = (i + 1) % corners;
+    add(i, j, j + corners);
+    add(i, j + corners, i + corners);
+  }
+  for (unsigned i = 0; i < strips; ++i) {
+    const unsigned a = i, b = i + 1, c = corners - 2 - i, d = corners - 1 - i;
+    add(a, d, c), add(a, c, b);
+    add(a + corners, c + corners, d + corners), add(a + corners, b + corners, c + corners);
+  }
+  return pipe;
+}
+
+// A square tube about z, from 0 to 2 m, that a block of `inner` [m] fits into.
+TestMesh shaft(double inner) {
+  TestMesh mesh;
+  for (const double size : {0.5, inner})
+    for (const double z : {0.0, 2.0})
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+        for (const double v : {x * size / 2, y * size / 2, z})
+          mesh.vertices.push_back(static_cast<float>(v));
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned j = (i + 1) % 4;
+    for (const auto& quad : {std::array{i, j, j + 4, i + 4},
+                             {8 + j, 8 + i, 12 + i, 12 + j},
+                             {j, i, 8 + i, 8 + j},
+                             {4 + i, 4 + j, 12 + j, 12 + i}})
+      mesh.indices.insert(mesh.indices.end(),
+                          {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
+  }
+  return mesh;
+}
+
+// It lies within 8 um of a strip's ends, a corner of it on the next strip. The ray of that corner
+// left the strip where it began, and was taken to leave by the far side of the pipe: the box was
+// shot off at 40 m/s.
+TEST(Touching, CornersOnAFaceDoNotLeaveByWhatIsMetBehindIt) {
+  const Placed placed{make_box({0.1, 0.3, 0.1}), half_pipe(24),
+                      turned({0, 1, 0}, std::asin(0.19444953546381402),
+                             {-0.16927522218480578, 0, -0.9327223511533145}),
+                      TestPose{}};
+  const std::vector<Contact> found = placed.contacts(TestPose{});
+  EXPECT_FALSE(found.empty());
+  for (const Contact& c : found) EXPECT_LT(c.depth, 1e-4);
+}
+
+// With a micrometre to spare all round. It was sent out along the shaft, by a hand's breadth.
+TEST(Touching, BlocksInAShaftAreNotSentOutAlongIt) {
+  Random random(3);
+  std::size_t contacts = 0;
+  for (const double gap : {0.0, 2e-7, 1e-6}) {
+    const double size = 0.2 - 2 * gap, play = std::max(gap, 1e-7);
+    for (int i = 0; i < 60; ++i) {
+      const auto within = [&](double most) { return random.uniform(-most, most); };
+      const TestPose pose =
+          turned({0, 0, 1}, within(2e-6), {within(play), within(play), random.uniform(1.86, 2.05)});
+      const Placed placed{make_box({size, size, 0.15}), shaft(0.2), pose, TestPose{}};
+      for (const Contact& c : placed.contacts(TestPose{})) {
+        EXPECT_LT(c.depth, 1e-5) << gap << ", pose " << i << ", along " << c.normal.z;
+        ++contacts;
+      }
+    }
+  }
+  EXPECT_GT(contacts, 500u);
+}
+
+// Where the floor begins to rise nothing holds it back: the floor goes on on both sides.
+TEST(Touching, BoxesOverABendOfTheFloorAreNotHeldBack) {
+  for (const double bend : {1.0, 5.0, 10.0}) {
+    const double rise = std::tan(bend * std::numbers::pi / 180);
+    TestMesh floor;
+    for (const double y : {-2.0, 2.0})
+      for (const auto& [x, z] : {std::pair(-4.0, 0.0),
+                                 {0.0, 0.0},
+                                 {4.0, 4 * rise},
+                                 {4.0, -1.0},
+                                 {0.0, -1.0},
+                                 {-4.0, -1.0}})
+        for (const double v : {x, y, z}) floor.vertices.push_back(static_cast<float>(v));
+    for (const unsigned i : {0u, 1u, 2u, 3u, 4u, 5u}) {
+      const unsigned j = (i + 1) % 6;
+      floor.indices.insert(floor.indices.end(), {i, j, j + 6, i, j + 6, i + 6});
+    }
+    for (const auto& [a, b, c] : {std::tuple(0u, 5u, 4u), {0u, 4u, 1u}, {1u, 4u, 3u}, {1u, 3u, 2u}})
+      floor.indices.insert(floor.indices.end(), {a, b, c, c + 6, b + 6, a + 6});
+    for (const double deep : {1e-4, 5e-4, 2e-3})
+      for (const double past : {0.1, 0.5, 0.9}) {
+        const Placed placed{make_box({0.1, 0.3, 0.1}), floor,
+                            at(past * deep - 0.05, 0, 0.05 - deep), TestPose{}};
+        const std::vector<Contact> found = placed.contacts(TestPose{});
+        EXPECT_GE(found.size(), 4u);
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.98) << bend << ", " << deep;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace ode_ext::test
