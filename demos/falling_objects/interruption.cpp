@@ -10,7 +10,11 @@ constexpr int kSignals[] = {SIGINT, SIGTERM};
 
 volatile std::sig_atomic_t noted = 0;
 
-void note(int signal) { noted = signal; }
+// The next one of either ends the program.
+void note(int signal) {
+  noted = signal;
+  for (const int either : kSignals) std::signal(either, SIG_DFL);
+}
 
 }  // namespace
 
@@ -18,7 +22,7 @@ Interruption::Interruption() {
   noted = 0;
   struct sigaction action {};
   action.sa_handler = &note;
-  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  action.sa_flags = SA_RESTART;
   for (std::size_t i = 0; i < 2; ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
     // A shell's background jobs ignore Ctrl-C, and go on doing so.

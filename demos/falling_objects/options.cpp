@@ -4,8 +4,10 @@
 #include <ode_ext/ode_ext.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <limits>
 #include <new>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -56,6 +58,12 @@ Ctrl-C ends a run after the step that it is in, and what there is of it is writt
 
 Exit codes: 0 done, 1 a check failed or an output could not be written, 2 wrong usage or unreadable
 file, 3 no device, 128 and its number: ended by a signal.)";
+
+// There or not.
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code none;
+  return std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none);
+}
 
 }  // namespace
 
@@ -182,7 +190,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
         {"--csv", o.csv}, {"--snapshot", o.snapshot}, {"--record", o.record}};
     for (std::size_t i = 0; i < outputs.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        if (!outputs[i].second.empty() && outputs[i].second == outputs[k].second)
+        if (!outputs[i].second.empty() && are_one_file(outputs[i].second, outputs[k].second))
           throw CLI::ValidationError(
               outputs[i].first, "names the file that " + std::string(outputs[k].first) + " writes");
       }

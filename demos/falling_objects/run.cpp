@@ -91,7 +91,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   if (sheets != nullptr) draping_meter = std::make_unique<DrapingMeter>(scene, sheets->all());
   const Simulation& simulation = world.simulation();
   const Collision& collision = world.collision();
-  const std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
+  std::unique_ptr<Spectator> spectator = watch ? watch(world) : nullptr;
   std::ofstream csv, snapshot;
   if (!options.csv.empty()) csv = open_output(options.csv);
   if (!options.snapshot.empty()) snapshot = open_output(options.snapshot);
@@ -114,7 +114,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   Outputs outputs;
   bool finite = true;
   const Interruption interruption;
-  const auto goes_on = [&] { return finite && outputs.complete() && interruption.signal() == 0; };
+  const auto goes_on = [&] { return finite && interruption.signal() == 0; };
   for (int step = 0; step < options.steps && (step == 0 || goes_on()); ++step) {
     StepRecord record = world.step();
     finite = checks.after_step(record, simulation.contacts());
@@ -140,6 +140,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
     records.push_back(record);
     progress.show(record);
     if (spectator) outputs.write([&] { spectator->after_step(record); });
+    if (!outputs.complete()) spectator.reset();
   }
   progress.finish();
   if (options.check_rest) checks.judge_rest();
@@ -148,7 +149,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);
-  if (spectator && outputs.complete()) outputs.write([&] { spectator->finish(std::cout); });
+  if (spectator) outputs.write([&] { spectator->finish(std::cout); });
   if (csv.is_open()) {
     outputs.write([&] {
       write_csv(csv, records);
@@ -170,10 +171,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   });
   if (static_cast<int>(records.size()) < options.steps) {
     std::cerr << "stopped after step " << records.size() << " of " << options.steps << ": "
-              << (!finite                      ? "a position or velocity is no longer finite"
-                  : interruption.signal() != 0 ? "interrupted"
-                                               : "no pictures can be written")
-              << '\n';
+              << (finite ? "interrupted" : "a position or velocity is no longer finite") << '\n';
     return interruption.signal() != 0 ? 128 + interruption.signal() : kExitCheckFailed;
   }
   return outputs.complete() ? verdict : kExitCheckFailed;

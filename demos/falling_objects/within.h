@@ -11,15 +11,15 @@ namespace falling_objects {
 
 // CLI::Range takes what is not a number for one within.
 inline CLI::Validator within(double least, double most) {
+  const std::string from = CLI::detail::to_string(least), to = CLI::detail::to_string(most);
   return CLI::Validator(
-      [least, most](std::string& text) -> std::string {
+      [=](std::string& text) -> std::string {
         double value = 0;
         const bool is_number = CLI::detail::lexical_cast(text, value);
         if (is_number && value >= least && value <= most) return "";
-        return "'" + text + "' is no number from " + CLI::detail::to_string(least) + " to " +
-               CLI::detail::to_string(most);
+        return "'" + text + "' is no number from " + from + " to " + to;
       },
-      "NUMBER");
+      "in [" + from + " - " + to + "]");
 }
 
 // CLI11 takes -1 for the largest.

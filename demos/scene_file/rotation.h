@@ -7,11 +7,11 @@
 
 namespace falling_objects {
 
-// `axis` need not be of length 1; `angle` in [rad].
 // The same direction, exactly, of a length from 1 to 4, since the square of a length may be 0 or
 // infinite. `axis` is finite and not 0.
 Point direction_of(const Point& axis);
 
+// `axis` need not be of length 1; `angle` in [rad].
 Quaternion rotation_about(const Point& axis, double angle);
 
 // `second` after `first`.

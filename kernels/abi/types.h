@@ -304,7 +304,7 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit
-#define OX_HIT_TOUCHING 2u  // on the surface, depth 0
+#define OX_HIT_TOUCHING 2u  // on the surface, not known to be inside
 #define OX_HIT_NONE 3u
 #define OX_HIT_KIND 3u
 #define OX_HIT_REVERSED 4u  // the triangle's normal is to be turned: met from the other side

@@ -42,9 +42,10 @@ static bool ox_comes_first(const ox_fields* list, uint a, uint b) {
   return false;
 }
 
-// [m] Half of how thick a mesh is across a normal in its frame: the least half size of its box, of
-// axes that do not face that way.
+// [m] Half of how thick a closed mesh is across a normal in its frame: the least half size of its
+// box, of axes that do not face that way. An open mesh is a surface: no two sides of it hold.
 static float ox_half_across(__global const ox_mesh* mesh, float3 normal) {
+  if ((mesh->flags & OX_MESH_CLOSED) == 0u) return INFINITY;
   const float3 half_size = vload3(0, mesh->box_half);
   const float3 along = fabs(normal);
   float least = INFINITY;

@@ -28,7 +28,8 @@ void prefetch_all(const T& value) {
 
 void Answer::prefetch() const { prefetch_all(*this); }
 
-void Answer::prefetch_seen() const {
+void Answer::prefetch_seen(std::uint64_t members) const {
+  if (generation != members) return;
   for (const Members::Seen* known : seen)
     if (known != nullptr) prefetch_all(known->now);
 }

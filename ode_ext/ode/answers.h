@@ -44,8 +44,8 @@ struct Answer {
   bool holds(const PairMember& a, const PairMember& b) const;
   // Into the caches: it is about to be used.
   void prefetch() const;
-  // And then what is known of its geoms.
-  void prefetch_seen() const;
+  // And then what is known of its geoms, of this generation of members.
+  void prefetch_seen(std::uint64_t members) const;
 };
 
 // By pair of geoms, unordered. A pass asks for each pair in turn, between two of which kernels have

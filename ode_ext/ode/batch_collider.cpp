@@ -122,12 +122,13 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     entries.push_back(&known_.entry(pairs[i].first.geom, pairs[i].second.geom));
   }
   const std::uint64_t pass = known_.pass();
+  const std::uint64_t members = known_.members().generation();
   std::size_t gathered = 0;
   long long unasked_colliding = 0;  // as far as is known
   bool familiar = pairs.empty();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (i + 2 * kAhead < pairs.size()) entries[i + 2 * kAhead]->prefetch();
-    if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch_seen();
+    if (i + kAhead < pairs.size()) entries[i + kAhead]->prefetch_seen(members);
     const GatheredPair& pair = pairs[i];
     Answer& answer = *entries[i];
     if (answer.gathering == known_.look()) continue;

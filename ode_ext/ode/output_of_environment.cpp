@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -54,7 +55,12 @@ std::FILE* open_output_of_environment(const char* variable) {
     close(descriptor);
     throw std::runtime_error("'" + path + "' cannot be emptied: " + why);
   }
-  return fdopen(descriptor, "wb");
+  std::FILE* opened = fdopen(descriptor, "wb");
+  if (opened == nullptr) {
+    close(descriptor);
+    throw std::bad_alloc();
+  }
+  return opened;
 }
 
 }  // namespace ode_ext

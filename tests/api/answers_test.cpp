@@ -34,7 +34,7 @@ TEST_F(ApiAnswers, InTheCallbackAreContacts) {
     for (const dContactGeom& c : contacts) {
       EXPECT_EQ(c.g1, pair.first);
       EXPECT_EQ(c.g2, pair.second);
-      EXPECT_GE(c.depth, 0);
+      EXPECT_GT(c.depth, 0);
       EXPECT_NEAR(length(normal(c)), 1, 1e-6);  // dContactGeom's promise, ODE's own bound
       EXPECT_GE(c.side1, 0);
       EXPECT_LT(c.side1, dGeomTriMeshGetTriangleCount(c.g1));

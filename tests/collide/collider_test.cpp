@@ -88,7 +88,7 @@ TEST(Collider, AnswersEveryPairInItsPlace) {
       for (std::uint32_t k = 0; k < result.ranges[i].count; ++k) {
         const Contact& c = result.contacts[result.ranges[i].first + k];
         EXPECT_NEAR(length(c.normal), 1, 1e-12);
-        EXPECT_GE(c.depth, 0);
+        EXPECT_GT(c.depth, 0);
         EXPECT_LT(distance(point_of(c.position), scene.pose_of(i, 0).position), 2);
         for (std::size_t side = 0; side < 2; ++side)
           EXPECT_LT(c.triangles[side],

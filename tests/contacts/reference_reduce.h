@@ -88,6 +88,7 @@ class ReferenceReduce {
     const Point in_world = rotate(scene_.pose_of(pair_, 1), in_b);
     double least = static_cast<double>(0.02f * radius_);
     for (std::size_t side = 0; side < 2; ++side) {
+      if (!scene_.built_mesh_of(pair_, side).closed()) continue;
       const Vec3f size =
           scene_.built_mesh_of(pair_, side).box.hi - scene_.built_mesh_of(pair_, side).box.lo;
       const Point half{0.5 * double{size.x}, 0.5 * double{size.y}, 0.5 * double{size.z}};

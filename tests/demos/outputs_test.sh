@@ -43,6 +43,10 @@ has "$out/errors" "the report could not be written"
 # As Ctrl-C, which a script's background jobs ignore.
 "$program" --collider ode --objects 2 --steps 100000000 --quiet --check --csv "$out/run.csv" \
   --record "$recording" > "$out/report" 2> "$out/errors" &
+for ((i = 0; i < 300; ++i)); do
+  [[ -e $recording ]] && break
+  sleep 0.1
+done
 sleep 1
 kill -TERM $!
 code=0
@@ -55,4 +59,21 @@ has "$out/report" "check: not finished"
 # A display that is not there, as in a shell of another machine.
 DISPLAY=:97 ran 0
 has "$out/report" "contact hash"
+# Built without windows it says so where one is asked for, and of the display nothing.
+if ! "$program" --window --objects 2 --steps 1 2>&1 | grep -q -F "draws nothing"; then
+  has "$out/errors" "no window can be opened"
+fi
+
+# An ffmpeg that ends.
+mkdir "$out/bin"
+printf '#!/bin/sh\nexit 1\n' > "$out/bin/ffmpeg"
+chmod +x "$out/bin/ffmpeg"
+if "$program" --collider ode --objects 2 --steps 1 --quiet --frames "$out/frames" \
+  > "$out/report" 2>&1; then
+  PATH=$out/bin:$PATH ran 1 --quiet --check --steps 40 --size 64x64 --video "$out/run.mp4" \
+    --csv "$out/run.csv"
+  has "$out/report" "check: "
+  ! grep -q "not finished" "$out/report" || fail "an ffmpeg that ends ends the run"
+  [[ $(wc -l < "$out/run.csv") -eq 41 ]] || fail "an ffmpeg that ends takes the CSV with it"
+fi
 echo "outputs: each by itself"

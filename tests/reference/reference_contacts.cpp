@@ -178,6 +178,7 @@ ReferenceContacts reference_contacts(const ContactMesh& a, const TestPose& pa, c
   result.manifolds = find_manifolds(pair, result.found, options);
   result.all = contacts_of(pair, result.found, result.manifolds);
   const auto half_across = [](const ContactMesh& mesh, const TestPose& pose, const Point& normal) {
+    if (!mesh.closed) return ContactBox::infinity;
     const ContactBox& box = mesh.tree.bounds();
     return half_thickness_across(0.5 * (box.high - box.low), rotate_back(pose, normal));
   };

@@ -20,10 +20,13 @@ constexpr int kMoves = 5;
 constexpr double kLongestWay = 1.5;  // times the shortest
 
 // [of the smaller size] What may remain. The collider cannot see less than 2^-20 of the pair's
-// extents (that is a touch to it, of depth 0): sqrt(3) times the offset and the radii of two bodies
-// of which one is twice as large as the other, 9 sizes in all, make 1e-5. Each of the five moves
-// can leave as much.
+// extents (that is a touch to it, of next to no depth): sqrt(3) times the offset and the radii of
+// two bodies of which one is twice as large as the other, 9 sizes in all, make 1e-5. Each of the
+// five moves can leave as much.
 constexpr double kRemains = 1e-4;
+
+// [of the smaller size] A move by less is none: a touch is 2^-48 of the radii deep.
+constexpr double kLeastMove = 1e-12;
 
 struct Scene {
   const Body *a, *b;
@@ -78,7 +81,7 @@ struct Course {
 
 void move_along(const Scene& scene, const test::Contacts& contacts, Course& course) {
   const dContactGeom* deepest = deepest_of(contacts);
-  course.stuck = deepest == nullptr || !(deepest->depth > 0);
+  course.stuck = deepest == nullptr || !(deepest->depth > kLeastMove * scene.pair.size);
   if (course.stuck) return;
   course.pose.position = course.pose.position + deepest->depth * test::normal(*deepest);
   course.way += deepest->depth;
