@@ -62,27 +62,17 @@ static bool ox_is_of_bend(const ox_region_view* r, uint k) {
   return ox_dot(one, other) > OX_SAME_WAY;
 }
 
-// The first of the members: those that begin a unit; returns how many they are. Of a bend no chord
-// is one where there is any other: what is deepest about it is of the other mesh.
-static uint ox_bring_units(const ox_region_view* r) {
-  const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
-  bool any = false;
-  for (uint k = OX_ITEM; k < units; k += OX_ITEMS) {
-    if (ox_is_of_bend(r, k))
-      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_BEND;
-    else
-      any = true;
-  }
+static void ox_mark_bends(const ox_region_view* r, uint units) {
+  for (uint k = OX_ITEM; k < units; k += OX_ITEMS)
+    if (ox_is_of_bend(r, k)) ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_BEND;
   ox_settle();
-  return ox_any_item(any) ? ox_bring_first(r, units, OX_MEMBER_BEND, 0u) : units;
 }
 
-// The units that wait to be cleared are the first of the members, ever fewer.
-static void ox_choose_parts(ox_manifold* m) {
+// Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
+static uint ox_clear_units(ox_manifold* m, uint waiting) {
   const ox_region_view* r = m->region;
   ox_moves moves;
   moves.count = 0u;
-  uint waiting = ox_bring_units(r);
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);
@@ -92,6 +82,17 @@ static void ox_choose_parts(ox_manifold* m) {
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);
   }
+  return moves.count;
+}
+
+// What is deepest about a bend is of the other mesh: chords of one are units only where of no other
+// a plane is known.
+static void ox_choose_parts(ox_manifold* m) {
+  const ox_region_view* r = m->region;
+  const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
+  ox_mark_bends(r, units);
+  if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, 0u)) == 0u)
+    ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, OX_MEMBER_BEND));
 }
 
 // A sheet has no inside: what is behind it is what its ray meets it for, on whichever side. Each
