@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "falling_objects/option_checks.h"
 #include "falling_objects/output_file.h"
-#include "falling_objects/within.h"
 #include "scene_file/scene_file.h"
 #include "scene_file/scene_list.h"
 

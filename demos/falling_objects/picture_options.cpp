@@ -5,8 +5,8 @@
 #include <sstream>
 #include <vector>
 
+#include "falling_objects/option_checks.h"
 #include "falling_objects/output_file.h"
-#include "falling_objects/within.h"
 
 namespace falling_objects {
 namespace {

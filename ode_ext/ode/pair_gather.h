@@ -51,6 +51,6 @@ bool may_hold_mesh_pair(const PassRoot& root);
 // sweep-and-prune space of `traversed`: its traversal keeps scratch lists in the space. `expected`:
 // about how many pairs there are, to have room for them at once.
 std::vector<GatheredPair> gather_pairs(const PassRoot& root, std::span<const PassRoot> traversed,
-                                       std::size_t expected = 0);
+                                       std::size_t expected);
 
 }  // namespace ode_ext
