@@ -60,8 +60,8 @@ static ox_wall ox_next_wall(__global const ox_move* move, __global const uint* t
 #define OX_ALONG_RAY 8.0f
 #define OX_MOST_WALLS 16
 
-// Where it has left as often as it had entered, its start among that; INFINITY: it never does. What
-// lies within on_surface is where it starts.
+// Where it has left as often as it had entered, its start among that, or by a wall with nothing
+// behind; INFINITY: it never does. What lies within on_surface is where it starts.
 static float ox_exit(__global const ox_move* move, __global const uint* topology,
                      __global const ox_meshlet* meshlets,
                      __global const ox_meshlet_node* meshlet_nodes, float3 origin, float3 direction,
@@ -70,6 +70,7 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
   const float at_once = OX_ALONG_RAY * move->on_surface;
   float from = move->on_surface;
   int inside = 1;
+  float last = INFINITY;
   for (int wall = 0; wall < OX_MOST_WALLS; ++wall) {
     const ox_wall next =
         ox_next_wall(move, topology, meshlets, meshlet_nodes, &cast, from, at_once, vertex);
@@ -78,8 +79,9 @@ static float ox_exit(__global const ox_move* move, __global const uint* topology
     from = t + at_once;
     inside += (next.front_t <= from ? 1 : 0) - (next.back_t <= from ? 1 : 0);
     if (inside == 0) return t;
+    last = ox_max(next.front_t, next.back_t) <= from ? t : INFINITY;
   }
-  return INFINITY;
+  return last;
 }
 
 __kernel void deform_exits(__global const ox_move* moves, uint move_count,

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "mesh/edge_pairs.h"
 #include "mesh/joined.h"
 
 namespace ode_ext {
@@ -22,13 +23,14 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
   const auto side_of = [&](std::uint32_t side) -> std::uint32_t& {
     return edges.sides[side / 3][side % 3];
   };
-  const auto are_same = [&](std::size_t i, std::size_t k) {
-    return i < k && k < half_edges.size() && same_edge(half_edges[i], half_edges[k]);
-  };
-  for (std::size_t i = 0, begin = 0; i < half_edges.size();) {
-    if (!are_same(begin, i)) begin = i;
+  bool neighbours = false;  // those at the edge are, two by two
+  for (std::size_t i = 0, end = 0; i < half_edges.size();) {
+    if (i == end) {
+      end = end_of_edge(half_edges, i);
+      neighbours = are_pairs(half_edges, i, end);
+    }
     const HalfEdge& a = half_edges[i];
-    const bool paired = are_same(i, i + 1);
+    const bool paired = i + 1 < end;
     const HalfEdge& b = half_edges[paired ? i + 1 : i];
     Edge edge{{a.low, a.high}, {a.side / 3, paired ? b.side / 3 : kNone}};
     // By the direction in which they run the edge, not by their numbers.
@@ -38,11 +40,10 @@ Edges find_edges(const std::vector<Vec3f>& vertices, const std::vector<HalfEdge>
       std::swap(edge.vertices[0], edge.vertices[1]);
       if (paired) std::swap(edge.triangles[0], edge.triangles[1]);
     }
-    const bool alone = begin == i && !are_same(i, i + 2);
     i += paired ? 2 : 1;
     if (paired && !facets.empty() && facets[edge.triangles[0]] == facets[edge.triangles[1]]) {
       edges.flat.push_back(edge);
-      if (!alone || a.upward == b.upward) continue;
+      if (!neighbours) continue;
       side_of(a.side) = b.side / 3 | kWithinFacet;
       side_of(b.side) = a.side / 3 | kWithinFacet;
       continue;

@@ -25,18 +25,21 @@ constexpr double kAlongRay = 8;
 constexpr int kMostWalls = 16;
 
 // Where a ray that starts inside leaves; infinity: it does not. Faces that it meets at once are one
-// wall: two triangles at an edge, or where one part ends and the next begins.
+// wall: two triangles at an edge, or where one part ends and the next begins. If there is nothing
+// behind a wall, the ray leaves by it: at a corner of two parts it leaves both at once.
 double exit_along(Ray ray, const Bvh& bvh, const std::vector<Vec3f>& vertices,
                   const std::vector<Triangle>& triangles) {
   int inside = 1;
+  double last = std::numeric_limits<double>::infinity();
   for (int wall = 0; wall < kMostWalls; ++wall) {
     const RayHit hit = cast_ray(ray, bvh, vertices, triangles);
     if (hit.triangle == kNone) break;
+    last = hit.both ? hit.t : std::numeric_limits<double>::infinity();
     if (!hit.both) inside += hit.back ? -1 : 1;
     if (inside == 0) return hit.t;
     ray.t_min = std::nextafter(hit.t + ray.near, std::numeric_limits<double>::infinity());
   }
-  return std::numeric_limits<double>::infinity();
+  return last;
 }
 
 // A thread takes tens of microseconds to start, a ray one or more.

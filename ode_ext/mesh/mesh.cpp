@@ -8,9 +8,11 @@
 
 #include "mesh/both.h"
 #include "mesh/bvh.h"
+#include "mesh/edge_pairs.h"
 #include "mesh/exit_distance.h"
 #include "mesh/facets.h"
 #include "mesh/half_edges.h"
+#include "mesh/inner_walls.h"
 #include "mesh/measures.h"
 #include "mesh/neighbours.h"
 #include "mesh/normals.h"
@@ -69,6 +71,9 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
   // contacts would be told apart by its past; nor on how the program lists a rigid one.
   WeldedMesh welded = weld(source, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
   if (!mesh.deformable) order_by_vertices(welded);
+  std::vector<HalfEdge> half_edges = half_edges_of(welded.triangles);
+  if (!mesh.deformable && leave_out_inner_walls(welded, half_edges))
+    half_edges = half_edges_of(welded.triangles);
   const auto topology = std::make_shared<MeshTopology>();
   mesh.topology = topology;
   mesh.vertices = std::move(welded.vertices);
@@ -79,8 +84,11 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
   topology->source_triangle = std::move(welded.source_triangle);
 
   const std::vector<Triangle>& triangles = topology->triangles;
-  std::vector<HalfEdge> half_edges = half_edges_of(triangles);
   const Orientation orientation = orient(mesh.vertices, topology->triangles, half_edges);
+  if (mesh.deformable)
+    pair_by_number(half_edges);
+  else
+    pair_by_solids(mesh.vertices, triangles, half_edges);
   topology->closed = orientation.closed;
   topology->inverted = orientation.inverted;
   topology->reoriented = orientation.reoriented;

@@ -11,8 +11,8 @@
 
 namespace ode_ext {
 
-// The triangle across the edge from corner k to corner (k + 1) % 3; kNone where the
-// edge has no second triangle, more than two, or two that run it in the same direction.
+// The triangle across the edge from corner k to corner (k + 1) % 3; kNone where those at the edge
+// are not all pairs that run it in opposite directions (edge_pairs.h).
 using Neighbours = std::array<std::uint32_t, 3>;
 
 std::vector<Neighbours> neighbours(std::size_t triangle_count,

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "mesh/edge_pairs.h"
+
 namespace ode_ext {
 namespace {
 
@@ -105,8 +107,11 @@ double signed_volume(const std::vector<Vec3f>& vertices, const std::vector<Trian
 Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles,
                    std::vector<HalfEdge>& half_edges) {
   Orientation result;
-  if (triangles.size() < kFewestClosedTriangles || !every_edge_has_two(half_edges)) return result;
-  if (!consistent(half_edges)) {
+  if (triangles.size() < kFewestClosedTriangles) return result;
+  const bool has_two = every_edge_has_two(half_edges);
+  if (!has_two && (!is_boundary(half_edges) || has_coincident(triangles, half_edges)))
+    return result;
+  if (has_two && !consistent(half_edges)) {
     result.closed = result.reoriented = make_consistent(half_edges, vertices, triangles);
   } else {
     result.closed = true;

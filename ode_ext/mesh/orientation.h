@@ -10,7 +10,8 @@
 namespace ode_ext {
 
 struct Orientation {
-  bool closed = false;      // every edge has exactly two triangles, of opposite direction
+  bool closed = false;      // each edge is run as often one way as the other, and no two triangles
+                            // have the same corners
   bool reoriented = false;  // the windings contradicted each other and were made consistent
   bool inverted = false;    // all windings were turned: the volume was negative
 };
@@ -18,8 +19,9 @@ struct Orientation {
 // Makes the normals of a closed mesh point outward by turning triangles (swapping two corners).
 // A consistent winding is trusted: a part inside another may be a cavity, so only the sign of the
 // whole volume counts. An inconsistent one says nothing, so each connected part is made consistent
-// and turned to a positive volume by itself. A mesh that is open, not orientable, or has an edge of
-// more than two triangles is left alone. The half-edges follow the triangles.
+// and turned to a positive volume by itself; not where an edge has more than two triangles, of
+// which it is not known which are neighbours. A mesh that is open or not orientable is left alone.
+// The half-edges follow the triangles.
 Orientation orient(const std::vector<Vec3f>& vertices, std::vector<Triangle>& triangles,
                    std::vector<HalfEdge>& half_edges);
 

@@ -133,6 +133,23 @@ TEST(Exits, ThatMeetNothingAreInfinite) {
             (std::vector<float>{kInfinity, kInfinity, kInfinity}));
 }
 
+// A cube on another, which is cut more finely: the ray from a corner leaves the first by the corner
+// where the second begins.
+TEST(Exits, ByACornerOfTwoPartsAreThere) {
+  const TriangleSoup soup =
+      shapes::joined(shapes::box({0, 0, 0}, {1, 1, 1}, 1), shapes::box({0, 0, 1}, {1, 1, 2}, 2));
+  const Mesh mesh = build_mesh(soup);
+  ASSERT_EQ(mesh.topology->triangles.size(), soup.size() / 3);
+  std::size_t found = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3f place = mesh.vertices[v] + mesh.origin;
+    if (place.z != 0 || (place.x != 0 && place.x != 1) || (place.y != 0 && place.y != 1)) continue;
+    EXPECT_NEAR(mesh.exits[v], std::sqrt(3), 1e-6);
+    ++found;
+  }
+  EXPECT_EQ(found, 4u);
+}
+
 TEST(Exits, ThatMeetAFrontFaceFirstAreInfinite) {
   // A vertex above two faces that look up at it, one below the other, the lower one turned down.
   const std::vector<Vec3f> vertices{{0, 0, 5},   {-1, -1, 3}, {1, -1, 3}, {0, 1, 3},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mesh/edge_pairs.h"
 #include "mesh/ray_cast.h"
 #include "shapes.h"
 
@@ -71,10 +72,29 @@ TEST(Neighbours, EndAtTheRimOfAnOpenMesh) {
   expect_as_the_slow_way({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
 
-TEST(Neighbours, AreNotToldWhereMoreThanTwoMeet) {
+TEST(Neighbours, AreNotToldWhereThreeMeet) {
+  TriangleSoup fin = shapes::cube();
+  shapes::append(fin, {0, 0, 0}, {1, 0, 0}, {0, -1, -1});
+  expect_as_the_slow_way(fin);
+  EXPECT_EQ(missing(neighbours_of(fin)), 5u);
+}
+
+TEST(Neighbours, AreNotToldWhereFourMeetThatAreNoPairs) {
+  const std::vector<Triangle> same_way{{0, 1, 2}, {0, 1, 3}, {0, 1, 4}, {1, 0, 5}};
+  EXPECT_EQ(missing(neighbours_of(same_way)), 12u);
+}
+
+// Two cubes that touch along an edge: each goes on over it.
+TEST(Neighbours, AreOfOneSolidWhereFourMeet) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
-  expect_as_the_slow_way(two);
-  EXPECT_EQ(missing(neighbours_of(two)), 4u);
+  const Mesh mesh = build_mesh(two);
+  std::vector<HalfEdge> half_edges = half_edges_of(mesh.topology->triangles);
+  pair_by_solids(mesh.vertices, mesh.topology->triangles, half_edges);
+  const std::vector<Neighbours> found = neighbours(24, half_edges);
+  EXPECT_EQ(missing(found), 0u);
+  for (std::uint32_t t = 0; t < 24; ++t)
+    for (const std::uint32_t next : found[t])
+      EXPECT_EQ(mesh.topology->source_triangle[t] / 12, mesh.topology->source_triangle[next] / 12);
 }
 
 TEST(Neighbours, MustRunTheEdgeTheOtherWay) {

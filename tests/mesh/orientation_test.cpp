@@ -137,11 +137,28 @@ TEST(Orientation, LeavesACavityACavity) {
   }
 }
 
-TEST(Orientation, FindsAnEdgeOfFourTrianglesOpen) {
+TEST(Orientation, ClosesMeshesThatShareAnEdge) {
   const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
-  const Mesh mesh = built_mesh(two);
-  EXPECT_EQ(mesh.vertices.size(), 14u);
-  EXPECT_FALSE(mesh.closed());
+  for (const bool turned : {false, true}) {
+    const Mesh mesh = built_mesh(turned ? shapes::turned(two) : two);
+    EXPECT_EQ(mesh.vertices.size(), 14u);
+    EXPECT_TRUE(mesh.closed());
+    EXPECT_EQ(mesh.topology->inverted, turned);
+    EXPECT_DOUBLE_EQ(shapes::volume(mesh), 2);
+  }
+}
+
+// Of four triangles at an edge it is not known which two are neighbours.
+TEST(Orientation, FindsMeshesThatShareAnEdgeAndContradictThemselvesOpen) {
+  const TriangleSoup two = shapes::joined(shapes::cube(), shapes::box({1, 1, 0}, {2, 2, 1}));
+  for (std::size_t triangle = 0; triangle < 24; ++triangle)
+    EXPECT_FALSE(built_mesh(with_turned(two, triangle)).closed());
+}
+
+TEST(Orientation, FindsAnEdgeOfThreeTrianglesOpen) {
+  TriangleSoup fin = shapes::cube();
+  shapes::append(fin, {0, 0, 0}, {1, 0, 0}, {0, -1, -1});
+  EXPECT_FALSE(built_mesh(fin).closed());
 }
 
 TEST(Orientation, ClosesMeshesThatShareOnlyAVertex) {

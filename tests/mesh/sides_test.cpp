@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/edge_pairs.h"
 #include "mesh/edges.h"
 #include "mesh/half_edges.h"
 #include "mesh/mesh.h"
@@ -78,7 +79,9 @@ TEST(Sides, NameTheNeighbourAcrossWithinAFacet) {
   for (const TriangleSoup& soup : soups_with_sides()) {
     const Mesh mesh = build_mesh(soup);
     const MeshTopology& built = *mesh.topology;
-    const auto across = neighbours(built.triangles.size(), half_edges_of(built.triangles));
+    std::vector<HalfEdge> half_edges = half_edges_of(built.triangles);
+    pair_by_solids(mesh.vertices, built.triangles, half_edges);
+    const auto across = neighbours(built.triangles.size(), half_edges);
     for (std::uint32_t t = 0; t < built.triangles.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t next = across[t][k], side = built.sides[t][k];
