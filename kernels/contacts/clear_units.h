@@ -42,8 +42,8 @@ static inline float ox_cost_of(const ox_region_view* r, const ox_moves* moves,
 typedef struct {
   uint unit;
   uint side;
-  float3 through[2];  // the normals of the faces that it goes through, turned where they are of A
-  uint count;         // of those
+  uint through[2];  // crossings by which it goes through the other mesh
+  uint count;       // of those
   const ox_moves* before;
   ox_refused refused;
 } ox_seed;
@@ -55,12 +55,12 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
   seed.side = ox_side_of(ox_flags_of(r, unit));
   seed.count = 0u;
   seed.refused.count = 0u;
-  __global const ox_feature* f = ox_feature_of(r, unit);
-  for (uint end = 0u; end < 2u && !ox_is_vertex(f->flags); ++end) {
-    const float3 normal = ox_normal_of(r->scene, r->pair, 1u - seed.side, f->triangle);
-    seed.through[seed.count++] = ox_way_of(seed.side, normal);
-    if (f->partner == OX_NONE) break;
-    f = r->scene->features + f->partner;
+  uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[unit];
+  while (feature != OX_NONE && seed.count < 2u) {
+    __global const ox_feature* f = r->scene->features + feature;
+    if (ox_is_vertex(f->flags)) break;
+    seed.through[seed.count++] = feature;
+    feature = f->partner;
   }
   return seed;
 }
@@ -74,13 +74,20 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   if (choice.depth == INFINITY) return;
   choice.judged = ox_cost_of(r, seed->before, plane, choice.depth);
   if (!ox_is_better_choice(&choice, best)) return;
-  // Where it goes on through a face that looks back, all of the body has to pass the plane.
-  for (uint i = 0u; i < seed->count; ++i)
-    if (ox_dot(plane->normal, seed->through[i]) < OX_LOOKS_BACK) {
-      const float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
-      choice.judged = ox_cost_of(r, seed->before, plane, ox_max(choice.depth, of_body));
-      break;
-    }
+  // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
+  // a whole region.
+  const float3 direction = ox_way_of(seed->side, plane->normal);
+  for (uint i = 0u; i < seed->count; ++i) {
+    __global const ox_feature* f = r->scene->features + seed->through[i];
+    const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
+    if (!ox_looks_back(back, direction)) continue;
+    const float worth = OX_WORTH * choice.depth;
+    float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
+    if (of_body > worth && worth <= best->judged &&
+        !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
+      of_body = worth;
+    choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
+  }
   if (ox_is_better_choice(&choice, best)) *best = choice;
 }
 
@@ -145,40 +152,79 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
 // Planes of which none separates a unit alone, and which may do so together: at the foot of a wall
 // it is behind the floor too.
 typedef struct {
-  ox_plane_choice first;  // the least of them; what all of them cost
-  float3 way;             // that takes the unit past one after the other
-  bool is_corner;         // one faces another way than the first
+  ox_plane_choice first;  // the least of them
+  float3 normal[OX_FEW];
+  float far[OX_FEW];    // [m] how far it has to go along each
+  float share[OX_FEW];  // [m] of the way along each
+  float3 way;           // the sum of these: the shortest past all
+  uint count;
+  bool is_corner;  // one faces another way than the first
 } ox_joint_choice;
 
-static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane_choice* choice,
+// So often is each share mended for what the others are: where planes meet at 30 degrees, to within
+// 2^-13 of the way, which is lengthened by what is lacking.
+#define OX_SWEEPS 32u
+
+static inline void ox_add_to_joint(const ox_region_view* r, float3 normal, float depth,
                                    ox_joint_choice* joint) {
-  const bool is_first = joint->first.plane.kind == OX_PLANE_NONE;
-  const float3 n = choice->plane.normal;
-  const float rest = ox_way_past(r, choice->depth) - (is_first ? 0.0f : ox_dot(joint->way, n));
-  if (is_first) {
-    joint->first = *choice;
-    joint->way = rest * n;
-    joint->is_corner = false;
-  } else if (rest > 0.0f) {
-    joint->first.judged += rest;
-    joint->way += rest * n;
-    joint->is_corner |= ox_dot(joint->first.plane.normal, n) <= OX_SAME_WAY;
-  }
+  const uint last = joint->count++;
+  joint->is_corner |= last != 0u && ox_dot(joint->normal[0], normal) <= OX_SAME_WAY;
+  joint->normal[last] = normal;
+  joint->far[last] = ox_way_past(r, depth);
+  joint->share[last] = 0.0f;
+  for (uint sweep = 0u; sweep < OX_SWEEPS; ++sweep)
+    for (uint i = 0u; i <= last; ++i) {
+      const float lacking = joint->far[i] - ox_dot(joint->way, joint->normal[i]);
+      const float share = ox_max(joint->share[i] + lacking, 0.0f);
+      joint->way += (share - joint->share[i]) * joint->normal[i];
+      joint->share[i] = share;
+    }
 }
 
-// The least of them, where all together separate it, past that one too, and do not face one way, as
-// those of a surface that bends inwards do; else OX_PLANE_NONE. A plane that does so alone is
-// better up to twice the price of all: it clears more.
+// How many times as long the way has to be to be past all, but for half of the margin; infinite: it
+// never is.
+static inline float ox_lacking_of(const ox_region_view* r, const ox_joint_choice* joint) {
+  float longer = 1.0f;
+  for (uint i = 0u; i < joint->count; ++i) {
+    const float along = ox_dot(joint->way, joint->normal[i]);
+    if (along + 0.5f * ox_way_past(r, 0.0f) >= joint->far[i]) continue;
+    longer = along > 0.0f ? ox_max(longer, joint->far[i] / along) : INFINITY;
+  }
+  return longer;
+}
+
+// The least of them, where all together separate it, and do not face one way, as those of a surface
+// that bends inwards do; else OX_PLANE_NONE. Where it is still inside past all, the nearest face
+// that it is behind there is one more: of a corner the region need not meet all. A plane that
+// separates it alone is better up to twice the price of all: it clears more.
 static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
-                                               const ox_joint_choice* joint,
+                                               const ox_joint_choice* planes,
                                                const ox_plane_choice* known) {
-  ox_plane_choice choice = joint->first;
-  choice.judged *= OX_WORTH;
-  const bool is_past = ox_dot(joint->way, choice.plane.normal) >= choice.depth;
-  if (!joint->is_corner || !is_past || !ox_is_better_choice(&choice, known)) return ox_no_choice();
-  const float3 way = ox_way_of(seed->side, joint->way);
-  return ox_is_still_inside(r, seed->side, ox_middle_of(r, seed->unit) + way, way) ? ox_no_choice()
-                                                                                   : choice;
+  ox_joint_choice joint = *planes;
+  const float3 one = ox_position_of(r, seed->unit);
+  const float3 other = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
+  for (;;) {
+    const float longer = ox_lacking_of(r, &joint);
+    float sum = 0.0f;
+    for (uint i = 0u; i < joint.count; ++i) sum += joint.share[i];
+    ox_plane_choice choice = joint.first;
+    choice.judged = OX_WORTH * (choice.judged - joint.far[0] + longer * sum);
+    if (!ox_is_better_choice(&choice, known)) return ox_no_choice();
+    const float3 way = ox_way_of(seed->side, longer * joint.way);
+    const float3 p = 0.5f * (one + other) + way;
+    const bool is_near =
+        OX_SAME_WAY * OX_SAME_WAY * ox_dot(way, way) <= joint.far[0] * joint.far[0];
+    if ((joint.is_corner || (joint.count > 1u && is_near)) &&
+        !ox_is_still_inside(r, seed->side, p, way))
+      return choice;
+    if (joint.count == OX_FEW) return ox_no_choice();
+    const ox_plane next = ox_nearest_of(r, seed->side, p, known->judged, true);
+    if (next.kind == OX_PLANE_NONE) return ox_no_choice();
+    ox_add_to_joint(
+        r, next.normal,
+        ox_max(ox_plane_depth(&next, seed->side, one), ox_plane_depth(&next, seed->side, other)),
+        &joint);
+  }
 }
 
 // The best plane for a unit. Where one does not separate it, that and those that do not either may
@@ -191,13 +237,16 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   ox_seed seed = ox_seed_of(r, unit, before);
   ox_plane_choice known = ox_no_choice();  // the best that does separate it
   ox_joint_choice joint;
-  joint.first = ox_no_choice();
+  joint.count = 0u;
+  joint.way = (float3)(0.0f);
+  joint.is_corner = false;
   while (seed.refused.count < OX_FEW) {
     ox_plane_choice choice = ox_search_for(r, &seed);
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &known)) break;
     if (ox_only_touches(r, &choice) || !ox_unit_stays(r, &seed, &choice)) return choice;
     ox_refuse(&seed.refused, &choice.plane);
-    ox_add_to_joint(r, &choice, &joint);
+    if (joint.count == 0u) joint.first = choice;
+    ox_add_to_joint(r, choice.plane.normal, choice.depth, &joint);
     const ox_plane_choice together = ox_leave_jointly(r, &seed, &joint, &known);
     if (ox_is_better_choice(&together, &known)) known = together;
     const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));

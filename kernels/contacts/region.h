@@ -43,44 +43,24 @@ static inline void ox_others_of_block(const ox_region_view* r, uint block, uint 
   *is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
 }
 
-// Whether one of the faces at a vertex of mesh `side` faces back from a direction.
-static inline bool ox_vertex_looks_back(const ox_region_view* r, uint side, uint vertex,
-                                        float3 direction) {
+// The normal of the face at a vertex of mesh `side` that faces back from a direction the most.
+static inline float3 ox_back_of_vertex(const ox_region_view* r, uint side, uint vertex,
+                                       float3 direction) {
   const ox_scene* scene = r->scene;
+  float3 back = direction;
   for (uint i = scene->ring_starts[vertex]; i < scene->ring_starts[vertex + 1u]; ++i) {
     __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
-    for (uint k = 0u; k < 2u; ++k)
-      if (edge->triangle[k] != OX_NONE &&
-          ox_dot(direction, ox_normal_of(scene, r->pair, side, edge->triangle[k])) < OX_LOOKS_BACK)
-        return true;
+    for (uint k = 0u; k < 2u; ++k) {
+      if (edge->triangle[k] == OX_NONE) continue;
+      const float3 normal = ox_normal_of(scene, r->pair, side, edge->triangle[k]);
+      if (ox_dot(direction, normal) < ox_dot(direction, back)) back = normal;
+    }
   }
-  return false;
+  return back;
 }
 
-// Whether mesh `side`, which the plane clears, goes on through a face of the other that looks back:
-// one that crosses it, or at a vertex inside it. Then it is not only what of it is in the region
-// that has to pass the plane. (The plane of a face of A has the face's normal turned.)
-static inline bool ox_body_goes_on(const ox_region_view* r, const ox_plane* plane, uint side) {
-  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
-    const uint through =
-        ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
-                   OX_PLANE_CROSSED | (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A));
-    ox_floats cosine;
-    ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, plane->normal, &cosine);
-    const ox_ints looks_back = cosine < OX_LOOKS_BACK;
-    if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
-      return true;
-  }
-  const float3 direction = ox_way_of(side, plane->normal);
-  for (uint first = 0u; first < r->count; first += OX_ITEMS) {
-    const uint k = first + OX_ITEM;
-    const uint flags = k < r->count ? ox_flags_of(r, k) : 0u;
-    if (ox_any_item(ox_is_vertex(flags) && ox_side_of(flags) != side &&
-                    ox_vertex_looks_back(r, 1u - side, ox_feature_of(r, k)->source, direction)))
-      return true;
-  }
-  return false;
+static inline bool ox_looks_back(float3 normal, float3 direction) {
+  return ox_dot(normal, direction) < OX_LOOKS_BACK;
 }
 
 // Of two planes that are as deep the one that the body does not go on through is better [m].
@@ -101,15 +81,6 @@ static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* pl
 static inline float ox_depth_of_both(const ox_region_view* r, float3 normal) {
   return ox_reach_along(r->scene, r->pair, 0u, -normal, INFINITY) +
          ox_reach_along(r->scene, r->pair, 1u, normal, INFINITY);
-}
-
-// How deep the bodies are that go on beyond the region; 0 if neither does.
-static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float limit) {
-  float depth = 0.0f;
-  for (uint side = 0u; side < 2u && !(depth > limit); ++side)
-    if (ox_clears_side(plane, side) && ox_body_goes_on(r, plane, side))
-      depth = ox_max(depth, ox_depth_of_body(r, plane, side, limit));
-  return depth;
 }
 
 // Whether the members of a region are points of mesh `side`: crossings are of both.

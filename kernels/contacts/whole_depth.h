@@ -133,7 +133,7 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   choice.depth = ox_whole_depth(r, &limits, kept, &extent);
   if (choice.depth == INFINITY) return extent.past > limits.past;
   const float tie = ox_edge_tie(r, plane);
-  const float beyond = ox_depth_beyond(r, plane, best->judged - tie);
+  const float beyond = ox_depth_beyond(r, plane, choice.depth, best->judged - tie);
   if (beyond + tie > best->judged) return false;
   choice.judged = ox_max(choice.depth, beyond) + tie;
   choice.of_body = beyond > choice.depth;

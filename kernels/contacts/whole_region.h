@@ -291,22 +291,24 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
       const ox_plane plane = ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(passed));
       ox_kept_blocks* kept = search->kept + ox_direction_of(plane.normal);
       ox_extent extent = ox_begin_extent(&plane);
-      if (ox_least_depth(r, &limits, kept, &extent) != INFINITY &&
-          ox_whole_depth(r, &limits, kept, &extent) != INFINITY &&
-          extent.past > ox_flat_of(r, &plane, size) &&
-          ox_depth_beyond(r, &plane, least->judged) <= least->judged)
+      if (ox_least_depth(r, &limits, kept, &extent) == INFINITY) continue;
+      const float depth = ox_whole_depth(r, &limits, kept, &extent);
+      if (depth != INFINITY && extent.past > ox_flat_of(r, &plane, size) &&
+          ox_depth_beyond(r, &plane, depth, least->judged) <= least->judged)
         return true;
     }
   }
   return false;
 }
 
-// The least plane. Where one does not separate the bodies, the way along its normal is past all of
-// both. OX_PLANE_NONE: there is none, or a valley.
+// The least plane; OX_PLANE_NONE: there is none, or a valley. Where one does not separate the
+// bodies, the way along its normal is past all of both; what takes more than twice as much is none
+// either: the region meets a corner of which one plane is not all.
 static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
   ox_search search;
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) search.kept[i].found[0] = search.kept[i].found[1] = 0u;
   ox_plane_choice of_body = ox_no_choice();
+  float worth = INFINITY;
   search.refused.count = 0u;
   while (search.refused.count < OX_FEW) {
     ox_plane_choice best = ox_search_whole(r, &search);
@@ -316,15 +318,17 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
       return ox_no_choice();
     ox_try_nearest(r, &search, &best);
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
+    if (best.judged > worth) return ox_no_choice();
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || ox_only_touches(r, &best) ||
         !ox_whole_stays(r, &best))
       return best;
     ox_refuse(&search.refused, &best.plane);
+    if (search.refused.count == 1u) worth = OX_WORTH * best.judged;
     best.judged = ox_max(best.judged, ox_depth_of_both(r, best.plane.normal));
     if (ox_is_better_choice(&best, &of_body)) of_body = best;
   }
-  return of_body;
+  return of_body.judged <= worth ? of_body : ox_no_choice();
 }
 
 #endif
