@@ -152,28 +152,6 @@ static inline void ox_add_edge_contact(const ox_manifold* m, const ox_plane_choi
                      target, touch);
 }
 
-// Contacts of all of a whole region.
-static inline void ox_add_whole(const ox_manifold* m, const ox_plane_choice* choice) {
-  const ox_region_view* r = m->region;
-  if (choice->plane.kind == OX_PLANE_NONE) return;
-  if (choice->plane.kind == OX_PLANE_EDGES) {
-    ox_add_edge_contact(m, choice);
-    return;
-  }
-  const uint side = choice->plane.kind == OX_PLANE_FACE_OF_A ? 1u : 0u;
-  bool any = false;
-  for (uint pass = 0u; pass < 2u && !any; ++pass) {  // those on the rim only if there are no others
-    bool own = false;
-    for (uint k = OX_ITEM; k < r->count; k += OX_ITEMS) {
-      __global const ox_feature* f = ox_feature_of(r, k);
-      if (!ox_is_on(f->flags, side) || ox_is_on_rim(r, f, &choice->plane) != (pass == 1u)) continue;
-      ox_add_feature_contact(m, choice, f);
-      own = true;
-    }
-    any = ox_any_item(own);
-  }
-}
-
 // Contacts of a unit that a plane has cleared just now, of both ends of a chord; returns how many.
 // By one work-item.
 static inline uint ox_add_cleared(const ox_manifold* m, const ox_plane_choice* choice,

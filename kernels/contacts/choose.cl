@@ -11,7 +11,7 @@
 //       planes: which of them part of the region is past; members: units, in another order
 // item  1 region (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: none; a feature makes one candidate at most
-#include "contacts/candidates.h"
+#include "contacts/whole_contacts.h"
 
 // A unit that needs no plane any more.
 static void ox_mark_cleared(const ox_region_view* r, uint k) {

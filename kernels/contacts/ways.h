@@ -69,102 +69,25 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
   return ox_is_still_inside(r, side, p + ox_way_past(r, depth) * away, away);
 }
 
-// Whether mesh `side`, which the plane clears, goes through a face of the other that looks back: one
-// that crosses it, or at a vertex inside it. (The plane of a face of A has the face's normal
-// turned.)
-static inline bool ox_goes_through(const ox_region_view* r, const ox_plane* plane, uint side) {
-  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
-    const uint through =
-        ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
-                   OX_PLANE_CROSSED | (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A));
-    ox_floats cosine;
-    ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, plane->normal, &cosine);
-    const ox_ints looks_back = cosine < OX_LOOKS_BACK;
-    if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
-      return true;
-  }
-  const float3 direction = ox_way_of(side, plane->normal);
-  for (uint first = 0u; first < r->count; first += OX_ITEMS) {
-    const uint k = first + OX_ITEM;
-    const uint flags = k < r->count ? ox_flags_of(r, k) : 0u;
-    if (ox_any_item(
-            ox_is_vertex(flags) && ox_side_of(flags) != side &&
-            ox_looks_back(ox_back_of_vertex(r, 1u - side, ox_feature_of(r, k)->source, direction),
-                          direction)))
-      return true;
-  }
-  return false;
-}
-
-// What of mesh `side` has gone through a face that looks back comes back through it once it is moved
-// past a plane, unless that is past what the face is of. It is asked of what comes half as far back
-// as what comes the farthest [m].
-static inline float ox_way_back(float3 back, float3 direction, float depth) {
-  return -0.5f * depth * ox_dot(back, direction);
-}
-
-// Of an edge of mesh `side` that crosses a face with the normal `back`.
-static inline bool ox_edge_comes_back(const ox_region_view* r, uint side,
-                                      __global const ox_feature* f, float3 back,
-                                      const ox_plane* plane, float depth) {
-  const float3 direction = ox_way_of(side, plane->normal);
-  __global const ox_edge* edge = r->scene->edges + f->source;
-  const uint end = (f->flags & OX_FEATURE_LEAVES) != 0u ? 1u : 0u;
-  const float3 p = vload3(0, f->position);
-  const float3 beyond = ox_vertex_of(r->scene, r->pair, side, edge->vertex[end]) - p;
-  const float height = ox_dot(beyond, back);
-  const float part = ox_way_back(back, direction, depth);
-  const float3 asked = part < height ? p + part / height * beyond : p + beyond;
-  return ox_stays_inside(r, side, asked, plane, depth);
-}
-
-// Of mesh `side`, that goes around a vertex with such a face: where the vertex's own mesh is as far
-// behind that.
-static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
-                                        __global const ox_feature* f, float3 back,
-                                        const ox_plane* plane, float depth) {
-  const float3 direction = ox_way_of(side, plane->normal);
-  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
-  const float3 normal = side == 0u ? -inward : -ox_rotate(r->scene->pairs + r->pair, 0u, inward);
-  const float cosine = ox_max(ox_dot(normal, back), 0.1f);
-  const float3 asked =
-      vload3(0, f->position) - ox_way_back(back, direction, depth) / cosine * normal;
-  return ox_stays_inside(r, 1u - side, asked, plane, depth);
-}
-
-// Whether mesh `side` comes back through any of the faces that it goes through.
-static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* plane, uint side,
-                                      float depth) {
-  const float3 direction = ox_way_of(side, plane->normal);
-  for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    const bool is_own = ox_side_of(f->flags) == side;
-    if (ox_is_vertex(f->flags) == is_own) continue;
-    const float3 back = is_own ? ox_normal_of(r->scene, r->pair, 1u - side, f->triangle)
-                               : ox_back_of_vertex(r, 1u - side, f->source, direction);
-    if (!ox_looks_back(back, direction)) continue;
-    if (is_own ? ox_edge_comes_back(r, side, f, back, plane, depth)
-               : ox_comes_back_around(r, side, f, back, plane, depth))
-      return true;
-  }
-  return false;
-}
-
-// How deep the bodies are that go on beyond the region past a plane that is so deep itself; 0 if
-// neither does. What is not seen to come back is taken not to, at twice the price.
-static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
-                                    float limit) {
-  const float worth = OX_WORTH * depth;
-  float beyond = 0.0f;
-  for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
-    if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;
-    const float of_body = ox_depth_of_body(r, plane, side, limit);
-    const bool is_asked = plane->kind != OX_PLANE_EDGES && of_body > worth && worth <= limit;
-    beyond =
-        ox_max(beyond, is_asked && !ox_body_comes_back(r, plane, side, depth) ? worth : of_body);
-  }
-  return beyond;
+// The face of the other mesh by which a direction leaves it from a point of mesh `side`;
+// OX_PLANE_NONE: the point is not inside.
+static inline ox_plane ox_face_along(const ox_region_view* r, uint side, float3 p,
+                                     float3 direction) {
+  __global const ox_pair* pair = r->scene->pairs + r->pair;
+  uint work = 0u;
+  ox_query query;
+  query.direction = side == 0u ? direction : ox_rotate(pair, 1u, direction);
+  query.cast = ox_cast_from(ox_target_base(r, side), ox_in_target(r, side, p), query.direction);
+  query.epsilon = pair->epsilon;
+  query.t_max = INFINITY;
+  query.behind = query.entry = 0.0f;
+  query.two_sided = false;
+  query.known = false;
+  const ox_nearest nearest =
+      ox_trace(false, &query, ox_target_of(r, side), &r->scene->surfaces, OX_NONE, &work);
+  return nearest.back_t < nearest.front_t
+             ? ox_plane_of_face(r->scene, r->pair, 1u - side, nearest.back)
+             : ox_no_plane();
 }
 
 // The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a

@@ -3,7 +3,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
 #define ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
 
-#include "contacts/ways.h"
+#include "contacts/comes_back.h"
 
 // Of the members of a block that are points of mesh `side` how far the last and the first are along
 // a direction; infinitely far back and on where none is.

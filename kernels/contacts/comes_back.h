@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that go on beyond their region: whether what is beyond comes back where a plane takes it,
+// so that all of the body has to pass the plane. Device only.
+#ifndef ODE_EXT_KERNELS_CONTACTS_COMES_BACK_H
+#define ODE_EXT_KERNELS_CONTACTS_COMES_BACK_H
+
+#include "contacts/ways.h"
+
+// Whether mesh `side`, which the plane clears, goes through a face of the other that looks back:
+// one that crosses it, or at a vertex inside it. (The plane of a face of A has the face's normal
+// turned.)
+static inline bool ox_goes_through(const ox_region_view* r, const ox_plane* plane, uint side) {
+  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    const uint through =
+        ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
+                   OX_PLANE_CROSSED | (side == 0u ? OX_PLANE_FACE_OF_B : OX_PLANE_FACE_OF_A));
+    ox_floats cosine;
+    ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, plane->normal, &cosine);
+    const ox_ints looks_back = cosine < OX_LOOKS_BACK;
+    if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
+      return true;
+  }
+  const float3 direction = ox_way_of(side, plane->normal);
+  for (uint first = 0u; first < r->count; first += OX_ITEMS) {
+    const uint k = first + OX_ITEM;
+    const uint flags = k < r->count ? ox_flags_of(r, k) : 0u;
+    if (ox_any_item(
+            ox_is_vertex(flags) && ox_side_of(flags) != side &&
+            ox_looks_back(ox_back_of_vertex(r, 1u - side, ox_feature_of(r, k)->source, direction),
+                          direction)))
+      return true;
+  }
+  return false;
+}
+
+// A body that has gone through a face that looks back comes back through it when it is moved past
+// a plane, but where that takes it past what is behind the face. It is asked of what lands behind
+// the face by half of the most that anything can [m].
+static inline float ox_way_back(float3 back, float3 direction, float depth) {
+  return -0.5f * depth * ox_dot(back, direction);
+}
+
+// An edge of mesh `side` that crosses such a face, of which `back` is the normal.
+static inline bool ox_edge_comes_back(const ox_region_view* r, uint side,
+                                      __global const ox_feature* f, float3 back,
+                                      const ox_plane* plane, float depth) {
+  const float3 direction = ox_way_of(side, plane->normal);
+  __global const ox_edge* edge = r->scene->edges + f->source;
+  const uint end = (f->flags & OX_FEATURE_LEAVES) != 0u ? 1u : 0u;
+  const float3 p = vload3(0, f->position);
+  const float3 beyond = ox_vertex_of(r->scene, r->pair, side, edge->vertex[end]) - p;
+  const float height = ox_dot(beyond, back);
+  const float part = ox_way_back(back, direction, depth);
+  const float3 asked = part < height ? p + part / height * beyond : p + beyond;
+  return ox_stays_inside(r, side, asked, plane, depth);
+}
+
+// What of mesh `side` is around a vertex at such a face. Where it lands is behind that in the
+// vertex's own mesh, which has its middle against the normal there.
+static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
+                                        __global const ox_feature* f, float3 back,
+                                        const ox_plane* plane, float depth) {
+  const float3 direction = ox_way_of(side, plane->normal);
+  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
+  const float3 normal = side == 0u ? -inward : -ox_rotate(r->scene->pairs + r->pair, 0u, inward);
+  const float cosine = ox_max(ox_dot(normal, back), -OX_LOOKS_BACK);
+  const float3 asked =
+      vload3(0, f->position) - ox_way_back(back, direction, depth) / cosine * normal;
+  return ox_stays_inside(r, 1u - side, asked, plane, depth);
+}
+
+// Whether mesh `side` comes back through any of the faces that it goes through.
+static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* plane, uint side,
+                                      float depth) {
+  const float3 direction = ox_way_of(side, plane->normal);
+  for (uint k = 0u; k < r->count; ++k) {
+    __global const ox_feature* f = ox_feature_of(r, k);
+    const bool is_own = ox_side_of(f->flags) == side;
+    if (ox_is_vertex(f->flags) == is_own) continue;
+    const float3 back = is_own ? ox_normal_of(r->scene, r->pair, 1u - side, f->triangle)
+                               : ox_back_of_vertex(r, 1u - side, f->source, direction);
+    if (!ox_looks_back(back, direction)) continue;
+    if (is_own ? ox_edge_comes_back(r, side, f, back, plane, depth)
+               : ox_comes_back_around(r, side, f, back, plane, depth))
+      return true;
+  }
+  return false;
+}
+
+// How deep the bodies are that go on beyond the region, past a plane that the region is so deep
+// below; 0 if neither does. What is not seen to come back costs twice what the region does: it is
+// asked at few places.
+static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
+                                    float limit) {
+  const float worth = OX_WORTH * depth;
+  float beyond = 0.0f;
+  for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
+    if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;
+    const float of_body = ox_depth_of_body(r, plane, side, limit);
+    const bool is_asked = plane->kind != OX_PLANE_EDGES && of_body > worth && worth <= limit;
+    beyond =
+        ox_max(beyond, is_asked && !ox_body_comes_back(r, plane, side, depth) ? worth : of_body);
+  }
+  return beyond;
+}
+
+#endif

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The plane that a unit is separated by. Device only.
+#ifndef ODE_EXT_KERNELS_CONTACTS_UNIT_PLANE_H
+#define ODE_EXT_KERNELS_CONTACTS_UNIT_PLANE_H
+
+#include "contacts/joint_way.h"
+#include "contacts/unit_moves.h"
+
+// A unit that a plane is looked for.
+typedef struct {
+  uint unit;
+  uint side;
+  uint through[2];  // crossings by which it goes through the other mesh
+  uint count;       // of those
+  const ox_moves* before;
+  ox_refused refused;
+} ox_seed;
+
+static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_moves* before) {
+  ox_seed seed;
+  seed.before = before;
+  seed.unit = unit;
+  seed.side = ox_side_of(ox_flags_of(r, unit));
+  seed.count = 0u;
+  seed.refused.count = 0u;
+  uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[unit];
+  while (feature != OX_NONE && seed.count < 2u) {
+    __global const ox_feature* f = r->scene->features + feature;
+    if (ox_is_vertex(f->flags)) break;
+    seed.through[seed.count++] = feature;
+    feature = f->partner;
+  }
+  return seed;
+}
+
+static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
+                               ox_plane_choice* best) {
+  if (ox_is_refused(&seed->refused, plane, OX_WAY_OF_UNIT)) return;
+  ox_plane_choice choice = ox_no_choice();
+  choice.plane = *plane;
+  choice.depth = ox_unit_depth(r, seed->unit, plane);
+  if (choice.depth == INFINITY) return;
+  choice.judged = ox_cost_of(r, seed->before, plane, choice.depth);
+  if (!ox_is_better_choice(&choice, best)) return;
+  // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
+  // a whole region.
+  const float3 direction = ox_way_of(seed->side, plane->normal);
+  for (uint i = 0u; i < seed->count; ++i) {
+    __global const ox_feature* f = r->scene->features + seed->through[i];
+    const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
+    if (!ox_looks_back(back, direction)) continue;
+    const float worth = OX_WORTH * choice.depth;
+    float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
+    if (of_body > worth && worth <= best->judged &&
+        !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
+      of_body = worth;
+    choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
+  }
+  if (ox_is_better_choice(&choice, best)) *best = choice;
+}
+
+// The ends of a unit, by which its planes are looked for in many blocks.
+typedef struct {
+  float3 one, other;
+  uint side;
+  float past;  // [m] the least that a plane clears it by, of both ends
+} ox_ends;
+
+static inline ox_ends ox_ends_of(const ox_region_view* r, uint unit) {
+  const float past = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const ox_ends ends = {ox_position_of(r, unit), ox_vector_of(&r->members, OX_MEMBER_END, unit),
+                        ox_side_of(ox_flags_of(r, unit)), past + past};
+  return ends;
+}
+
+// A bit for each plane of a block that clears a unit by a move of `limit` at most.
+static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const ox_ends* ends,
+                                      float limit) {
+  ox_floats one, other;
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->one, &one);
+  ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->other, &other);
+  const ox_floats level = OX_LOAD_FLOATS(&r->planes, OX_PLANE_LEVEL + ends->side, block);
+  one = ends->side == 0u ? level - one : level + one;
+  other = ends->side == 0u ? level - other : level + other;
+  // Those of other kinds clear the other mesh alone.
+  const int others = (int)(ends->side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
+  const ox_ints clears =
+      (one + other >= ends->past) & (one <= limit) & (other <= limit) &
+      ((OX_LOAD_WORDS(&r->planes, OX_PLANE_FLAGS, block) & (int)OX_PLANE_KIND) != others);
+  return ox_mask_of(&clears) & ox_present_lanes(r->plane_count, block);
+}
+
+// Of all planes of the region, and a unit's own, the best for it. Its own is tried first: what
+// costs more need not be looked at.
+static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed) {
+  ox_plane_choice best = ox_no_choice();
+  const ox_plane own = ox_own_plane(r, seed->unit);
+  ox_try_unit(r, seed, &own, &best);
+  const ox_ends ends = ox_ends_of(r, seed->unit);
+  const uint blocks = (r->plane_count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
+    uint clears[OX_BLOCKS_AT_ONCE];
+    for (uint i = 0u; i < OX_BLOCKS_AT_ONCE; ++i)
+      clears[i] = ox_clearing_planes(r, min(first + i, blocks - 1u), &ends, best.judged);
+    for (uint i = 0u; i < OX_BLOCKS_AT_ONCE && first + i < blocks; ++i)
+      for (; clears[i] != 0u; clears[i] &= clears[i] - 1u) {
+        const uint k = OX_VECTOR_WIDTH * (first + i) + ox_lowest(clears[i]);
+        const ox_plane plane = ox_load_plane(&r->planes, k);
+        ox_try_unit(r, seed, &plane, &best);
+      }
+  }
+  return best;
+}
+
+static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
+                                 const ox_plane_choice* choice) {
+  return ox_stays_inside(r, seed->side, ox_middle_of(r, seed->unit), &choice->plane, choice->depth);
+}
+
+// The least of the planes that do not separate it, where all together do; else OX_PLANE_NONE. Where
+// it is still inside past all, the nearest face that it is behind there is one more: of a corner
+// the region need not meet all. Planes that face one way, as those of a surface that bends inwards
+// do, do so only if it goes hardly farther than past the least. A plane that separates it alone is
+// better up to twice the price of all: it clears more.
+static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
+                                               const ox_joint_choice* planes,
+                                               const ox_plane_choice* known) {
+  ox_joint_choice joint = *planes;  // and of those that it lands in
+  const float3 one = ox_position_of(r, seed->unit);
+  const float3 other = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
+  for (;;) {
+    const float longer = ox_lengthened(r, &joint);
+    float sum = 0.0f;
+    for (uint i = 0u; i < joint.count; ++i) sum += joint.share[i];
+    ox_plane_choice choice = joint.first;
+    choice.judged = OX_WORTH * (choice.judged - joint.far[0] + longer * sum);
+    if (!ox_is_better_choice(&choice, known)) return ox_no_choice();
+    const float3 way = ox_way_of(seed->side, longer * joint.way);
+    const float3 p = 0.5f * (one + other) + way;
+    const float first = joint.far[0] / OX_SAME_WAY;
+    const bool counts = joint.is_corner || (joint.count > 1u && ox_dot(way, way) <= first * first);
+    if (counts && !ox_is_still_inside(r, seed->side, p, way)) return choice;
+    if (planes->count != 1u || joint.count == OX_FEW) return ox_no_choice();
+    const ox_plane next = ox_nearest_of(r, seed->side, p, known->judged, true);
+    if (next.kind == OX_PLANE_NONE) return ox_no_choice();
+    const float depth =
+        ox_max(ox_plane_depth(&next, seed->side, one), ox_plane_depth(&next, seed->side, other));
+    ox_add_to_joint(r, next.normal, depth, &joint);
+  }
+}
+
+// The best plane for a unit. Where one does not separate it, that and those that do not either may
+// do so together: then the least of them is its. Else the way along its normal is past all of both
+// bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
+// itself and do not separate it; so that is asked after few of them, and taken if it takes no more
+// of the moves before it back.
+static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
+                                            const ox_moves* before) {
+  ox_seed seed = ox_seed_of(r, unit, before);
+  ox_plane_choice known = ox_no_choice();  // the best that does separate it
+  ox_joint_choice joint = ox_begin_joint();
+  while (seed.refused.count < OX_FEW) {
+    ox_plane_choice choice = ox_search_for(r, &seed);
+    if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &known)) break;
+    if (ox_only_touches(r, &choice) || !ox_unit_stays(r, &seed, &choice)) return choice;
+    ox_refuse(&seed.refused, &choice.plane);
+    if (joint.count == 0u) joint.first = choice;
+    ox_add_to_joint(r, choice.plane.normal, choice.depth, &joint);
+    const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
+    choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
+    if (ox_is_better_choice(&choice, &known)) known = choice;
+    const ox_plane_choice together = ox_leave_jointly(r, &seed, &joint, &known);
+    if (ox_is_better_choice(&together, &known)) known = together;
+  }
+  if (seed.refused.count < OX_FEW) return known;
+  ox_plane_choice own = known;
+  const ox_plane plane = ox_own_plane(r, unit);
+  ox_try_unit(r, &seed, &plane, &own);
+  const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
+                        OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  return ox_is_better_choice(&own, &known) &&
+                 ox_taken_back(before, own.plane.normal, own.depth) <= allowed &&
+                 !ox_unit_stays(r, &seed, &own)
+             ? own
+             : known;
+}
+
+#endif

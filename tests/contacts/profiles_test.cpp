@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts that fit one another along a profile, pushed into one another by a little more than they
+// have to spare. Taking that back parts them, so no contact is deeper.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "contacts/placed.h"
+
+namespace ode_ext::test {
+namespace {
+
+using Profile = std::vector<std::array<double, 2>>;  // counter-clockwise
+
+double turn(const std::array<double, 2>& a, const std::array<double, 2>& b,
+            const std::array<double, 2>& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool is_ear(const Profile& profile, const std::vector<unsigned>& left, std::size_t at) {
+  const std::size_t n = left.size();
+  const auto &a = profile[left[(at + n - 1) % n]], &b = profile[left[at]],
+             &c = profile[left[(at + 1) % n]];
+  if (turn(a, b, c) <= 0) return false;
+  for (const unsigned other : left) {
+    const auto& p = profile[other];
+    if (p == a || p == b || p == c) continue;
+    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+  }
+  return true;
+}
+
+// Cut into triangles by clipping ears (Meisters 1975).
+std::vector<unsigned> triangles_of(const Profile& profile) {
+  std::vector<unsigned> left(profile.size()), triangles;
+  for (unsigned i = 0; i < left.size(); ++i) left[i] = i;
+  while (left.size() > 3) {
+    std::size_t at = 0;
+    while (at < left.size() && !is_ear(profile, left, at)) ++at;
+    const std::size_t n = left.size();
+    if (at == n) return {};
+    triangles.insert(triangles.end(), {left[(at + n - 1) % n], left[at], left[(at + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  triangles.insert(triangles.end(), left.begin(), left.end());
+  return triangles;
+}
+
+// Along z, about 0.
+TestMesh extruded(const Profile& profile, double length) {
+  TestMesh mesh;
+  const auto n = static_cast<unsigned>(profile.size());
+  for (const double z : {-0.5 * length, 0.5 * length})
+    for (const auto& [x, y] : profile)
+      for (const double v : {x, y, z}) mesh.vertices.push_back(static_cast<float>(v));
+  const auto add = [&](unsigned a, unsigned b, unsigned c) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c});
+  };
+  for (unsigned i = 0; i < n; ++i) {
+    const unsigned j = (i + 1) % n;
+    add(i, j, j + n);
+    add(i, j + n, i + n);
+  }
+  const std::vector<unsigned> cap = triangles_of(profile);
+  for (std::size_t k = 0; k < cap.size(); k += 3) {
+    add(cap[k], cap[k + 2], cap[k + 1]);
+    add(cap[k] + n, cap[k + 1] + n, cap[k + 2] + n);
+  }
+  return mesh;
+}
+
+// A wall about a hole of this profile.
+TestMesh hub(const Profile& profile, double radius, double length) {
+  TestMesh mesh;
+  const auto n = static_cast<unsigned>(profile.size());
+  for (const double z : {-0.5 * length, 0.5 * length})
+    for (const bool outer : {false, true})
+      for (const auto& [x, y] : profile) {
+        const double size = outer ? radius / std::hypot(x, y) : 1;
+        for (const double v : {size * x, size * y, z})
+          mesh.vertices.push_back(static_cast<float>(v));
+      }
+  for (unsigned i = 0; i < n; ++i) {
+    const unsigned j = (i + 1) % n;
+    for (const auto& q : {std::array{j, i, 2 * n + i, 2 * n + j},
+                          {n + i, n + j, 3 * n + j, 3 * n + i},
+                          {i, j, n + j, n + i},
+                          {2 * n + j, 2 * n + i, 3 * n + i, 3 * n + j}})
+      mesh.indices.insert(mesh.indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+  }
+  return mesh;
+}
+
+double deepest(const std::vector<Contact>& contacts) {
+  double depth = 0;
+  for (const Contact& c : contacts) depth = std::max(depth, static_cast<double>(c.depth));
+  return depth;
+}
+
+// It is held by its flanks, which lean over it, however deep it sits. It had contacts as deep as
+// that, straight up and out of the guide.
+TEST(Profiles, ADovetailLeavesItsGuideByTheFlanks) {
+  for (const double undercut : {0.5, 1.5, 3.0, 5.0, 8.0}) {
+    const Profile tail{{-12.6 + (5 - undercut), -8},
+                       {12.6 - (5 - undercut), -8},
+                       {7.6, 3},
+                       {30, 3},
+                       {30, 20},
+                       {-30, 20},
+                       {-30, 3},
+                       {-7.6, 3}};
+    const Profile guide{
+        {-30, -20}, {30, -20}, {30, 0}, {10, 0}, {10 + undercut, -10}, {-10 - undercut, -10},
+        {-10, 0},   {-30, 0}};
+    for (const double length : {40.0, 60.0, 80.0})
+      for (const double pushed : {0.01, 0.1, 0.5}) {
+        // Until a flank touches: along x by what there is between the lip and the flank.
+        const double slope = (5.0 - (5 - undercut)) / 11;  // of the tail's flank
+        const double apart = 10 - (7.6 + slope * 3);
+        const Placed placed{scaled(extruded(tail, length), 0.001),
+                            scaled(extruded(guide, 60), 0.001),
+                            at(-0.001 * (apart + pushed), 0, 0.001), TestPose{}};
+        const std::vector<Contact> found = placed.contacts(TestPose{});
+        ASSERT_FALSE(found.empty()) << undercut << ", " << length;
+        EXPECT_LT(deepest(found), 0.0011 * pushed) << undercut << ", " << length;
+        for (const Contact& c : found) EXPECT_GT(c.normal.x, 0.7);
+      }
+  }
+}
+
+// Whatever its angle is: acute ones take both walls at once.
+TEST(Profiles, ABarLeavesAVBlockByItsWalls) {
+  Random random(9);
+  std::size_t colliding = 0;
+  for (const double half : {20.0, 30.0, 41.0, 45.0, 60.3, 75.0})
+    for (const double narrower : {0.0, 0.1, 3.0})
+      for (const auto& [bar, block] : {std::array{80.0, 60.0}, {60.0, 60.0}, {60.0, 80.0}}) {
+        const double t = std::tan(half * std::numbers::pi / 180);
+        const double s = std::tan((half - narrower) * std::numbers::pi / 180);
+        const Profile v{{-30, -30}, {30, -30}, {30, 30 / t}, {0, 0}, {-30, 30 / t}};
+        const Profile diamond{{0, 0}, {20, 20 / s}, {0, 40 / s}, {-20, 20 / s}};
+        const TestMesh a = scaled(extruded(diamond, bar), 0.001);
+        const TestMesh b = scaled(extruded(v, block), 0.001);
+        for (int i = 0; i < 12; ++i) {
+          const double angle = random.uniform(-std::numbers::pi, 0);
+          const double pushed = 1e-5 * std::pow(10, random.uniform(0, 2));
+          const Placed placed{
+              a, b,
+              at(pushed * std::cos(angle), pushed * std::sin(angle), random.uniform(-0.002, 0.002)),
+              TestPose{}};
+          const std::vector<Contact> found = placed.contacts(TestPose{});
+          colliding += found.empty() ? 0 : 1;
+          EXPECT_LT(deepest(found), 1.05 * pushed + placed.tolerance(TestPose{}))
+              << half << " degrees, " << narrower << " narrower, " << bar << " in " << block;
+        }
+      }
+  EXPECT_GT(colliding, 500u);
+}
+
+// Eight teeth with straight flanks, from sharp to blunt, that have 0.3 mm to spare.
+TEST(Profiles, ASplineLeavesItsHubByTheFlanks) {
+  Random random(10);
+  std::size_t colliding = 0;
+  for (const double tip : {50.0, 60.0, 78.0, 82.0, 90.0, 100.0, 120.0}) {
+    const double half = tip * std::numbers::pi / 360, pitch = std::numbers::pi / 8;
+    const auto star = [&](double smaller) {  // all flanks moved in by as much
+      const double r = 12 - smaller / std::sin(half);
+      const double s = r * std::tan(pitch) / (std::sin(half) + std::cos(half) * std::tan(pitch));
+      const double valley = std::hypot(r - s * std::cos(half), s * std::sin(half));
+      Profile profile;
+      for (int i = 0; i < 16; ++i) {
+        const double size = i % 2 == 0 ? r : valley;
+        profile.push_back({size * std::cos(pitch * i), size * std::sin(pitch * i)});
+      }
+      return profile;
+    };
+    const TestMesh shaft = scaled(extruded(star(0.3), 40), 0.001);
+    const TestMesh around = scaled(hub(star(0), 20, 20), 0.001);
+    for (int i = 0; i < 60; ++i) {
+      const double angle = random.uniform(0, 2 * std::numbers::pi);
+      const double pushed = 0.0003 * random.uniform(1.1, 2.5);
+      const Placed placed{
+          shaft, around,
+          at(pushed * std::cos(angle), pushed * std::sin(angle), random.uniform(-0.002, 0.002)),
+          TestPose{}};
+      const std::vector<Contact> found = placed.contacts(TestPose{});
+      colliding += found.empty() ? 0 : 1;
+      EXPECT_LT(deepest(found), pushed) << tip << " degrees, " << i;
+      for (const Contact& c : found) EXPECT_LT(std::abs(c.normal.z), 0.01);
+    }
+  }
+  EXPECT_GT(colliding, 300u);
+}
+
+}  // namespace
+}  // namespace ode_ext::test
