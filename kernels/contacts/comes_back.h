@@ -90,7 +90,7 @@ static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* p
 
 // How deep the bodies are that go on beyond the region, past a plane that the region is so deep
 // below; 0 if neither does. What is not seen to come back costs twice what the region does: it is
-// asked at few places.
+// asked at few places. Of a region of many members, each of which takes a ray, it is not asked.
 static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
                                     float limit) {
   const float worth = OX_WORTH * depth;
@@ -98,7 +98,8 @@ static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* pla
   for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
     if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;
     const float of_body = ox_depth_of_body(r, plane, side, limit);
-    const bool is_asked = plane->kind != OX_PLANE_EDGES && of_body > worth && worth <= limit;
+    const bool is_asked =
+        plane->kind != OX_PLANE_EDGES && r->count <= OX_MANY && of_body > worth && worth <= limit;
     beyond =
         ox_max(beyond, is_asked && !ox_body_comes_back(r, plane, side, depth) ? worth : of_body);
   }

@@ -49,10 +49,10 @@ static inline void ox_add_border(const ox_manifold* m, const ox_plane_choice* ch
     float3 asked = position;
     if (!ox_is_vertex(f->flags)) {
       if (f->partner == OX_NONE) continue;
-      // A hundredth of the chord on, or farther where that is hardly inside.
+      // Where it is inside, or midway along the chord.
       const float3 d = vload3(0, r->scene->features[f->partner].position) - position;
       const float inside = OX_INSIDE_ALONG * r->scene->pairs[r->pair].epsilon;
-      asked += clamp(inside / sqrt(ox_dot(d, d)), 0.01f, 0.5f) * d;
+      asked += ox_min(inside / sqrt(ox_dot(d, d)), 0.5f) * d;
     }
     const ox_plane below = ox_face_along(r, 1u - side, asked, down);
     const ox_plane above = ox_face_along(r, 1u - side, asked, -down);
