@@ -88,20 +88,29 @@ static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* p
   return false;
 }
 
+// What a plane costs that is so deep, where a body is not seen to come back through it: twice that,
+// as it is asked at few places.
+static inline float ox_doubted(float depth) { return OX_WORTH * depth; }
+
+// Whether it is to be asked: all of the body costs more, and that much is within a limit.
+static inline bool ox_is_doubted(float of_body, float depth, float limit) {
+  return of_body > ox_doubted(depth) && ox_doubted(depth) <= limit;
+}
+
 // How deep the bodies are that go on beyond the region, past a plane that the region is so deep
-// below; 0 if neither does. What is not seen to come back costs twice what the region does: it is
-// asked at few places. Of a region of many members, each of which takes a ray, it is not asked.
+// below; 0 if neither does. Of a region of many members, each of which takes a ray, it is not asked
+// whether they come back.
 static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
                                     float limit) {
-  const float worth = OX_WORTH * depth;
+  const bool is_asked = plane->kind != OX_PLANE_EDGES && r->count <= OX_MANY;
   float beyond = 0.0f;
   for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
     if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;
-    const float of_body = ox_depth_of_body(r, plane, side, limit);
-    const bool is_asked =
-        plane->kind != OX_PLANE_EDGES && r->count <= OX_MANY && of_body > worth && worth <= limit;
-    beyond =
-        ox_max(beyond, is_asked && !ox_body_comes_back(r, plane, side, depth) ? worth : of_body);
+    float of_body = ox_depth_of_body(r, plane, side, limit);
+    if (is_asked && ox_is_doubted(of_body, depth, limit) &&
+        !ox_body_comes_back(r, plane, side, depth))
+      of_body = ox_doubted(depth);
+    beyond = ox_max(beyond, of_body);
   }
   return beyond;
 }

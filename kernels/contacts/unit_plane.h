@@ -49,11 +49,10 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
     __global const ox_feature* f = r->scene->features + seed->through[i];
     const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
     if (!ox_looks_back(back, direction)) continue;
-    const float worth = OX_WORTH * choice.depth;
     float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
-    if (of_body > worth && worth <= best->judged &&
+    if (ox_is_doubted(of_body, choice.depth, best->judged) &&
         !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
-      of_body = worth;
+      of_body = ox_doubted(choice.depth);
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
   }
   if (ox_is_better_choice(&choice, best)) *best = choice;
