@@ -107,7 +107,7 @@ static void ox_take_share(ox_scene* scene) {
   scene->faces += OX_FACES_PER_FEATURE * first;
   scene->planes += OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * first;
   scene->edge_planes += 2u * first;
-  scene->candidates += OX_CANDIDATE_WORDS * first;
+  scene->candidates += OX_CANDIDATES_PER_FEATURE * OX_CANDIDATE_WORDS * first;
 }
 
 __kernel void whole_step(OX_SCENE_PARAMETERS) {

@@ -273,8 +273,9 @@ ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTri
  * ODE takes the bounding box of a mesh when it is built, and never again: build a mesh that will
  * move with two vertices at the corners of a box that holds every shape it can take, put them back,
  * and call dGeomTriMeshDataUpdate (dBatchStatusMeshLeftBox says when that box was too small).
- * The mark goes by the handle: announce it with dBatchColliderTriMeshDataDestroyed when the mesh is
- * destroyed, or another that gets its address has it too.
+ * The mark is of the collider alone, or with 0 of all that live: one that is created later is to be
+ * told again. It goes by the handle: announce it with dBatchColliderTriMeshDataDestroyed when the
+ * mesh is destroyed, or another that gets its address has it too.
  */
 ODE_EXT_API void dBatchColliderTriMeshDataSetDeformable(dBatchColliderID collider,
                                                         dTriMeshDataID data, int deformable);

@@ -83,8 +83,9 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 #define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and of B
 #define OX_PLANE_WORDS 8u
 
-// What may become a contact, in the frame of B, each field for itself: of a pair with n features
-// there is room for n.
+// What may become a contact, in the frame of B, each field for itself: a feature makes one, and for
+// units that it takes several planes to separate there is room for as many more.
+#define OX_CANDIDATES_PER_FEATURE 2u
 #define OX_CANDIDATE_POSITION 0u  // three
 #define OX_CANDIDATE_NORMAL 3u    // three, into A
 #define OX_CANDIDATE_DEPTH 6u

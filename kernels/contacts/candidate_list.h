@@ -10,8 +10,9 @@
 #define OX_MAX_CONTACTS 64u
 
 static inline ox_fields ox_candidates_of(const ox_scene* scene, uint pair) {
-  const ox_fields list = {scene->candidates + (ulong)OX_CANDIDATE_WORDS * scene->found[pair].first,
-                          scene->found[pair].features};
+  const ulong first = (ulong)OX_CANDIDATES_PER_FEATURE * scene->found[pair].first;
+  const ox_fields list = {scene->candidates + OX_CANDIDATE_WORDS * first,
+                          OX_CANDIDATES_PER_FEATURE * scene->found[pair].features};
   return list;
 }
 

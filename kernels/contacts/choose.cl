@@ -10,7 +10,8 @@
 // out   candidates for contacts of each pair, and their number
 //       planes: which of them part of the region is past; members: units, in another order
 // item  1 region (of a queue); of a work-group, where lanes are one (lib/group.h)
-// may overflow: none; a feature makes one candidate at most
+// may overflow: none; a region makes two candidates for each feature at most
+#include "contacts/own_faces.h"
 #include "contacts/whole_contacts.h"
 
 // A unit that needs no plane any more.
@@ -18,11 +19,11 @@ static void ox_mark_cleared(const ox_region_view* r, uint k) {
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_CLEARED;
 }
 
-// A unit, other than the one that a plane was chosen for, that the last move may clear. By one
-// work-item.
+// A unit, other than the one that a plane was chosen for, that the last move may clear, unless
+// another plane of the same corner has. By one work-item.
 static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint seed) {
   const ox_region_view* r = m->region;
-  if (k == seed) return;
+  if (k == seed || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
   const ox_plane_choice by = ox_clearing_plane(r, k, moves);
   if (by.plane.kind == OX_PLANE_NONE) return;
   if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
@@ -46,6 +47,7 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
       for (uint own = ox_own_bits(cleared[i]); own != 0u; own &= own - 1u)
         ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed);
   }
+  ox_settle();
   ++m->manifold;
 }
 
@@ -68,16 +70,57 @@ static void ox_mark_bends(const ox_region_view* r, uint units) {
   ox_settle();
 }
 
+// Whether a unit that several planes separate has to pass one of them, and that takes none of the
+// moves before it back.
+static bool ox_is_needed(const ox_region_view* r, const ox_joint_choice* planes, uint i,
+                         const ox_moves* before) {
+  const float allowed = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  return planes->share[i] > 0.0f &&
+         ox_taken_back(before, planes->plane[i].normal, planes->depth[i]) <= allowed;
+}
+
+// Moves past the planes that are chosen for a unit. *more: candidates so far beyond one for each
+// feature, for which there is room (OX_CANDIDATES_PER_FEATURE).
+static void ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
+  const ox_region_view* r = m->region;
+  const uint flags = ox_flags_of(r, unit);
+  const uint side = ox_side_of(flags);
+  ox_joint_choice together;
+  ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
+  if (choice.plane.kind == OX_PLANE_NONE) return;
+  if ((ox_target_of(r, 1u - side)->flags & OX_MESH_DEFORMABLE) != 0u) {
+    const ox_plane_choice own = ox_choose_own_face(r, unit, moves, &choice);
+    if (ox_is_taken_along(r, unit, moves, ox_min(own.depth, choice.depth))) return;
+    const uint deepest = ox_deepest_below(r, &own);
+    if (deepest < waiting) {
+      ox_move_past(m, &own, deepest, waiting, moves);
+      if (ox_is_first_item()) ox_mark_cleared(r, deepest);
+    }
+    // Else it has been cleared, or will be with the chord that it is the end of.
+    if (deepest < waiting || (deepest != OX_NONE && moves->count != 0u)) return;
+  }
+  ox_move_past(m, &choice, unit, waiting, moves);
+  const uint ends = ox_is_vertex(flags) ? 1u : 2u;
+  for (uint i = 1u; i < together.count && moves->count < OX_MOST_PLANES; ++i) {
+    if (!ox_is_needed(r, &together, i, moves)) continue;
+    if (*more + ends > r->count) return;
+    *more += ends;
+    choice.plane = together.plane[i];
+    choice.depth = together.depth[i];
+    ox_move_past(m, &choice, unit, waiting, moves);
+  }
+}
+
 // Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
 static uint ox_clear_units(ox_manifold* m, uint waiting) {
   const ox_region_view* r = m->region;
   ox_moves moves;
   moves.count = 0u;
+  uint more = 0u;
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint seed = ox_deepest_unit(r, waiting);
-    const ox_plane_choice choice = ox_choose_for(r, seed, &moves);
-    if (choice.plane.kind != OX_PLANE_NONE) ox_move_past(m, &choice, seed, waiting, &moves);
+    ox_take_out(m, seed, waiting, &moves, &more);
     if (ox_is_first_item()) ox_mark_cleared(r, seed);
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);

@@ -163,21 +163,53 @@ static void ox_join_stretches(const ox_scene* scene, uint i) {
   }
 }
 
+// A crossing of an edge with a vertex at its end, if that is inside.
+static void ox_join_end(const ox_scene* scene, uint i, uint end) {
+  __global const ox_feature* f = scene->features + i;
+  const uint vertex = scene->edges[f->source].vertex[end];
+  const uint entry = ox_find_feature(scene, ox_inside_key(f->pair, ox_side_of(f->flags), vertex));
+  if (entry != OX_NONE) ox_unite(scene, i, entry >> 2);
+}
+
 // The crossings of an edge, from the head of their chain on, with the other ends of their chords.
+// A sheet has no inside: what is beyond it may be at either end of an edge, whichever way the edge
+// goes through it.
 static void ox_join_chords(const ox_scene* scene, uint head) {
-  uint n = ox_find_partners(scene, head);
-  for (; n != OX_NONE; n = scene->features[n].next)
+  const uint first = ox_find_partners(scene, head);
+  uint last = first;
+  for (uint n = first; n != OX_NONE; n = scene->features[n].next) {
     if (scene->features[n].partner != OX_NONE) ox_unite(scene, n, scene->features[n].partner);
+    last = n;
+  }
+  __global const ox_feature* f = scene->features + first;
+  const uint target = scene->pairs[f->pair].mesh[1u - ox_side_of(f->flags)];
+  if ((scene->meshes[target].flags & OX_MESH_TWO_SIDED) == 0u) return;
+  ox_join_end(scene, first, 0u);
+  ox_join_end(scene, last, 1u);
+}
+
+// An edge within a facet is followed from a vertex inside to where it leaves: with the stretch of
+// the curve that runs over its facet there. Of the rim of a hole no other edge may leave what fills
+// it.
+static void ox_join_flat_edge(const ox_scene* scene, uint i) {
+  const uint inside = ox_find_end_inside(scene, scene->features + i);
+  if (inside == OX_NONE) return;
+  const uint end = ox_find_stretch_about(scene, i);
+  if (end != OX_NONE) ox_unite(scene, inside, end);
 }
 
 // out: partners; what follows one another along the curve or along an edge is united. Edges within
-// facets need not be followed: what hangs together by them alone is within one facet.
+// facets that lead from no vertex inside need not be followed: what hangs together by them alone is
+// within one facet.
 static void ox_join_features(const ox_scene* scene) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {
     __global ox_feature* f = scene->features + i;
     if (!ox_is_vertex(f->flags)) {
-      if ((f->flags & OX_FEATURE_FLAT) != 0u) continue;
+      if ((f->flags & OX_FEATURE_FLAT) != 0u) {
+        ox_join_flat_edge(scene, i);
+        continue;
+      }
       ox_join_stretches(scene, i);
       if (f->region == i) ox_join_chords(scene, i);
     } else if (f->next == OX_NONE) {

@@ -9,7 +9,8 @@
 // it is behind the floor too.
 typedef struct {
   ox_plane_choice first;  // the least of them
-  float3 normal[OX_FEW];
+  ox_plane plane[OX_FEW];
+  float depth[OX_FEW];  // [m] of the unit
   float far[OX_FEW];    // [m] how far it has to go along each
   float share[OX_FEW];  // [m] of the way along each
   float3 way;           // the sum of these: the shortest past all
@@ -31,18 +32,19 @@ static inline ox_joint_choice ox_begin_joint(void) {
 // is lacking then.
 #define OX_SWEEPS 32u
 
-static inline void ox_add_to_joint(const ox_region_view* r, float3 normal, float depth,
+static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane* plane, float depth,
                                    ox_joint_choice* joint) {
   const uint last = joint->count++;
-  joint->is_corner |= last != 0u && ox_dot(joint->normal[0], normal) <= OX_SAME_WAY;
-  joint->normal[last] = normal;
+  joint->is_corner |= last != 0u && ox_dot(joint->plane[0].normal, plane->normal) <= OX_SAME_WAY;
+  joint->plane[last] = *plane;
+  joint->depth[last] = depth;
   joint->far[last] = ox_way_past(r, depth);
   joint->share[last] = 0.0f;
   for (uint sweep = 0u; sweep < OX_SWEEPS; ++sweep)
     for (uint i = 0u; i <= last; ++i) {
-      const float lacking = joint->far[i] - ox_dot(joint->way, joint->normal[i]);
+      const float lacking = joint->far[i] - ox_dot(joint->way, joint->plane[i].normal);
       const float share = ox_max(joint->share[i] + lacking, 0.0f);
-      joint->way += (share - joint->share[i]) * joint->normal[i];
+      joint->way += (share - joint->share[i]) * joint->plane[i].normal;
       joint->share[i] = share;
     }
 }
@@ -52,7 +54,7 @@ static inline void ox_add_to_joint(const ox_region_view* r, float3 normal, float
 static inline float ox_lengthened(const ox_region_view* r, const ox_joint_choice* joint) {
   float longer = 1.0f;
   for (uint i = 0u; i < joint->count; ++i) {
-    const float along = ox_dot(joint->way, joint->normal[i]);
+    const float along = ox_dot(joint->way, joint->plane[i].normal);
     if (along + 0.5f * ox_way_past(r, 0.0f) >= joint->far[i]) continue;
     longer = along > 0.0f ? ox_max(longer, joint->far[i] / along) : INFINITY;
   }

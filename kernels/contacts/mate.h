@@ -7,7 +7,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_MATE_H
 #define ODE_EXT_KERNELS_CONTACTS_MATE_H
 
-#include "contacts/feature.h"
+#include "contacts/feature_table.h"
 
 // How far along a line; of those at one place the first comes first.
 typedef struct {
@@ -22,17 +22,21 @@ static inline bool ox_is_before_on_line(__global const ox_feature* features, con
              : ox_is_before(features + (a->entry >> 1), features + (b->entry >> 1));
 }
 
+// Along the line in which the planes of two facets meet: that crossed, and one at the edge.
+static inline float3 ox_line_at(const ox_scene* scene, __global const ox_feature* f, uint which) {
+  const uint side = ox_side_of(f->flags);
+  const float3 of_edge = ox_normal_of(scene, f->pair, side, f->at[which]);
+  const float3 crossed = ox_normal_of(scene, f->pair, 1u - side, f->triangle);
+  return side == 0u ? ox_plain_cross(of_edge, crossed) : ox_plain_cross(crossed, of_edge);
+}
+
 // The other end of a stretch, of either mesh; OX_NONE: it is not known.
 static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
   __global const ox_feature* f = scene->features + (entry >> 1);
   const uint second = f->mate[entry & 1u];
   if (second == OX_NONE || second == entry) return OX_NONE;
   if (scene->features[second >> 1].mate[second & 1u] == entry) return second;
-  const uint side = ox_side_of(f->flags);
-  const float3 of_edge = ox_normal_of(scene, f->pair, side, f->at[entry & 1u]);
-  const float3 crossed = ox_normal_of(scene, f->pair, 1u - side, f->triangle);
-  const float3 line =
-      side == 0u ? ox_plain_cross(of_edge, crossed) : ox_plain_cross(crossed, of_edge);
+  const float3 line = ox_line_at(scene, f, entry & 1u);
   const ox_on_line self = {entry, ox_dot(line, vload3(0, f->position))};
   ox_on_line last = {OX_NONE, 0.0f};
   ox_on_line next = {OX_NONE, 0.0f};
@@ -52,6 +56,31 @@ static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
   // A stretch begins with every other. Of an odd number, as at the border of an open mesh, the last
   // goes with the one before it.
   return before % 2u == 0u && next.entry != OX_NONE ? next.entry : last.entry;
+}
+
+// An end of the stretch that a crossing of an edge within a facet is on: of those of its facets the
+// last before it, or any if there are many; OX_NONE: there is none.
+static inline uint ox_find_stretch_about(const ox_scene* scene, uint i) {
+  __global const ox_feature* f = scene->features + i;
+  const uint side = ox_side_of(f->flags);
+  const uint found = ox_find_feature(
+      scene,
+      ox_facets_key(f->pair, side, ox_facet_of(scene, f->at[0]), ox_facet_of(scene, f->triangle)));
+  if (found == OX_NONE) return OX_NONE;
+  const uint first = found >> 2 << 1 | (found & 3u);
+  const float3 line = ox_line_at(scene, f, 0u);
+  const ox_on_line self = {i << 1, ox_dot(line, vload3(0, f->position))};
+  ox_on_line last = {first, -INFINITY};
+  uint count = 0u;
+  uint n = first;
+  do {
+    const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
+    if (ox_is_before_on_line(scene->features, &other, &self) &&
+        ox_is_before_on_line(scene->features, &last, &other))
+      last = other;
+    n = scene->features[n >> 1].mate[n & 1u];
+  } while (n != first && ++count < OX_MANY);
+  return last.entry >> 1;
 }
 
 // The mate of a crossing, of an edge of the other mesh; OX_NONE: it has none. Where facets are not

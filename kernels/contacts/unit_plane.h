@@ -120,10 +120,11 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
 // it is still inside past all, the nearest face that it is behind there is one more: of a corner
 // the region need not meet all. Planes that face one way, as those of a surface that bends inwards
 // do, do so only if it goes hardly farther than past the least. A plane that separates it alone is
-// better up to twice the price of all: it clears more.
+// better up to twice the price of all: it clears more. *together: all of them.
 static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
                                                const ox_joint_choice* planes,
-                                               const ox_plane_choice* known) {
+                                               const ox_plane_choice* known,
+                                               ox_joint_choice* together) {
   ox_joint_choice joint = *planes;  // and of those that it lands in
   const float3 one = ox_position_of(r, seed->unit);
   const float3 other = ox_vector_of(&r->members, OX_MEMBER_END, seed->unit);
@@ -138,50 +139,78 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
     const float3 p = 0.5f * (one + other) + way;
     const float first = joint.far[0] / OX_SAME_WAY;
     const bool counts = joint.is_corner || (joint.count > 1u && ox_dot(way, way) <= first * first);
-    if (counts && !ox_is_still_inside(r, seed->side, p, way)) return choice;
+    if (counts && !ox_is_still_inside(r, seed->side, p, way)) {
+      *together = joint;
+      // A way that is much longer than to the surface is not that of a corner.
+      const float nearer = sqrt(ox_dot(way, way)) / OX_WORTH;
+      if (ox_nearest_face(r, seed->side, p - way, nearer).kind != OX_PLANE_NONE)
+        together->count = 0u;
+      return choice;
+    }
     if (planes->count != 1u || joint.count == OX_FEW) return ox_no_choice();
-    const ox_plane next = ox_nearest_of(r, seed->side, p, known->judged, true);
+    // What it is on to within rounding may keep it inside as well.
+    const ox_plane next =
+        ox_nearest_of(r, seed->side, p, known->judged, r->scene->pairs[r->pair].epsilon);
     if (next.kind == OX_PLANE_NONE) return ox_no_choice();
     const float depth =
         ox_max(ox_plane_depth(&next, seed->side, one), ox_plane_depth(&next, seed->side, other));
-    ox_add_to_joint(r, next.normal, depth, &joint);
+    ox_add_to_joint(r, &next, depth, &joint);
   }
 }
 
 // The best plane for a unit. Where one does not separate it, that and those that do not either may
-// do so together: then the least of them is its. Else the way along its normal is past all of both
+// do so together: then all of them are its. Else the way along its normal is past all of both
 // bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
 // itself and do not separate it; so that is asked after few of them, and taken if it takes no more
-// of the moves before it back.
+// of the moves before it back. Nothing has to go much farther than to the surface: where what is
+// found does, it is to pass the nearest face, and what is beside it says the rest. *together: where
+// it takes several planes these, of which the least is returned; else none.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
-                                            const ox_moves* before) {
+                                            const ox_moves* before, ox_joint_choice* together) {
   ox_seed seed = ox_seed_of(r, unit, before);
-  ox_plane_choice known = ox_no_choice();  // the best that does separate it
+  ox_plane_choice known = ox_no_choice();  // the best so far
   ox_joint_choice joint = ox_begin_joint();
+  *together = joint;
   while (seed.refused.count < OX_FEW) {
     ox_plane_choice choice = ox_search_for(r, &seed);
     if (choice.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&choice, &known)) break;
-    if (ox_only_touches(r, &choice) || !ox_unit_stays(r, &seed, &choice)) return choice;
-    ox_refuse(&seed.refused, &choice.plane);
-    if (joint.count == 0u) joint.first = choice;
-    ox_add_to_joint(r, choice.plane.normal, choice.depth, &joint);
-    const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
-    choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
-    if (ox_is_better_choice(&choice, &known)) known = choice;
-    const ox_plane_choice together = ox_leave_jointly(r, &seed, &joint, &known);
-    if (ox_is_better_choice(&together, &known)) known = together;
+    const bool separates = !ox_unit_stays(r, &seed, &choice);
+    if (!separates) {
+      ox_refuse(&seed.refused, &choice.plane);
+      if (joint.count == 0u) joint.first = choice;
+      ox_add_to_joint(r, &choice.plane, choice.depth, &joint);
+      const float of_both = ox_max(choice.depth, ox_depth_of_both(r, choice.plane.normal));
+      choice.judged = ox_cost_of(r, before, &choice.plane, of_both);
+    }
+    if (ox_is_better_choice(&choice, &known)) {
+      known = choice;
+      together->count = 0u;
+    }
+    if (separates) break;
+    ox_joint_choice all;
+    choice = ox_leave_jointly(r, &seed, &joint, &known, &all);
+    if (!ox_is_better_choice(&choice, &known)) continue;
+    known = choice;
+    *together = all;
   }
-  if (seed.refused.count < OX_FEW) return known;
-  ox_plane_choice own = known;
-  const ox_plane plane = ox_own_plane(r, unit);
-  ox_try_unit(r, &seed, &plane, &own);
-  const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
-                        OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  return ox_is_better_choice(&own, &known) &&
-                 ox_taken_back(before, own.plane.normal, own.depth) <= allowed &&
-                 !ox_unit_stays(r, &seed, &own)
-             ? own
-             : known;
+  if (seed.refused.count == OX_FEW) {
+    ox_plane_choice own = known;
+    const ox_plane plane = ox_own_plane(r, unit);
+    ox_try_unit(r, &seed, &plane, &own);
+    const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
+                          OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+    if (ox_is_better_choice(&own, &known) &&
+        ox_taken_back(before, own.plane.normal, own.depth) <= allowed &&
+        !ox_unit_stays(r, &seed, &own)) {
+      known = own;
+      together->count = 0u;
+    }
+  }
+  if (together->count != 0u) return known;
+  const float far = known.depth / OX_WORTH;
+  const ox_plane nearest = ox_nearest_face(r, seed.side, ox_middle_of(r, unit), far);
+  ox_plane_choice near = ox_no_choice();
+  return ox_take_better(r, unit, &nearest, far, &near) ? near : known;
 }
 
 #endif

@@ -91,19 +91,20 @@ static inline ox_plane ox_face_along(const ox_region_view* r, uint side, float3 
 }
 
 // The face of the other mesh that is nearest to a point of mesh `side`, if it is nearer than a
-// bound; else OX_PLANE_NONE. `behind`: of those that the point is behind.
+// bound; else OX_PLANE_NONE. `before` [m]: of those that the point is behind, or in front of by no
+// more.
 static inline ox_plane ox_nearest_of(const ox_region_view* r, uint side, float3 p, float bound,
-                                     bool behind) {
+                                     float before) {
   const uint triangle =
       ox_closest_of(&r->scene->surfaces, ox_target_of(r, side), ox_target_base(r, side),
-                    ox_in_target(r, side, p), bound, r->scene->pairs[r->pair].epsilon, behind);
+                    ox_in_target(r, side, p), bound, r->scene->pairs[r->pair].epsilon, before);
   return triangle == OX_NONE ? ox_no_plane()
                              : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
 }
 
 // GRAPP's ray looks along the normal of the vertex alone.
 static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float3 p, float bound) {
-  return ox_nearest_of(r, side, p, bound, false);
+  return ox_nearest_of(r, side, p, bound, INFINITY);
 }
 
 #endif

@@ -57,9 +57,9 @@ static inline void ox_vertices_from(__global const ox_meshlet* m, float3 base, f
 }
 
 // From a point to the triangles of a block of a meshlet, and to their planes, squared; infinite
-// where one is of no area, and where the point is not behind one that it is to be.
+// where one is of no area, and where the point is farther in front of one than `before2`, squared.
 static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_vertices* seen,
-                                 uint block, bool behind, ox_floats* distance2,
+                                 uint block, float before2, ox_floats* distance2,
                                  ox_floats* height2) {
   ox_points corner[3];
   for (uint k = 0u; k < 3u; ++k) ox_corners_of(m, seen, block, k, corner + k);
@@ -78,7 +78,7 @@ static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_ve
     ox_note_side(corner + k, corner + (k + 1u) % 3u, &normal, distance2, &within);
   *height2 = height * height / area2;
   *distance2 = within ? *height2 : *distance2;
-  const ox_ints counts = (area2 > 0.0f) & (height > (behind ? 0.0f : -INFINITY));
+  const ox_ints counts = (area2 > 0.0f) & ((height > 0.0f) | (*height2 <= before2));
   *distance2 = counts ? *distance2 : (ox_floats)(INFINITY);
 }
 
@@ -90,7 +90,7 @@ typedef struct {
   float near2;            // the least or the bound, and the tie: what is farther is not looked at
   float height2;          // to the plane of the triangle
   bool is_least_known;    // of all that are as near, the one that faces the point most is wanted
-  bool behind;            // the point is to be behind it
+  float before2;          // so far the point may be in front of it
 } ox_closest;
 
 // Of a tie that is not 0 at least what rounding can do to the distance.
@@ -130,7 +130,7 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
       ox_vertices_from(m, base, p, scale, &seen);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2, height2;
-        ox_distances2(m, &seen, block, closest->behind, &distance2, &height2);
+        ox_distances2(m, &seen, block, closest->before2, &distance2, &height2);
         const ox_ints is_near = distance2 <= closest->near2;
         uint near = ox_mask_of(&is_near) & ox_lanes_with_area(m, block);
         if (near == 0u) continue;
@@ -175,9 +175,9 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
 // [m]: by how much distances may be off. Where the nearest point is on an edge or a vertex its
 // triangles are as near as one another, and neither rounding nor the order in which they are met
 // is to say which: so the least distance is found first, and where several are as near they are met
-// once more. `behind`: of those alone that the point is behind.
+// once more. `before` [m]: of those alone that the point is behind, or no farther in front of.
 static inline uint ox_closest_of(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
-                                 float3 base, float3 p, float bound, float tie, bool behind) {
+                                 float3 base, float3 p, float bound, float tie, float before) {
   const float scale = ox_unit_scale(mesh);
   ox_closest closest;
   closest.triangle = OX_NONE;
@@ -186,7 +186,7 @@ static inline uint ox_closest_of(const ox_surfaces* surfaces, __global const ox_
   closest.near2 = ox_as_near2(bound * scale * bound * scale, closest.tie);
   closest.height2 = -1.0f;
   closest.is_least_known = false;
-  closest.behind = behind;
+  closest.before2 = before * scale * before * scale;
   ox_walk_near(surfaces, mesh, base, p, scale, &closest);
   if (closest.second2 <= closest.near2 && closest.first2 < INFINITY) {
     closest.is_least_known = true;
@@ -197,7 +197,7 @@ static inline uint ox_closest_of(const ox_surfaces* surfaces, __global const ox_
 
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
                                        float3 base, float3 p, float bound, float tie) {
-  return ox_closest_of(surfaces, mesh, base, p, bound, tie, false);
+  return ox_closest_of(surfaces, mesh, base, p, bound, tie, INFINITY);
 }
 
 #endif

@@ -16,12 +16,13 @@ static inline bool ox_is_flat_edge(__global const ox_mesh* mesh, uint edge) {
 }
 
 // Whether a vertex is within a facet, so that it bounds nothing: then the first edge at it is, too.
-// Of a mesh that changes its shape, or of one beside it, every vertex may need a contact.
+// Of a mesh that changes its shape, and of one in a sheet, every vertex may need a contact.
 static inline bool ox_is_flat_vertex(const ox_scene* scene, __global const ox_pair* pair, uint side,
                                      uint vertex) {
   __global const ox_mesh* mesh = ox_mesh_of(scene, pair, side);
-  const uint flags = mesh->flags | ox_mesh_of(scene, pair, 1u - side)->flags;
-  if ((flags & OX_MESH_DEFORMABLE) != 0u) return false;
+  if ((mesh->flags & OX_MESH_DEFORMABLE) != 0u ||
+      (ox_mesh_of(scene, pair, 1u - side)->flags & OX_MESH_TWO_SIDED) != 0u)
+    return false;
   const uint first = scene->ring_starts[vertex];
   return first == scene->ring_starts[vertex + 1u] ||
          ox_is_flat_edge(mesh, scene->rings[first].edge);

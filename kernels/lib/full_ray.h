@@ -13,23 +13,28 @@
 // In boxes.
 #define OX_WORK_TRIANGLE 2u
 
+// *leaves, unless that is 0: how often the ray leaves by triangles of the meshlet more than it
+// enters, all along it.
 static inline void ox_consider_meshlet(const ox_query* query, const ox_surfaces* surfaces,
                                        __global const ox_meshlet* meshlet, float from,
-                                       ox_nearest* nearest) {
+                                       ox_nearest* nearest, int* leaves) {
   ox_moved_vertices seen;
   ox_shear_vertices(&query->cast, meshlet, &seen);
   for (uint first = 0u; first < meshlet->triangle_count; first += OX_VECTOR_WIDTH) {
     ox_floats t, determinant;
-    uint left = ox_meets_lanes(&query->cast, meshlet, &seen, first / OX_VECTOR_WIDTH, from,
-                               ox_limit(query, nearest), &t, &determinant);
+    const float limit = leaves != 0 ? INFINITY : ox_limit(query, nearest);
+    uint left = ox_meets_lanes(&query->cast, meshlet, &seen, first / OX_VECTOR_WIDTH, from, limit,
+                               &t, &determinant);
     if (left == 0u) continue;
     ox_lane_floats t_of, determinant_of;
     ox_keep_lanes(&t, &t_of);
     ox_keep_lanes(&determinant, &determinant_of);
     for (; left != 0u; left &= left - 1u) {
       const uint k = ox_lowest(left);
+      const bool is_back = ox_lane(&determinant_of, k) < 0.0f;
+      if (leaves != 0 && ox_lane(&t_of, k) >= 0.0f) *leaves += is_back ? 1 : -1;
       ox_consider_met(query, surfaces->triangles, meshlet->triangle[first + k], ox_lane(&t_of, k),
-                      ox_lane(&determinant_of, k) < 0.0f, nearest);
+                      is_back, nearest);
     }
   }
 }
@@ -50,7 +55,7 @@ static inline ox_nearest ox_trace_bvh(const ox_query* query, __global const ox_m
                                      ox_limit(query, &nearest), work);
     if (next == OX_NONE) return nearest;
     __global const ox_meshlet* meshlet = surfaces->meshlets + next;
-    ox_consider_meshlet(query, surfaces, meshlet, from, &nearest);
+    ox_consider_meshlet(query, surfaces, meshlet, from, &nearest, 0);
     *work += meshlet->triangle_count * OX_WORK_TRIANGLE;
   }
 }
@@ -101,29 +106,21 @@ static inline bool ox_is_inside(bool basic, const ox_query* grazing, __global co
   return false;
 }
 
-// How often a ray leaves the mesh more than it enters it. One through an edge counts twice there.
-static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* mesh,
-                                 const ox_surfaces* surfaces) {
+// What a ray meets first, and how often it leaves the mesh more than it enters it ahead. One
+// through an edge counts twice there. Both in one walk: to stop behind the first hit and begin anew
+// where that does not tell takes longer.
+static inline ox_nearest ox_trace_through(const ox_query* query, __global const ox_mesh* mesh,
+                                          const ox_surfaces* surfaces, int* leaves) {
   uint work = 0u;
-  int sum = 0;
+  *leaves = 0;
+  ox_nearest nearest = ox_nothing();
   ox_ray_walk walk = ox_begin_ray_walk(mesh);
   for (;;) {
-    const uint next =
-        ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, 0.0f, INFINITY, &work);
-    if (next == OX_NONE) return sum;
-    __global const ox_meshlet* meshlet = surfaces->meshlets + next;
-    ox_moved_vertices seen;
-    ox_shear_vertices(&query->cast, meshlet, &seen);
-    for (uint block = 0u; OX_VECTOR_WIDTH * block < meshlet->triangle_count; ++block) {
-      ox_floats t, determinant;
-      uint left =
-          ox_meets_lanes(&query->cast, meshlet, &seen, block, 0.0f, INFINITY, &t, &determinant);
-      if (left == 0u) continue;
-      ox_lane_floats determinant_of;
-      ox_keep_lanes(&determinant, &determinant_of);
-      for (; left != 0u; left &= left - 1u)
-        sum += ox_lane(&determinant_of, ox_lowest(left)) < 0.0f ? 1 : -1;
-    }
+    const uint next = ox_next_on_ray(&walk, &query->cast, mesh, surfaces->nodes, -query->epsilon,
+                                     INFINITY, &work);
+    if (next == OX_NONE) return nearest;
+    ox_consider_meshlet(query, surfaces, surfaces->meshlets + next, -query->epsilon, &nearest,
+                        leaves);
   }
 }
 
@@ -135,14 +132,14 @@ static inline int ox_leaves_more(const ox_query* query, __global const ox_mesh* 
 // point is from a base on, in the frame of the mesh.
 static inline bool ox_winds_about(float3 base, float3 point, float3 away, float epsilon,
                                   __global const ox_mesh* mesh, const ox_surfaces* surfaces) {
-  uint work = 0u;
   uint leaving = 0u;
   for (uint k = 0u; k < OX_ASKING_RAYS; ++k) {
     const ox_query query = ox_asking_query(k, base, point, away, epsilon);
-    const ox_nearest nearest = ox_trace(false, &query, mesh, surfaces, OX_NONE, &work);
+    int more;
+    const ox_nearest nearest = ox_trace_through(&query, mesh, surfaces, &more);
     const bool grazes = ox_grazes(&nearest, epsilon);
-    if (!grazes && nearest.back_t < nearest.front_t) return true;
-    const bool leaves = nearest.front != OX_NONE && ox_leaves_more(&query, mesh, surfaces) > 0;
+    if (!grazes && !nearest.entered && nearest.back_t < nearest.front_t) return true;
+    const bool leaves = (nearest.entered || nearest.front != OX_NONE) && more > 0;
     if (!grazes) return leaves;
     leaving += leaves ? 1u : 0u;
   }
@@ -183,8 +180,21 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   return ray;
 }
 
-// Casts it in full. *remember becomes the triangle for the next pass, over all meshes; `behind`
-// [m]: how far behind the vertex it may be.
+// Whether a way of a vertex that is known to be inside enters the target. Beside a wall it may be
+// outside by as much as the target was made larger, and then the way leaves by the far end. In
+// front of a face it is inside if another part is around it.
+static inline bool ox_way_enters(const ox_vertex_ray* ray, const ox_query* query,
+                                 const ox_nearest* nearest, __global const ox_mesh* mesh,
+                                 const ox_surfaces* surfaces) {
+  if (nearest->entered) return true;
+  return nearest->front_t < nearest->back_t &&
+         !ox_winds_about(ray->base, ray->origin + ray->ahead * ray->direction, query->direction,
+                         ray->epsilon, mesh, surfaces);
+}
+
+// Casts it in full. Of a sheet a way is all that is known: one that enters is none. *remember
+// becomes the triangle for the next pass, over all meshes; `behind` [m]: how far behind the vertex
+// it may be.
 static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
                                          __global const ox_mesh* mesh, const ox_surfaces* surfaces,
                                          uint seed, float behind, uint* remember, uint* work) {
@@ -205,6 +215,8 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
         way == 0u ? ray->origin : ray->origin + 2.0f * ray->ahead * ray->direction;
     query.cast = ox_cast_from(ray->base, origin, query.direction);
     const ox_nearest nearest = ox_trace(basic, &query, mesh, surfaces, seed, work);
+    if (ray->both_ways && ray->known && ox_way_enters(ray, &query, &nearest, mesh, surfaces))
+      continue;
     bool inside = false;
     if (closed && !ray->known && ox_grazes(&nearest, query.epsilon))
       inside = ox_is_inside(basic, &query, mesh, surfaces, work);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edges of a mesh that are worth casting: those between facets, where its surface bends, and as
-// many within facets as join all its vertices. What is at the sides of its triangles, and how many
-// parts it has.
+// many within facets as join the vertices of each. What is at the sides of its triangles, and how
+// many parts it has.
 #pragma once
 
 #include <array>
@@ -31,8 +31,9 @@ struct Edges {
   // Both by their vertices, the lower and then the higher: of rigid meshes these lie in runs
   // (runs.h), and so do the edges.
   std::vector<Edge> apart;  // between facets
-  // Within a facet: none of which the ends are joined by the others and `apart`.
-  // So each two vertices that any edges of the mesh join, these join too.
+  // Within a facet: none of which the ends are joined by the others of the facet and its rim. So
+  // each two vertices that any edges of the mesh join, these join too, and the rim of a hole with
+  // that about it: where one is inside another mesh, by what edge it comes out is told.
   std::vector<Edge> flat;
   std::vector<Sides> sides;               // of each triangle
   std::vector<std::uint32_t> components;  // a vertex of each part that edges join, its lowest

@@ -43,8 +43,8 @@ constexpr std::uint64_t kMostRecords = std::uint64_t{1} << 30;
 // What becomes of a feature, a crossing or a hit [bytes].
 constexpr std::size_t kFeatureBytes =
     sizeof(ox_feature) + sizeof(ox_region) + OX_MEMBER_WORDS * sizeof(ox_f32) +
-    OX_CANDIDATE_WORDS * sizeof(ox_f32) + OX_SLOTS_PER_FEATURE * sizeof(ox_u32) +
-    OX_FACES_PER_FEATURE * sizeof(ox_face) +
+    OX_CANDIDATES_PER_FEATURE * OX_CANDIDATE_WORDS * sizeof(ox_f32) +
+    OX_SLOTS_PER_FEATURE * sizeof(ox_u32) + OX_FACES_PER_FEATURE * sizeof(ox_face) +
     OX_PLANES_PER_FEATURE * OX_PLANE_WORDS * sizeof(ox_f32) + 3 * sizeof(ox_u32);
 
 // What a record of each list takes in all buffers together [bytes].
@@ -203,7 +203,7 @@ void AppendLists::reserve_features(std::uint64_t count) {
   };
   members_.reserve(words_of(count, OX_MEMBER_WORDS));
   planes_.reserve(words_of(OX_PLANES_PER_FEATURE * count, OX_PLANE_WORDS));
-  candidates_.reserve(words_of(count, OX_CANDIDATE_WORDS));
+  candidates_.reserve(words_of(OX_CANDIDATES_PER_FEATURE * count, OX_CANDIDATE_WORDS));
 }
 
 // What a batch was given of a list may be less than there is room for.

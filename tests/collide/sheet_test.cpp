@@ -2,6 +2,7 @@
 // Contacts of sheets (open deformable meshes), and of deformable meshes in every mode.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "collide/collider.h"
@@ -60,6 +61,80 @@ TEST_F(Sheet, VerticesInASolidTakeTheShorterWayOut) {
       }
     }
   }
+}
+
+// The sheet is a little above the bottom of a prism, which is leaned by next to nothing, and one of
+// its vertices is at a side, outside by no more than the prism is made larger by. Its way up went
+// in by the side and out by the top, and the prism was sent off by all of its height.
+TEST_F(Sheet, VerticesBesideAWallDoNotLeaveByTheFarEnd) {
+  Random random(31);
+  for (const int sides : {4, 32})
+    for (int i = 0; i < 200; ++i) {
+      const TestMesh mesh = make_cylinder(0.4, 0.8, sides);
+      const double apothem = 0.4 * std::cos(std::acos(-1.0) / sides);
+      const double angle = 2 * std::acos(-1.0) * (random.below(sides) + 0.5) / sides;
+      const double in = std::pow(10, random.uniform(-4, -2)), beside = random.uniform(-2e-6, 4e-6);
+      const double lean = std::pow(10, random.uniform(-6, -2));
+      TestPose pose = turned({random.uniform(-1, 1), random.uniform(-1, 1), 0}, lean);
+      const Point foot = rotate(pose, {apothem * std::cos(angle), apothem * std::sin(angle), -0.4});
+      pose.position = {-foot[0] - beside * std::cos(angle), -foot[1] - beside * std::sin(angle),
+                       -foot[2] - in};
+      const auto found = contacts(pair_of(rigid(mesh), pose, sheet));
+      ASSERT_FALSE(found.empty());
+      // The lowest of its rim is lower by as much as it leans.
+      for (const Contact& contact : found) EXPECT_LT(contact.depth, in + 0.8 * lean + 1e-4) << i;
+    }
+}
+
+// It has two sides, so it does not matter which is wound to be the front.
+TEST_F(Sheet, ThatIsWoundTheOtherWayGivesTheSameContacts) {
+  Random random(32);
+  const auto coarse = deformable(soup_of(make_sheet(4, 8)), 0.02f);
+  const auto other = deformable(soup_of(inverted(make_sheet(4, 8))), 0.02f);
+  const TestMesh box = make_cube(0.8);
+  for (int i = 0; i < 100; ++i) {
+    TestPose pose = random.pose(0);
+    double lowest = 0;
+    for (std::size_t k = 0; k < 8; ++k) lowest = std::min(lowest, rotate(pose, box.vertex(k))[2]);
+    const double in = random.uniform(0.01, 0.1), side = i % 2 == 0 ? 1 : -1;
+    pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), side * (-lowest - in)};
+    const auto one = contacts(pair_of(rigid(box), pose, coarse));
+    const auto two = contacts(pair_of(rigid(box), pose, other));
+    ASSERT_FALSE(one.empty());
+    ASSERT_EQ(one.size(), two.size()) << i;
+    for (const Contact& a : one) {
+      EXPECT_GT(side * a.normal.z, 0.3) << i;
+      EXPECT_TRUE(std::any_of(two.begin(), two.end(), [&](const Contact& b) {
+        return std::abs(a.depth - b.depth) < 1e-5 && a.normal.z * b.normal.z > 0 &&
+               length(point_of(a.position) - point_of(b.position)) < 1e-5;
+      })) << i;
+    }
+  }
+}
+
+// A floor of many triangles, each of which may come to be turned against the next: no vertex of it
+// goes farther than the body on it.
+TEST_F(Sheet, FloorsThatAreFlatPushBackAsRigidOnesDo) {
+  Random random(33);
+  for (const TestMesh& tool : {make_torus(0.7, 0.25, 24, 12), make_icosphere(1, 2)})
+    for (const int cuts : {4, 12})
+      for (const bool floor_deforms : {false, true})
+        for (int i = 0; i < 40; ++i) {
+          const TestMesh block = make_box({6, 6, 2}, cuts, cuts, cuts);
+          TestPose pose = random.pose(0);
+          double lowest = 0;
+          for (std::size_t k = 0; k < static_cast<std::size_t>(tool.vertex_count()); ++k)
+            lowest = std::min(lowest, rotate(pose, tool.vertex(k))[2]);
+          const double in = random.uniform(0.01, 0.3);
+          pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), 1 - lowest - in};
+          const auto body = floor_deforms ? rigid(tool) : deformable(soup_of(tool), 0.02f);
+          const auto floor = floor_deforms ? deformable(soup_of(block), 0.02f) : rigid(block);
+          const auto found = contacts(pair_of(body, pose, floor));
+          double deepest = 0;
+          for (const Contact& contact : found)
+            deepest = std::max(deepest, static_cast<double>(contact.depth));
+          EXPECT_NEAR(deepest, in, 0.01 * in) << cuts << ", " << floor_deforms << ", " << i;
+        }
 }
 
 // Most of the way: a centimetre of each edge that goes through the ground is above it.

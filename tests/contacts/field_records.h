@@ -49,9 +49,9 @@ inline Candidate candidate_at(const Fields& list, std::size_t i) {
 
 // As the device keeps them: of a pair with as many features.
 inline std::vector<ox_u32> words_of(const std::vector<Candidate>& candidates) {
-  const std::size_t room = candidates.size();
+  const std::size_t room = OX_CANDIDATES_PER_FEATURE * candidates.size();
   std::vector<ox_u32> words(OX_CANDIDATE_WORDS * room);
-  for (std::size_t i = 0; i < room; ++i) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& c = candidates[i];
     const auto set = [&](ox_u32 field, auto value) {
       words[field * room + i] = std::bit_cast<ox_u32>(value);

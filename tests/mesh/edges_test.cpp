@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "mesh/ray_cast.h"
 #include "shapes.h"
+#include "support/extruded.h"
 #include "support/test_scene.h"
 
 namespace ode_ext {
@@ -121,6 +123,22 @@ TEST(Edges, WithinFacetsAreAsFewAsJoinAllVertices) {
     const Mesh mesh = build_mesh(test::soup_of(test::make_cube(1, n)));
     EXPECT_EQ(mesh.topology->edges.size(), static_cast<std::size_t>(12 * n));
     EXPECT_EQ(mesh.topology->flat_edges.size(), static_cast<std::size_t>(6 * (n - 1) * (n - 1)));
+  }
+}
+
+// Of a facet with a hole one leads from its rim to that of the hole.
+TEST(Edges, WithinAFacetJoinTheRimOfAHoleToThatAboutIt) {
+  for (const int corners : {3, 4, 9}) {
+    const test::TestMesh plate = test::hub(test::polygon(corners, 1), 2, 0.5);
+    const Mesh mesh = build_mesh(test::soup_of(plate));
+    ASSERT_EQ(mesh.topology->flat_edges.size(), 2u);
+    for (const Edge& edge : mesh.topology->flat_edges) {
+      const auto radius = [&](std::size_t end) {
+        const Vec3f v = mesh.vertices[edge.vertices[end]];
+        return std::hypot(v.x, v.y);
+      };
+      EXPECT_NEAR(std::abs(radius(0) - radius(1)), 1, 1e-6);
+    }
   }
 }
 

@@ -46,7 +46,8 @@ TEST(AppendLists, HaveRoomForTheFeaturesOfAllCrossingsAndHits) {
   EXPECT_GE(lists.features().capacity(), 15000 * sizeof(ox_feature));
   EXPECT_GE(lists.regions().capacity(), 15000 * sizeof(ox_region));
   EXPECT_GE(lists.members().capacity(), 15000 * OX_MEMBER_WORDS * sizeof(ox_f32));
-  EXPECT_GE(lists.candidates().capacity(), 15000 * OX_CANDIDATE_WORDS * sizeof(ox_f32));
+  EXPECT_GE(lists.candidates().capacity(),
+            15000 * OX_CANDIDATES_PER_FEATURE * OX_CANDIDATE_WORDS * sizeof(ox_f32));
   EXPECT_GE(lists.feature_slots().capacity(), OX_SLOTS_PER_FEATURE * 15000 * sizeof(ox_u32));
   EXPECT_GE(lists.faces().capacity(), OX_FACES_PER_FEATURE * 15000 * sizeof(ox_face));
   EXPECT_GE(lists.planes().capacity(),

@@ -53,10 +53,11 @@ class InsideOracle {
   std::unique_ptr<oracle::TriangleTree> surface_;
 };
 
-// Of each vertex whether a face turns at it: within a facet it bounds nothing. Beside a deformable
-// mesh any may.
+// Of each vertex whether a face turns at it: within a facet it bounds nothing. Of a deformable
+// mesh, and of what is in a sheet, any may.
 inline std::vector<bool> bounding_vertices(const Mesh& mesh, const Mesh& other) {
-  std::vector<bool> bounds(mesh.vertices.size(), mesh.deformable || other.deformable);
+  std::vector<bool> bounds(mesh.vertices.size(),
+                           mesh.deformable || (other.deformable && !other.closed()));
   for (const Edge& edge : mesh.topology->edges)
     for (const std::uint32_t vertex : edge.vertices) bounds[vertex] = true;
   return bounds;

@@ -43,8 +43,9 @@ struct StepRecords {
   std::vector<Candidate> candidates_of(std::size_t pair) const {
     std::vector<Candidate> candidates;
     if (found[pair].features == 0) return candidates;  // else what is found may be void
-    const Fields list{candidate_words.data() + OX_CANDIDATE_WORDS * found[pair].first,
-                      found[pair].features};
+    const std::size_t first = OX_CANDIDATES_PER_FEATURE * found[pair].first;
+    const Fields list{candidate_words.data() + OX_CANDIDATE_WORDS * first,
+                      OX_CANDIDATES_PER_FEATURE * found[pair].features};
     for (std::size_t i = 0; i < found[pair].candidates; ++i)
       candidates.push_back(candidate_at(list, i));
     return candidates;
@@ -254,7 +255,8 @@ class Rig {
     read(lists.features(), 0, records.features, features);
     read(lists.regions(), 0, records.regions, counter(OX_COUNTER_REGIONS));
     read(lists.members(), 0, records.member_words, OX_MEMBER_WORDS * features);
-    read(lists.candidates(), 0, records.candidate_words, OX_CANDIDATE_WORDS * features);
+    read(lists.candidates(), 0, records.candidate_words,
+         OX_CANDIDATES_PER_FEATURE * OX_CANDIDATE_WORDS * features);
     read(pairs.ranges, 0, records.ranges, pairs.count);
     read(lists.contacts(), 0, records.contacts, counter(OX_LIST_CONTACTS));
     return records;

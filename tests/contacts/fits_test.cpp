@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies that fill what they are in, all round and with nothing to spare. The way out of a wall
+// that they touch is none, and that out of what they are pushed into no longer than that.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "contacts/placed.h"
+#include "support/extruded.h"
+
+namespace ode_ext::test {
+namespace {
+
+double most_of(const std::vector<Contact>& contacts) {
+  double depth = 0;
+  for (const Contact& c : contacts) depth = std::max(depth, static_cast<double>(c.depth));
+  return depth;
+}
+
+// Through it, flush with one end, and ending in it. It had contacts at the rims of the hole, along
+// it and as deep as it is in that, in every pose: no one wall has them all outside.
+TEST(Fits, APegIsNotPushedOutOfTheHoleThatItFills) {
+  for (const int corners : {4, 5, 6, 7, 8, 12, 16, 24, 32})
+    for (const double turn : {0.0, 0.1})  // other corners are the first
+      for (const double down : {0.02, 0.035, 0.03, -0.01}) {
+        const auto filling = [&](double radius) {
+          Profile profile = polygon(corners, radius);
+          for (auto& [x, y] : profile)
+            std::tie(x, y) = std::tuple{x * std::cos(turn) - y * std::sin(turn),
+                                        x * std::sin(turn) + y * std::cos(turn)};
+          return profile;
+        };
+        const TestMesh peg = extruded(filling(0.02), 0.1), plate = hub(filling(0.02), 0.04, 0.03);
+        for (const bool turned_round : {false, true}) {
+          const TestPose pose = at(0, 0, down);
+          const Placed placed = turned_round ? Placed{plate, peg, TestPose{}, pose}
+                                             : Placed{peg, plate, pose, TestPose{}};
+          for (const TestPose& frame : some_frames(3))
+            EXPECT_LT(most_of(placed.contacts(frame)), 4 * placed.tolerance(frame))
+                << corners << " corners, " << down << " m down";
+        }
+      }
+}
+
+// Pressed in, it is pushed back by each wall by as much as it is in that.
+TEST(Fits, APegThatIsTooThickIsPushedBackByWhatItIsTooThick) {
+  for (const int corners : {4, 6, 8, 16})
+    for (const double press : {1e-5, 1e-4, 1e-3}) {
+      const Placed placed{extruded(polygon(corners, 0.02 + press), 0.1),
+                          hub(polygon(corners, 0.02), 0.04, 0.03), at(0, 0, 0.02), TestPose{}};
+      for (const TestPose& frame : some_frames(3)) {
+        const std::vector<Contact> found = placed.contacts(frame);
+        ASSERT_FALSE(found.empty());
+        EXPECT_LT(most_of(found), 1.05 * press + 4 * placed.tolerance(frame))
+            << corners << " corners, " << press << " m too thick";
+      }
+    }
+}
+
+// A block of which four walls and a floor are left; the floor's top is z = 0.
+TestMesh crate(const Point& room, double wall) {
+  TestMesh mesh;
+  for (const bool inner : {false, true})
+    for (const double z : {inner ? 0 : -wall, room[2]})
+      for (const auto& [x, y] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        for (const double v : {x * (0.5 * room[0] + (inner ? 0 : wall)),
+                               y * (0.5 * room[1] + (inner ? 0 : wall)), z})
+          mesh.vertices.push_back(static_cast<float>(v));
+  const auto add = [&](unsigned a, unsigned b, unsigned c, unsigned d) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+  };
+  add(0, 3, 2, 1);
+  add(8, 9, 10, 11);
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned j = (i + 1) % 4;
+    add(i, j, 4 + j, 4 + i);
+    add(8 + j, 8 + i, 12 + i, 12 + j);
+    add(4 + i, 4 + j, 12 + j, 12 + i);
+  }
+  return mesh;
+}
+
+// It sticks out of it, or does not. Its corners are at three faces at once: it is held by the floor
+// however exactly it touches the walls, and pushed or leaned into one of them by less as well.
+TEST(Fits, ABoxInACrateThatItFillsIsHeldByItsFloor) {
+  const Point room{0.37, 0.27, 0.25};
+  const TestMesh outer = crate(room, 0.015);
+  int held_count = 0;
+  for (const double height : {0.1, 0.3})
+    for (const double down : {1e-6, 1e-5, 1e-4, 1e-3})
+      for (const double aside : {0.0, 1e-7, 1e-5, 1e-4, 3.5e-4})
+        for (const double leaning : {0.0, 1e-5, 1e-4}) {
+          const TestMesh box = make_box({room[0], room[1], height});
+          const TestPose pose = turned({0, 1, 0}, leaning, {aside, 0, 0.5 * height - down});
+          const Placed placed{box, outer, pose, TestPose{}};
+          double in_floor = 0, in_wall = 0;
+          for (std::size_t i = 0; i < 8; ++i) {
+            const Point p = to_world(pose, box.vertex(i));
+            in_floor = std::max(in_floor, -p[2]);
+            in_wall = std::max(in_wall, std::abs(p[0]) - 0.5 * room[0]);
+          }
+          for (const TestPose& frame : some_frames(2)) {
+            const double tolerance = 2 * placed.tolerance(frame);
+            double held = 0;
+            const std::vector<Contact> found = placed.contacts(frame);
+            for (const Contact& c : found)
+              if (c.normal.z > 0.99) held = std::max(held, static_cast<double>(c.depth));
+            EXPECT_LT(most_of(found), 1.05 * std::max(in_floor, in_wall) + tolerance);
+            if (in_floor < in_wall) continue;
+            ++held_count;
+            EXPECT_NEAR(held, in_floor, tolerance)
+                << down << " down, " << aside << " aside, leaning by " << leaning;
+          }
+        }
+  EXPECT_GT(held_count, 200);
+}
+
+}  // namespace
+}  // namespace ode_ext::test
