@@ -191,11 +191,13 @@ static void ox_join_chords(const ox_scene* scene, uint head) {
 // An edge within a facet is followed from a vertex inside to where it leaves: with the stretch of
 // the curve that runs over its facet there. Of the rim of a hole no other edge may leave what fills
 // it.
-static void ox_join_flat_edge(const ox_scene* scene, uint i) {
-  const uint inside = ox_find_end_inside(scene, scene->features + i);
-  if (inside == OX_NONE) return;
-  const uint end = ox_find_stretch_about(scene, i);
-  if (end != OX_NONE) ox_unite(scene, inside, end);
+static void ox_join_flat_edge(const ox_scene* scene, uint head) {
+  for (uint n = ox_find_partners(scene, head); n != OX_NONE; n = scene->features[n].next) {
+    const uint inside = scene->features[n].partner;
+    if (inside == OX_NONE || !ox_is_vertex(scene->features[inside].flags)) continue;
+    const uint end = ox_find_stretch_about(scene, n);
+    if (end != OX_NONE) ox_unite(scene, inside, end);
+  }
 }
 
 // out: partners; what follows one another along the curve or along an edge is united. Edges within
@@ -207,7 +209,7 @@ static void ox_join_features(const ox_scene* scene) {
     __global ox_feature* f = scene->features + i;
     if (!ox_is_vertex(f->flags)) {
       if ((f->flags & OX_FEATURE_FLAT) != 0u) {
-        ox_join_flat_edge(scene, i);
+        if (f->region == i) ox_join_flat_edge(scene, i);
         continue;
       }
       ox_join_stretches(scene, i);

@@ -59,7 +59,8 @@ static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
 }
 
 // An end of the stretch that a crossing of an edge within a facet is on: of those of its facets the
-// last before it, or any if there are many; OX_NONE: there is none.
+// last before it, or where rounding puts it between two stretches the nearer; any where there are
+// many, of which none has its other end; OX_NONE: there is none.
 static inline uint ox_find_stretch_about(const ox_scene* scene, uint i) {
   __global const ox_feature* f = scene->features + i;
   const uint side = ox_side_of(f->flags);
@@ -70,17 +71,27 @@ static inline uint ox_find_stretch_about(const ox_scene* scene, uint i) {
   const uint first = found >> 2 << 1 | (found & 3u);
   const float3 line = ox_line_at(scene, f, 0u);
   const ox_on_line self = {i << 1, ox_dot(line, vload3(0, f->position))};
-  ox_on_line last = {first, -INFINITY};
+  ox_on_line last = {OX_NONE, 0.0f};
+  ox_on_line next = {OX_NONE, 0.0f};
+  uint before = 0u;
   uint count = 0u;
   uint n = first;
   do {
     const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
-    if (ox_is_before_on_line(scene->features, &other, &self) &&
-        ox_is_before_on_line(scene->features, &last, &other))
-      last = other;
+    if (ox_is_before_on_line(scene->features, &other, &self)) {
+      ++before;
+      if (last.entry == OX_NONE || ox_is_before_on_line(scene->features, &last, &other))
+        last = other;
+    } else if (next.entry == OX_NONE || ox_is_before_on_line(scene->features, &other, &next)) {
+      next = other;
+    }
     n = scene->features[n >> 1].mate[n & 1u];
   } while (n != first && ++count < OX_MANY);
-  return last.entry >> 1;
+  const bool is_between = before % 2u == 0u && next.entry != OX_NONE;
+  return (last.entry == OX_NONE || (is_between && next.place - self.place < self.place - last.place)
+              ? next.entry
+              : last.entry) >>
+         1;
 }
 
 // The mate of a crossing, of an edge of the other mesh; OX_NONE: it has none. Where facets are not

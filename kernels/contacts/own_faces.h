@@ -22,6 +22,13 @@ static inline bool ox_is_taken_along(const ox_region_view* r, uint unit, const o
   return false;
 }
 
+// Whether a move before goes the same way.
+static inline bool ox_has_moved(const ox_moves* before, float3 normal) {
+  for (uint i = 0u; i < before->count; ++i)
+    if (ox_dot(before->chosen[i].normal, normal) > OX_SAME_WAY) return true;
+  return false;
+}
+
 // Takes the plane of a face of mesh `side`, which clears all that the region has of the other, if
 // it is better and no deeper than that of another.
 static inline void ox_try_own_face(const ox_region_view* r, uint side, uint triangle,
