@@ -197,6 +197,40 @@ TEST(Regions, AreAsManyAsPostsInAFaceHoweverManyTheyAre) {
   }
 }
 
+// The top of a plate has a vertex in its midst that is in neither, so one edge within the top leads
+// to it from a corner: out of the post on the corner and through the other. Which edge that is
+// depends on where the plate lies.
+TEST(Regions, OfPostsThroughBothOfWhichAnEdgeWithinAFacetGoesAreTwo) {
+  TestMesh plate;
+  for (const double z : {0.0, -0.1})
+    for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
+      for (const double v : {1.0 * x, 1.0 * y, z}) plate.vertices.push_back(static_cast<float>(v));
+  for (const double v : {-0.9, 0.98, 0.0}) plate.vertices.push_back(static_cast<float>(v));
+  plate.indices = {4, 6, 5, 4, 7, 6};
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned j = (i + 1) % 4;
+    plate.indices.insert(plate.indices.end(), {i, j, 8, i, i + 4, j, j, i + 4, j + 4});
+  }
+  const TestMesh posts = merged(moved(make_box({0.3, 0.4, 0.501}), {1.05, 1.0, 0.2495}),
+                                moved(make_box({0.2, 0.515, 0.55}), {0, 1.2425, 0.225}));
+  for (int turned = 0; turned < 8; ++turned) {
+    const auto mirrored = [&](TestMesh mesh) {
+      for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
+        if ((turned & 1) != 0) mesh.vertices[i] = -mesh.vertices[i];
+        if ((turned & 2) != 0) mesh.vertices[i + 1] = -mesh.vertices[i + 1];
+        if ((turned & 4) != 0) std::swap(mesh.vertices[i], mesh.vertices[i + 1]);
+      }
+      return mesh;  // inside out, it is turned
+    };
+    const StepRecords records =
+        searched(one_pair(mirrored(posts), TestPose{}, mirrored(plate), TestPose{}));
+    EXPECT_EQ(std::count_if(records.regions.begin(), records.regions.end(),
+                            [](const ox_region& region) { return region.count != 0; }),
+              2)
+        << turned;
+  }
+}
+
 // The inner side of an L is one.
 TEST(Regions, HaveAValleyWhereAMeshIsNotConvex) {
   TestScene scene;
