@@ -30,24 +30,6 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
   ox_mark_cleared(r, k);
 }
 
-// Marks the units of a deformable mesh that wait and that the last move, past a face of that mesh,
-// takes out, though their own planes are deeper.
-static void ox_take_along(const ox_region_view* r, uint waiting, const ox_moves* moves) {
-  const uint last = moves->count - 1u;
-  const ox_plane* plane = moves->chosen + last;
-  if (plane->kind == OX_PLANE_EDGES) return;
-  const uint side = plane->kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
-  if ((ox_target_of(r, 1u - side)->flags & OX_MESH_DEFORMABLE) == 0u) return;
-  for (uint k = OX_ITEM; k < waiting; k += OX_ITEMS) {
-    const uint flags = ox_flags_of(r, k);
-    if (ox_side_of(flags) == side && (flags & OX_MEMBER_CLEARED) == 0u &&
-        ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] > moves->far[last] &&
-        !ox_stays_inside(r, side, ox_middle_of(r, k), plane, moves->far[last]))
-      ox_mark_cleared(r, k);
-  }
-  ox_settle();
-}
-
 // Moves past the plane that is chosen for a unit, which clears others of those that wait.
 static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
                          ox_moves* moves) {
@@ -66,7 +48,6 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
         ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed);
   }
   ox_settle();
-  ox_take_along(r, waiting, moves);
   ++m->manifold;
 }
 

@@ -30,6 +30,36 @@ static inline float3 ox_line_at(const ox_scene* scene, __global const ox_feature
   return side == 0u ? ox_plain_cross(of_edge, crossed) : ox_plain_cross(crossed, of_edge);
 }
 
+// Of the ends of stretches that two facets have in common the last before a place and the first
+// after it.
+typedef struct {
+  ox_on_line last, next;
+  uint before;  // how many are
+  bool are_many;
+} ox_neighbours_on_line;
+
+// Of those from an entry on to where it ends, at `end`, as the ring of mates goes.
+static inline ox_neighbours_on_line ox_find_on_line(const ox_scene* scene, uint entry, uint end,
+                                                    float3 line, const ox_on_line* self) {
+  ox_neighbours_on_line found = {{OX_NONE, 0.0f}, {OX_NONE, 0.0f}, 0u, false};
+  uint count = 0u;
+  uint n = entry;
+  do {
+    found.are_many = ++count == OX_MANY;  // each looks at all
+    const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
+    if (ox_is_before_on_line(scene->features, &other, self)) {
+      ++found.before;
+      if (found.last.entry == OX_NONE || ox_is_before_on_line(scene->features, &found.last, &other))
+        found.last = other;
+    } else if (found.next.entry == OX_NONE ||
+               ox_is_before_on_line(scene->features, &other, &found.next)) {
+      found.next = other;
+    }
+    n = scene->features[n >> 1].mate[n & 1u];
+  } while (n != end && !found.are_many);
+  return found;
+}
+
 // The other end of a stretch, of either mesh; OX_NONE: it is not known.
 static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
   __global const ox_feature* f = scene->features + (entry >> 1);
@@ -38,24 +68,12 @@ static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
   if (scene->features[second >> 1].mate[second & 1u] == entry) return second;
   const float3 line = ox_line_at(scene, f, entry & 1u);
   const ox_on_line self = {entry, ox_dot(line, vload3(0, f->position))};
-  ox_on_line last = {OX_NONE, 0.0f};
-  ox_on_line next = {OX_NONE, 0.0f};
-  uint before = 0u;
-  uint count = 0u;
-  for (uint n = second; n != entry; n = scene->features[n >> 1].mate[n & 1u]) {
-    if (++count == OX_MANY) return OX_NONE;  // each looks at all
-    const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
-    if (ox_is_before_on_line(scene->features, &other, &self)) {
-      ++before;
-      if (last.entry == OX_NONE || ox_is_before_on_line(scene->features, &last, &other))
-        last = other;
-    } else if (next.entry == OX_NONE || ox_is_before_on_line(scene->features, &other, &next)) {
-      next = other;
-    }
-  }
+  const ox_neighbours_on_line found = ox_find_on_line(scene, second, entry, line, &self);
+  if (found.are_many) return OX_NONE;
   // A stretch begins with every other. Of an odd number, as at the border of an open mesh, the last
   // goes with the one before it.
-  return before % 2u == 0u && next.entry != OX_NONE ? next.entry : last.entry;
+  return found.before % 2u == 0u && found.next.entry != OX_NONE ? found.next.entry
+                                                                : found.last.entry;
 }
 
 // An end of the stretch that a crossing of an edge within a facet is on: of those of its facets the
@@ -64,30 +82,17 @@ static inline uint ox_find_other_end(const ox_scene* scene, uint entry) {
 static inline uint ox_find_stretch_about(const ox_scene* scene, uint i) {
   __global const ox_feature* f = scene->features + i;
   const uint side = ox_side_of(f->flags);
-  const uint found = ox_find_feature(
+  const uint facets = ox_find_feature(
       scene,
       ox_facets_key(f->pair, side, ox_facet_of(scene, f->at[0]), ox_facet_of(scene, f->triangle)));
-  if (found == OX_NONE) return OX_NONE;
-  const uint first = found >> 2 << 1 | (found & 3u);
+  if (facets == OX_NONE) return OX_NONE;
+  const uint first = facets >> 2 << 1 | (facets & 3u);
   const float3 line = ox_line_at(scene, f, 0u);
   const ox_on_line self = {i << 1, ox_dot(line, vload3(0, f->position))};
-  ox_on_line last = {OX_NONE, 0.0f};
-  ox_on_line next = {OX_NONE, 0.0f};
-  uint before = 0u;
-  uint count = 0u;
-  uint n = first;
-  do {
-    const ox_on_line other = {n, ox_dot(line, vload3(0, scene->features[n >> 1].position))};
-    if (ox_is_before_on_line(scene->features, &other, &self)) {
-      ++before;
-      if (last.entry == OX_NONE || ox_is_before_on_line(scene->features, &last, &other))
-        last = other;
-    } else if (next.entry == OX_NONE || ox_is_before_on_line(scene->features, &other, &next)) {
-      next = other;
-    }
-    n = scene->features[n >> 1].mate[n & 1u];
-  } while (n != first && ++count < OX_MANY);
-  const bool is_between = before % 2u == 0u && next.entry != OX_NONE;
+  const ox_neighbours_on_line found = ox_find_on_line(scene, first, first, line, &self);
+  const ox_on_line last = found.last;
+  const ox_on_line next = found.next;
+  const bool is_between = found.before % 2u == 0u && next.entry != OX_NONE;
   return (last.entry == OX_NONE || (is_between && next.place - self.place < self.place - last.place)
               ? next.entry
               : last.entry) >>

@@ -52,7 +52,7 @@ struct MeshTopology {
 
   std::vector<VertexChunk> chunks;  // of the vertices
 
-  bool closed = false;      // every edge has exactly two triangles, of opposite direction
+  bool closed = false;      // every edge is run as often one way as the other
   bool inverted = false;    // the winding was turned: the closed mesh had a negative volume
   bool reoriented = false;  // the winding was made consistent: each part now faces outward
   LazyVertexTriangles vertex_triangles;

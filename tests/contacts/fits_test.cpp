@@ -15,12 +15,6 @@
 namespace ode_ext::test {
 namespace {
 
-double most_of(const std::vector<Contact>& contacts) {
-  double depth = 0;
-  for (const Contact& c : contacts) depth = std::max(depth, static_cast<double>(c.depth));
-  return depth;
-}
-
 // Through it, flush with one end, and ending in it. It had contacts at the rims of the hole, along
 // it and as deep as it is in that, in every pose: no one wall has them all outside.
 TEST(Fits, APegIsNotPushedOutOfTheHoleThatItFills) {
@@ -40,7 +34,7 @@ TEST(Fits, APegIsNotPushedOutOfTheHoleThatItFills) {
           const Placed placed = turned_round ? Placed{plate, peg, TestPose{}, pose}
                                              : Placed{peg, plate, pose, TestPose{}};
           for (const TestPose& frame : some_frames(3))
-            EXPECT_LT(most_of(placed.contacts(frame)), 4 * placed.tolerance(frame))
+            EXPECT_LT(deepest(placed.contacts(frame)), 4 * placed.tolerance(frame))
                 << corners << " corners, " << down << " m down";
         }
       }
@@ -55,7 +49,7 @@ TEST(Fits, APegThatIsTooThickIsPushedBackByWhatItIsTooThick) {
       for (const TestPose& frame : some_frames(3)) {
         const std::vector<Contact> found = placed.contacts(frame);
         ASSERT_FALSE(found.empty());
-        EXPECT_LT(most_of(found), 1.05 * press + 4 * placed.tolerance(frame))
+        EXPECT_LT(deepest(found), 1.05 * press + 4 * placed.tolerance(frame))
             << corners << " corners, " << press << " m too thick";
       }
     }
@@ -109,7 +103,7 @@ TEST(Fits, ABoxInACrateThatItFillsIsHeldByItsFloor) {
             const std::vector<Contact> found = placed.contacts(frame);
             for (const Contact& c : found)
               if (c.normal.z > 0.99) held = std::max(held, static_cast<double>(c.depth));
-            EXPECT_LT(most_of(found), 1.05 * std::max(in_floor, in_wall) + tolerance);
+            EXPECT_LT(deepest(found), 1.05 * std::max(in_floor, in_wall) + tolerance);
             if (in_floor < in_wall) continue;
             ++held_count;
             EXPECT_NEAR(held, in_floor, tolerance)

@@ -2,6 +2,7 @@
 // Two meshes in known poses, together in any frame.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "collide/collider.h"
@@ -42,6 +43,12 @@ struct Placed {
     return surfaces_intersect(a, moved, b, pb);
   }
 };
+
+inline double deepest(const std::vector<Contact>& contacts) {
+  double depth = 0;
+  for (const Contact& c : contacts) depth = std::max(depth, static_cast<double>(c.depth));
+  return depth;
+}
 
 inline std::vector<TestPose> some_frames(int turned = 6) {
   Random random(81);

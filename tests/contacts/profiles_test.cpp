@@ -15,12 +15,6 @@
 namespace ode_ext::test {
 namespace {
 
-double deepest(const std::vector<Contact>& contacts) {
-  double depth = 0;
-  for (const Contact& c : contacts) depth = std::max(depth, static_cast<double>(c.depth));
-  return depth;
-}
-
 // It is held by its flanks, which lean over it, however deep it sits. It had contacts as deep as
 // that, straight up and out of the guide.
 TEST(Profiles, ADovetailLeavesItsGuideByTheFlanks) {
