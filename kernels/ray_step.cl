@@ -24,7 +24,7 @@ static void ox_cast_rays(const ox_scene* scene) {
     __global const ox_mesh* source = scene->meshes + pair->mesh[side];
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);
-    vertex_ray.known = ray.memory != OX_RAY_ASKING;
+    vertex_ray.known = ray.memory == OX_RAY_INSIDE || ray.memory == OX_RAY_CONTAINED;
     uint work = 0u;
     uint remember;
     ox_outcome outcome = ox_cast_in_full(false, &vertex_ray, target, &scene->surfaces, OX_NONE,
@@ -42,10 +42,18 @@ static void ox_cast_rays(const ox_scene* scene) {
         outcome.kind = OX_HIT_INSIDE;
       }
     }
+    // What crossings tell to be behind an open target is so as deep as it is.
+    const bool told = ray.memory == OX_RAY_BEHIND;
+    if (told && outcome.triangle == OX_NONE) {
+      const float3 p = ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position));
+      outcome.triangle = ox_closest_in_front(scene, ray.pair_side, p);
+      if (outcome.triangle == OX_NONE) continue;
+      outcome.kind = OX_HIT_INSIDE;
+    }
     const bool may_be_behind = !vertex_ray.known &&
                                (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
                                (source->flags & OX_MESH_CLOSED) != 0u;
-    if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit &&
+    if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit && outcome.t < INFINITY &&
         !ox_goes_on(scene, ray.pair_side, vertex_ray.origin + outcome.t * vertex_ray.direction,
                     outcome.t))
       continue;

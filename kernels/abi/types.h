@@ -297,10 +297,11 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 
 // `memory` of a ray of the product. Its vertex is inside where the ray says so; or it is, whatever
 // the ray meets; or it is, of a part of its mesh that no crossing tells of, so that nothing but its
-// vertices says where the surface is.
+// vertices says where the surface is; or it is behind an open mesh, as far as that goes on.
 #define OX_RAY_ASKING 0u
 #define OX_RAY_INSIDE 1u
 #define OX_RAY_CONTAINED 2u
+#define OX_RAY_BEHIND 3u
 
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit

@@ -28,8 +28,8 @@ static inline ox_joint_choice ox_begin_joint(void) {
 }
 
 // So often each share is mended for what the others are (Gauss-Seidel, on the dual of the least
-// norm): where planes meet at 30 degrees, to within 2^-13 of the way, which is lengthened by what
-// is lacking then.
+// norm), or until none is: where planes meet at 30 degrees, to within 2^-13 of the way, which is
+// lengthened by what is lacking then.
 #define OX_SWEEPS 32u
 
 static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane* plane, float depth,
@@ -40,13 +40,17 @@ static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane* plan
   joint->depth[last] = depth;
   joint->far[last] = ox_way_past(r, depth);
   joint->share[last] = 0.0f;
-  for (uint sweep = 0u; sweep < OX_SWEEPS; ++sweep)
+  bool is_mended = true;
+  for (uint sweep = 0u; sweep < OX_SWEEPS && is_mended; ++sweep) {
+    is_mended = false;
     for (uint i = 0u; i <= last; ++i) {
       const float lacking = joint->far[i] - ox_dot(joint->way, joint->plane[i].normal);
       const float share = ox_max(joint->share[i] + lacking, 0.0f);
+      is_mended |= share != joint->share[i];
       joint->way += (share - joint->share[i]) * joint->plane[i].normal;
       joint->share[i] = share;
     }
+  }
 }
 
 // How many times as long the way has to be to be past all; infinite: it never is. Half of what each

@@ -33,10 +33,19 @@ static inline float ox_taken_back(const ox_moves* moves, float3 normal, float de
   return most;
 }
 
-// What a plane costs a unit that has to go so far.
+// How far the moves before take what a plane clears along it, at most [m].
+static inline float ox_gone_along(const ox_moves* moves, float3 normal) {
+  float most = 0.0f;
+  for (uint i = 0u; i < moves->count; ++i)
+    most = ox_max(most, moves->far[i] * ox_dot(moves->chosen[i].normal, normal));
+  return most;
+}
+
+// What a plane costs a unit that has to go so far: what is left of that after the moves before.
 static inline float ox_cost_of(const ox_region_view* r, const ox_moves* moves,
                                const ox_plane* plane, float depth) {
-  return depth + ox_edge_tie(r, plane) + ox_taken_back(moves, plane->normal, depth);
+  const float left = ox_max(depth - ox_gone_along(moves, plane->normal), 0.0f);
+  return left + ox_edge_tie(r, plane) + ox_taken_back(moves, plane->normal, depth);
 }
 
 #endif

@@ -45,12 +45,13 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
   // a whole region.
   const float3 direction = ox_way_of(seed->side, plane->normal);
+  const float limit = best->judged + ox_gone_along(seed->before, plane->normal);
   for (uint i = 0u; i < seed->count; ++i) {
     __global const ox_feature* f = r->scene->features + seed->through[i];
     const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
     if (!ox_looks_back(back, direction)) continue;
-    float of_body = ox_depth_of_body(r, plane, seed->side, best->judged);
-    if (ox_is_doubted(of_body, choice.depth, best->judged) &&
+    float of_body = ox_depth_of_body(r, plane, seed->side, limit);
+    if (ox_is_doubted(of_body, choice.depth, limit) &&
         !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
       of_body = ox_doubted(choice.depth);
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
@@ -72,19 +73,27 @@ static inline ox_ends ox_ends_of(const ox_region_view* r, uint unit) {
   return ends;
 }
 
-// A bit for each plane of a block that clears a unit by a move of `limit` at most.
-static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const ox_ends* ends,
-                                      float limit) {
+// A bit for each plane of a block that clears a unit by a move of `limit` at most, beyond what the
+// moves before go along it.
+static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const ox_moves* before,
+                                      const ox_ends* ends, float limit) {
   ox_floats one, other;
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->one, &one);
   ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, ends->other, &other);
   const ox_floats level = OX_LOAD_FLOATS(&r->planes, OX_PLANE_LEVEL + ends->side, block);
   one = ends->side == 0u ? level - one : level + one;
   other = ends->side == 0u ? level - other : level + other;
+  ox_floats gone = (ox_floats)(0.0f);
+  for (uint i = 0u; i < before->count; ++i) {
+    ox_floats along;
+    ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, before->chosen[i].normal, &along);
+    along *= before->far[i];
+    gone = OX_GREATER(gone, along);
+  }
   // Those of other kinds clear the other mesh alone.
   const int others = (int)(ends->side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B);
   const ox_ints clears =
-      (one + other >= ends->past) & (one <= limit) & (other <= limit) &
+      (one + other >= ends->past) & (one - gone <= limit) & (other - gone <= limit) &
       ((OX_LOAD_WORDS(&r->planes, OX_PLANE_FLAGS, block) & (int)OX_PLANE_KIND) != others);
   return ox_mask_of(&clears) & ox_present_lanes(r->plane_count, block);
 }
@@ -100,7 +109,8 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
     uint clears[OX_BLOCKS_AT_ONCE];
     for (uint i = 0u; i < OX_BLOCKS_AT_ONCE; ++i)
-      clears[i] = ox_clearing_planes(r, min(first + i, blocks - 1u), &ends, best.judged);
+      clears[i] =
+          ox_clearing_planes(r, min(first + i, blocks - 1u), seed->before, &ends, best.judged);
     for (uint i = 0u; i < OX_BLOCKS_AT_ONCE && first + i < blocks; ++i)
       for (; clears[i] != 0u; clears[i] &= clears[i] - 1u) {
         const uint k = OX_VECTOR_WIDTH * (first + i) + ox_lowest(clears[i]);
@@ -114,6 +124,16 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
 static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
                                  const ox_plane_choice* choice) {
   return ox_stays_inside(r, seed->side, ox_middle_of(r, seed->unit), &choice->plane, choice->depth);
+}
+
+// The face of the other mesh that is nearest to a point, where that leaves the mesh by it; else
+// OX_PLANE_NONE, as of a wall that goes on inside the floor it stands on.
+static inline ox_plane ox_surface_near(const ox_region_view* r, uint side, float3 p, float bound) {
+  const ox_plane nearest = ox_nearest_face(r, side, p, bound);
+  if (nearest.kind == OX_PLANE_NONE ||
+      !ox_stays_inside(r, side, p, &nearest, ox_plane_depth(&nearest, side, p)))
+    return nearest;
+  return ox_no_plane();
 }
 
 // The least of the planes that do not separate it, where all together do; else OX_PLANE_NONE. Where
@@ -143,7 +163,7 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
       *together = joint;
       // A way that is much longer than to the surface is not that of a corner.
       const float nearer = sqrt(ox_dot(way, way)) / OX_WORTH;
-      if (ox_nearest_face(r, seed->side, p - way, nearer).kind != OX_PLANE_NONE)
+      if (ox_surface_near(r, seed->side, p - way, nearer).kind != OX_PLANE_NONE)
         together->count = 0u;
       return choice;
     }
@@ -207,8 +227,8 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
     }
   }
   if (together->count != 0u) return known;
-  const float far = known.depth / OX_WORTH;
-  const ox_plane nearest = ox_nearest_face(r, seed.side, ox_middle_of(r, unit), far);
+  const float far = ox_min(known.depth, known.judged) / OX_WORTH;
+  const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
   return ox_take_better(r, unit, &nearest, far, &near) ? near : known;
 }

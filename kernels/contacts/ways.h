@@ -5,6 +5,7 @@
 #define ODE_EXT_KERNELS_CONTACTS_WAYS_H
 
 #include "contacts/region.h"
+#include "lib/border.h"
 #include "lib/closest.h"
 #include "lib/full_ray.h"
 
@@ -40,11 +41,13 @@ static inline float3 ox_target_base(const ox_region_view* r, uint side) {
   return ox_base(r->scene->pairs + r->pair, 1u - side);
 }
 
-// Whether a point of mesh `side`, which was taken along `away`, is inside the other. Of an open
-// mesh it is not known.
+// Whether a point of mesh `side`, which was taken along `away`, is inside the other; of a solid
+// behind an open one. Between two open meshes nothing is.
 static inline bool ox_is_still_inside(const ox_region_view* r, uint side, float3 p, float3 away) {
   __global const ox_mesh* target = ox_target_of(r, side);
-  if ((target->flags & OX_MESH_CLOSED) == 0u) return false;
+  if ((target->flags & OX_MESH_CLOSED) == 0u)
+    return (ox_target_of(r, 1u - side)->flags & OX_MESH_CLOSED) != 0u &&
+           ox_closest_in_front(r->scene, 2u * r->pair + side, ox_in_target(r, side, p)) != OX_NONE;
   return ox_winds_about(ox_target_base(r, side), ox_in_target(r, side, p),
                         side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away),
                         r->scene->pairs[r->pair].epsilon, target, &r->scene->surfaces);

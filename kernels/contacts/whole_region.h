@@ -231,17 +231,27 @@ static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
   }
 }
 
+// Whether one of the meshes is open. Behind it there is no end: what goes through it is past all of
+// it, and not out.
+static inline bool ox_is_on_open(const ox_region_view* r) {
+  return (ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CLOSED) == 0u;
+}
+
 // Whether what of a body goes first or last stays inside the other where a plane takes it. A
-// crossing says nothing: it is on the surface, and where it goes along a wall it stays on it.
+// crossing says nothing: it is on the surface, and where it goes along a wall it stays on it. A
+// face of a body may take it through an open mesh, so what of it is behind that is asked as well.
 static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice* choice) {
-  for (uint side = 0u; side < 2u; ++side)
-    for (uint end = 0u; end < 2u && ox_clears_side(&choice->plane, side); ++end) {
+  for (uint side = 0u; side < 2u; ++side) {
+    const bool clears = ox_clears_side(&choice->plane, side);
+    if (!clears && (ox_target_of(r, side)->flags & OX_MESH_CLOSED) != 0u) continue;
+    for (uint end = 0u; end < 2u; ++end) {
       const float3 normal = end == 0u ? choice->plane.normal : -choice->plane.normal;
       const uint k = ox_find_farthest(r, side, normal);
-      if (k != OX_NONE &&
+      if (k != OX_NONE && (clears || ox_is_vertex(ox_flags_of(r, k))) &&
           ox_stays_inside(r, side, ox_middle_of(r, k), &choice->plane, choice->depth))
         return true;
     }
+  }
   return false;
 }
 
@@ -326,7 +336,10 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
     ox_refuse(&search.refused, &best.plane);
     if (search.refused.count == 1u) worth = OX_WORTH * best.judged;
     best.judged = ox_max(best.judged, ox_depth_of_both(r, best.plane.normal));
-    if (ox_is_better_choice(&best, &of_body)) of_body = best;
+    ox_plane_choice past = best;
+    past.depth = best.judged;
+    if (ox_is_better_choice(&best, &of_body) && !(ox_is_on_open(r) && ox_whole_stays(r, &past)))
+      of_body = best;
   }
   return of_body.judged <= worth ? of_body : ox_no_choice();
 }

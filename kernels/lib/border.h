@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far behind an open mesh is known to be behind it. Device only.
+// What is behind an open mesh, and how far that is known. Device only.
 //
 // What went through a ground is behind it as deep as it is thick. But that something is behind a
 // surface is known no farther off than the surface goes on to all sides; beyond, it may have come
@@ -8,6 +8,7 @@
 #ifndef ODE_EXT_KERNELS_LIB_BORDER_H
 #define ODE_EXT_KERNELS_LIB_BORDER_H
 
+#include "lib/closest.h"
 #include "lib/scene.h"
 #include "lib/transform.h"
 
@@ -71,6 +72,38 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, f
     if (ox_distance2_to_segment(p, start, end) < distance * distance) return false;
   }
   return true;
+}
+
+// Whether a point is beyond a side of a triangle that is of the border of its mesh.
+static inline bool ox_is_beyond_border(const ox_scene* scene, __global const ox_triangle* t,
+                                       float3 p) {
+  const float3 corners[3] = {vload3(0, t->a), vload3(0, t->b), vload3(0, t->c)};
+  const uint sides[3] = {t->side_ab, t->side_bc, t->side_ca};
+  for (uint k = 0u; k < 3u; ++k) {
+    const float3 along = corners[(k + 1u) % 3u] - corners[k];
+    const bool is_border =
+        (sides[k] & OX_WITHIN_FACET) == 0u && scene->edges[sides[k]].triangle[1] == OX_NONE;
+    if (is_border && ox_dot(ox_plain_cross(along, p - corners[k]), vload3(0, t->normal)) < 0.0f)
+      return true;
+  }
+  return false;
+}
+
+// The closest triangle of the target of a side of a pair, which is open, if a point, from its base
+// on in its frame, is known to be behind that; else OX_NONE. It is where no border crosses the
+// source, and the point is neither beyond the border nor farther off than the target is large.
+static inline uint ox_closest_in_front(const ox_scene* scene, uint pair_side, float3 p) {
+  __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
+  const uint side = 1u - (pair_side & 1u);
+  if (scene->found[pair_side >> 1].at_border[side] != 0u) return OX_NONE;
+  __global const ox_mesh* target = scene->meshes + pair->mesh[side];
+  const float3 base = ox_base(pair, side);
+  const uint closest =
+      ox_closest_triangle(&scene->surfaces, target, base, p, target->radius, pair->epsilon);
+  if (closest == OX_NONE) return OX_NONE;
+  __global const ox_triangle* t = scene->surfaces.triangles + closest;
+  const bool is_behind = ox_dot(vload3(0, t->normal), p - (vload3(0, t->a) - base)) < 0.0f;
+  return is_behind && !ox_is_beyond_border(scene, t, p + base) ? closest : OX_NONE;
 }
 
 #endif

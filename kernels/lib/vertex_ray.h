@@ -19,9 +19,8 @@ static inline bool ox_may_cast(const ox_scene* scene, uint pair_side, uint verte
                         scene->vertices + vertex);
 }
 
-// `memory`: OX_RAY_ASKING, or of a vertex that is inside OX_RAY_INSIDE or OX_RAY_CONTAINED; then
-// `from` is as in ox_hit, else, and beside an open target, OX_NONE. Of an index that is OX_NONE
-// nothing.
+// `memory`: OX_RAY_...; of a vertex that is inside a closed target `from` is as in ox_hit, else
+// OX_NONE. Of an index that is OX_NONE nothing.
 static inline void ox_store_ray(const ox_scene* scene, uint index, uint pair_side, uint vertex,
                                 uint memory, uint from) {
   if (index == OX_NONE) return;

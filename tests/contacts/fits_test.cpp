@@ -113,5 +113,37 @@ TEST(Fits, ABoxInACrateThatItFillsIsHeldByItsFloor) {
   EXPECT_GT(held_count, 200);
 }
 
+// Of slabs that go on inside one another: a wall that does so inside the floor is the nearest face
+// there, and leads into that. The box was held by the walls alone.
+TEST(Fits, ABoxInACrateOfOverlappingSlabsIsHeldByItsFloor) {
+  const Point room{0.37, 0.27, 0.25};
+  for (const double wall : {0.02, 0.05})
+    for (const double below : {0.5 * wall, wall}) {  // walls reach into the floor, or through it
+      const double tall = room[2] + below, middle = 0.5 * (room[2] - below);
+      TestMesh slabs =
+          moved(make_box({room[0] + 2 * wall, room[1] + 2 * wall, wall}), {0, 0, -0.5 * wall});
+      for (const double side : {-0.5, 0.5}) {
+        slabs = merged(slabs, moved(make_box({wall, room[1] + 2 * wall, tall}),
+                                    {side * (room[0] + wall), 0, middle}));
+        slabs = merged(slabs, moved(make_box({room[0] + 2 * wall, wall, tall}),
+                                    {0, side * (room[1] + wall), middle}));
+      }
+      for (const double aside : {0.1, 0.5, 0.9})  // in each wall, of what it is in the floor
+        for (const double down : {1e-4, 1e-3, 3e-3}) {
+          const double wider = 2 * aside * down;
+          const TestMesh box = make_box({room[0] + wider, room[1] + wider, 0.15});
+          const Placed placed{box, slabs, at(0, 0, 0.075 - down), TestPose{}};
+          for (const TestPose& frame : some_frames(2)) {
+            double held = 0;
+            const std::vector<Contact> found = placed.contacts(frame);
+            for (const Contact& c : found)
+              if (c.normal.z > 0.99) held = std::max(held, static_cast<double>(c.depth));
+            EXPECT_NEAR(held, down, 2 * placed.tolerance(frame)) << wall << ", " << below;
+            EXPECT_LT(deepest(found), 1.05 * down + 2 * placed.tolerance(frame));
+          }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace ode_ext::test

@@ -15,6 +15,7 @@
 #include "collide/collider.h"
 #include "search/inside_oracle.h"
 #include "support/moving_scene.h"
+#include "support/segment_crosses.h"
 
 namespace ode_ext::test {
 namespace {
@@ -27,6 +28,19 @@ ColliderOptions flooded() {
 
 std::uint64_t hits(const Collider& collider) {
   return collider.report().actual[static_cast<std::size_t>(List::kHits)];
+}
+
+// Whether it is below a ground that has one height everywhere.
+bool lies_below(const Mesh& ground, const Point& p) {
+  const Segment up{Vec3d{p[0], p[1], p[2]}, Vec3d{p[0], p[1], p[2] + 100}};
+  const auto corner = [&](std::uint32_t vertex) {
+    const Vec3f& v = ground.vertices[vertex];
+    return Vec3d{v.x, v.y, v.z};
+  };
+  const auto& triangles = ground.topology->triangles;
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    return crosses(up, {corner(t[0]), corner(t[1]), corner(t[2])});
+  });
 }
 
 class Flood : public testing::Test {
@@ -48,7 +62,8 @@ class Flood : public testing::Test {
 
   // Of vertices that are not near the surface: their ray's triangle and depth too. near_half: whose
   // rays get no farther than half through their own mesh; beyond, what is behind an open target
-  // depends on its border (lib/border.h, ApiOpenTarget).
+  // depends on its border (lib/border.h, ApiOpenTarget). Those whose rays do not get to the surface
+  // are not listed: crossings tell that they are behind it, and they are below the ground.
   std::set<std::tuple<ox_u32, ox_u32, ox_u32, ox_f32>> behind_open(const Scene& scene,
                                                                    const StepRecords& records,
                                                                    bool near_half) {
@@ -65,7 +80,13 @@ class Flood : public testing::Test {
           h.t > 0.5f * mesh.exits[Rig::shared().local_vertex(source, h.vertex)])
         continue;
       const double doubt = kDoubt * static_cast<double>(records.pairs[h.pair_side >> 1].epsilon);
-      if (target.is_near(InsideOracles::in_target(scene, h.pair_side, vertex), doubt)) continue;
+      const Point p = InsideOracles::in_target(scene, h.pair_side, vertex);
+      if (target.is_near(p, doubt)) continue;
+      if (std::isinf(h.t) && h.triangle != OX_NONE) {
+        EXPECT_TRUE(lies_below(*scene.meshes[InsideOracles::mesh_of(scene, h.pair_side ^ 1)], p));
+        ++below_;
+        continue;
+      }
       found.emplace(h.pair_side, h.vertex, h.triangle, h.depth);
     }
     return found;
@@ -74,7 +95,7 @@ class Flood : public testing::Test {
   InsideOracles oracles_;
   StepRecords records_;  // of the last scene
   Collider flood_{flooded()};
-  std::uint64_t rays_ = 0, rays_of_all_ = 0, hits_ = 0, chunks_ = 0;
+  std::uint64_t rays_ = 0, rays_of_all_ = 0, hits_ = 0, chunks_ = 0, below_ = 0;
 };
 
 TEST_F(Flood, FindsTheVerticesInsideOfSmoothMeshes) {
@@ -327,6 +348,7 @@ TEST_F(Flood, FindsTheVerticesBehindOpenMeshes) {
     find(scene.scene);
   }
   EXPECT_GT(hits_, 1000u);
+  EXPECT_GT(below_, 50u);
   EXPECT_LT(rays_, rays_of_all_ / 2);
 }
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How deep vertices of a solid are behind an open mesh, by the way out of the faces that its edges
+// cross. Device only.
+#ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
+#define ODE_EXT_KERNELS_LIB_WAY_UP_H
+
+#include "lib/scene.h"
+#include "lib/transform.h"
+
+// In the frame of the solid.
+typedef struct {
+  float3 up;     // unit
+  float height;  // [m] along it, of the highest crossing; -INFINITY: there is no way
+} ox_way_up;
+
+// Of the source of a side of a pair. Crossings come in any order, so their normals are summed as
+// whole numbers.
+static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
+  ox_way_up way = {(float3)(0.0f), -INFINITY};
+  __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
+  const uint side = pair_side & 1u;
+  if ((scene->meshes[pair->mesh[side]].flags & OX_MESH_CLOSED) == 0u ||
+      (scene->meshes[pair->mesh[1u - side]].flags & OX_MESH_CLOSED) != 0u)
+    return way;
+  const uint head = scene->found[pair_side >> 1].head[side];
+  int3 sum = (int3)(0);
+  for (uint c = head; c != OX_NONE; c = scene->crossings[c].before) {
+    __global const ox_triangle* t = scene->surfaces.triangles + scene->crossings[c].triangle;
+    sum += convert_int3_rte(256.0f * vload3(0, t->normal));
+  }
+  const float3 up = ox_rotate(pair, 1u - side, convert_float3(sum));
+  const float length = sqrt(ox_dot(up, up));
+  if (length == 0.0f) return way;
+  way.up = up / length;
+  for (uint c = head; c != OX_NONE; c = scene->crossings[c].before) {
+    __global const ox_edge* edge = scene->edges + scene->crossings[c].edge;
+    const float3 from = vload3(0, scene->vertices[edge->vertex[0]].position);
+    const float3 along = vload3(0, scene->vertices[edge->vertex[1]].position) - from;
+    const float part = scene->crossings[c].t / sqrt(ox_dot(along, along));
+    way.height = ox_max(way.height, ox_dot(from + part * along, way.up));
+  }
+  return way;
+}
+
+// [m] how deep a vertex is below the highest crossing, and how far up its ray goes in its own mesh.
+static inline float ox_depth_below(const ox_scene* scene, uint index, const ox_way_up* way) {
+  return way->height - ox_dot(vload3(0, scene->vertices[index].position), way->up);
+}
+static inline float ox_rise_of(const ox_scene* scene, uint index, const ox_way_up* way) {
+  __global const ox_vertex* vertex = scene->vertices + index;
+  return vertex->exit * ox_dot(vload3(0, vertex->direction), way->up);
+}
+
+#endif
