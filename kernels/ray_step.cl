@@ -9,11 +9,6 @@
 #include "lib/closest.h"
 #include "lib/vertex_ray.h"
 
-static bool ox_is_behind(__global const ox_triangle* triangle, float3 base, float3 p,
-                         float margin) {
-  return ox_dot(vload3(0, triangle->normal), p - (vload3(0, triangle->a) - base)) <= margin;
-}
-
 static void ox_cast_rays(const ox_scene* scene) {
   const uint first = scene->lists[OX_LIST_RAYS].first;
   const uint count = ox_length(scene, OX_LIST_RAYS);

@@ -45,11 +45,11 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
   // a whole region.
   const float3 direction = ox_way_of(seed->side, plane->normal);
-  const float limit = best->judged + ox_gone_along(seed->before, plane->normal);
   for (uint i = 0u; i < seed->count; ++i) {
     __global const ox_feature* f = r->scene->features + seed->through[i];
     const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
     if (!ox_looks_back(back, direction)) continue;
+    const float limit = best->judged + ox_gone_along(seed->before, plane->normal);
     float of_body = ox_depth_of_body(r, plane, seed->side, limit);
     if (ox_is_doubted(of_body, choice.depth, limit) &&
         !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))

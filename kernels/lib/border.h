@@ -102,8 +102,8 @@ static inline uint ox_closest_in_front(const ox_scene* scene, uint pair_side, fl
       ox_closest_triangle(&scene->surfaces, target, base, p, target->radius, pair->epsilon);
   if (closest == OX_NONE) return OX_NONE;
   __global const ox_triangle* t = scene->surfaces.triangles + closest;
-  const bool is_behind = ox_dot(vload3(0, t->normal), p - (vload3(0, t->a) - base)) < 0.0f;
-  return is_behind && !ox_is_beyond_border(scene, t, p + base) ? closest : OX_NONE;
+  const bool is_within = !ox_is_beyond_border(scene, t, p + base);
+  return is_within && ox_is_behind(t, base, p, 0.0f) ? closest : OX_NONE;
 }
 
 #endif

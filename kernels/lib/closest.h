@@ -195,6 +195,12 @@ static inline uint ox_closest_of(const ox_surfaces* surfaces, __global const ox_
   return closest.triangle;
 }
 
+// Whether a point, from `base` on, is behind a triangle, or in front by no more than a margin [m].
+static inline bool ox_is_behind(__global const ox_triangle* triangle, float3 base, float3 p,
+                                float margin) {
+  return ox_dot(vload3(0, triangle->normal), p - (vload3(0, triangle->a) - base)) <= margin;
+}
+
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,
                                        float3 base, float3 p, float bound, float tie) {
   return ox_closest_of(surfaces, mesh, base, p, bound, tie, INFINITY);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep vertices of a solid are behind an open mesh, by the way out of the faces that its edges
-// cross. Device only.
+// How deep vertices of a solid are behind an open mesh, along the mean normal of the faces that its
+// edges cross. Device only.
 #ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
 #define ODE_EXT_KERNELS_LIB_WAY_UP_H
 
