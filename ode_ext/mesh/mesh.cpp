@@ -39,8 +39,7 @@ constexpr std::size_t kTrianglesABranch = 8192;
 void find_facets(const std::vector<Neighbours>& across, Mesh& mesh, MeshTopology& topology) {
   Normals normals = compute_normals(mesh.vertices, topology.triangles);
   mesh.normals = std::move(normals.vertices);
-  mesh.face_normals = std::move(normals.faces);
-  topology.facets = facets(mesh.vertices, topology.triangles, mesh.face_normals, across);
+  topology.facets = facets(mesh.vertices, topology.triangles, normals.faces, across);
 }
 
 // What depends on edges.
@@ -52,6 +51,18 @@ void connect(Edges edges, const Bvh& bvh, MeshTopology& topology) {
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
   topology.sides = std::move(edges.sides);
+}
+
+// What was appended to keeps no room for more.
+void trim(Mesh& mesh, MeshTopology& topology) {
+  mesh.vertices.shrink_to_fit();
+  topology.source_triangle.shrink_to_fit();
+  topology.edges.shrink_to_fit();
+  topology.flat_edges.shrink_to_fit();
+  topology.meshlets.meshlets.shrink_to_fit();
+  topology.meshlets.vertices.shrink_to_fit();
+  topology.meshlets.tree.shrink_to_fit();
+  topology.chunks.shrink_to_fit();
 }
 
 }  // namespace
@@ -108,6 +119,7 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
         edges = find_edges(mesh.vertices, half_edges, topology->facets);
       });
   connect(std::move(edges), bvh, *topology);
+  trim(mesh, *topology);
   if (options.deformable) {  // the device makes the rest, so that it is the same in every shape
     mesh.radius = half_diagonal(mesh.box);
     topology->source = source;
@@ -125,8 +137,8 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
 }
 
 Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle) {
-  if (!mesh.deformable) return Vec3d(mesh.face_normals[triangle]);
   const Triangle& corners = mesh.topology->triangles[triangle];
+  if (!mesh.deformable) return Vec3d(face_normal(mesh.vertices, corners));
   return face_normal(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                      mesh.vertices[corners[2]]);
 }

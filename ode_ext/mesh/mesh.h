@@ -22,13 +22,11 @@ struct Mesh {
   // origin.h; 0 for a deformable mesh, or its past would decide how its shapes are rounded.
   Vec3f origin;
   std::vector<Vec3f> vertices;  // [m], exact; as MeshTopology numbers them
-  // Unit, outward, angle-weighted; rays are cast along their negatives. These, the exits and the
-  // normals of the faces are empty for a deformable mesh: the device makes them.
+  // Unit, outward, angle-weighted; rays are cast along their negatives. These and the exits are
+  // empty for a deformable mesh: the device makes them.
   std::vector<Vec3f> normals;
   // Where a ray from the vertex along -normal leaves this mesh [m]; infinity if it never does.
   std::vector<float> exits;
-  // Unit normal of each triangle; zero where its area is zero.
-  std::vector<Vec3f> face_normals;
 
   Box box{};
   // Largest distance of a vertex, or for a deformable mesh of its box, from centre(box), rounded up
@@ -46,7 +44,7 @@ struct Mesh {
   bool closed() const { return topology->closed; }
 };
 
-// Unit; zero where the area is zero.
+// Unit, of a rigid mesh as floats, which the device has; zero where the area is zero.
 Vec3d face_normal(const Mesh& mesh, std::uint32_t triangle);
 
 // The box in the frame of the source, exact.

@@ -44,6 +44,9 @@ struct MeshTopology {
   std::vector<std::uint32_t> facets;
   // As in edges.h. Indices of edges count those between facets first, then those within one.
   std::vector<Edge> edges, flat_edges;
+  const Edge& edge(std::uint32_t index) const {
+    return index < edges.size() ? edges[index] : flat_edges[index - edges.size()];
+  }
   std::vector<Sides> sides;  // of each triangle
   Meshlets meshlets;         // with these edges
   double spread = 0;         // of these, as the mesh was built (meshlet_spread)

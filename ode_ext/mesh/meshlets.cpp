@@ -34,7 +34,7 @@ class MeshletBuilder {
  public:
   MeshletBuilder(const Bvh& bvh, const std::vector<Triangle>& triangles,
                  const std::vector<Edge>& edges)
-      : bvh_(bvh), triangles_(triangles), edges_(edges), by_place_(edges_by_place(bvh, edges)) {
+      : bvh_(bvh), triangles_(triangles), by_place_(edges_by_place(bvh, edges)) {
     find_ends();
   }
 
@@ -50,6 +50,7 @@ class MeshletBuilder {
     }
     link();
     result_.triangles = bvh_.order;
+    result_.edges = std::move(by_place_.edges);
     result_.tree = build_meshlet_tree(top_);
     return std::move(result_);
   }
@@ -87,15 +88,6 @@ class MeshletBuilder {
   }
 
   void emit() {
-    const auto place = [&](std::uint32_t vertex) {
-      return static_cast<std::uint8_t>(std::find(vertices_.begin(), vertices_.end(), vertex) -
-                                       vertices_.begin());
-    };
-    for (std::uint32_t k = 0; k < current_.edge_count; ++k) {
-      const std::uint32_t edge = by_place_.edges[current_.edge_first + k];
-      const auto& ends = edges_[edge].vertices;
-      result_.edges.push_back({edge, {place(ends[0]), place(ends[1])}});
-    }
     current_.vertex_first = static_cast<std::uint32_t>(result_.vertices.size());
     current_.vertex_count = static_cast<std::uint32_t>(vertices_.size());
     result_.vertices.insert(result_.vertices.end(), vertices_.begin(), vertices_.end());
@@ -110,7 +102,6 @@ class MeshletBuilder {
 
   const Bvh& bvh_;
   const std::vector<Triangle>& triangles_;
-  const std::vector<Edge>& edges_;
   EdgesByPlace by_place_;
   std::vector<std::array<std::uint32_t, 2>> ranges_;  // of triangles, of each node
   Meshlet current_{};

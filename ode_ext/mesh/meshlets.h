@@ -17,14 +17,8 @@ inline constexpr std::uint32_t kMeshletTriangles = 16;
 inline constexpr std::uint32_t kMeshletVertices = 16;
 inline constexpr std::uint32_t kMeshletEdges = 32;
 
-// An edge of a meshlet: index of the edge, and places of its ends among the meshlet's vertices.
-struct MeshletEdge {
-  std::uint32_t edge;
-  std::array<std::uint8_t, 2> ends;  // as Edge::vertices
-};
-
 // Triangles, the vertices at them, and those edges of which the first triangle is one of them: so
-// an edge is in one meshlet.
+// an edge is in one meshlet, and its ends are among the vertices.
 struct Meshlet {
   std::uint32_t triangle_first, triangle_count;  // in Meshlets::triangles
   std::uint32_t vertex_first, vertex_count;      // in Meshlets::vertices
@@ -33,8 +27,7 @@ struct Meshlet {
 
 struct Meshlets {
   std::vector<Meshlet> meshlets;
-  std::vector<std::uint32_t> triangles, vertices;  // indices into the mesh's
-  std::vector<MeshletEdge> edges;
+  std::vector<std::uint32_t> triangles, vertices, edges;  // indices into the mesh's
   std::vector<MeshletNode> tree;
 };
 

@@ -80,6 +80,10 @@ Vec3f vertex_normal(const VertexSum& sum) {
 
 Vec3d face_normal(Vec3f a, Vec3f b, Vec3f c) { return measure(a, b, c).unit; }
 
+Vec3f face_normal(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
+  return Vec3f(measure(vertices, triangle).unit);
+}
+
 Normals compute_normals(const std::vector<Vec3f>& vertices,
                         const std::vector<Triangle>& triangles) {
   Normals normals;

@@ -11,9 +11,11 @@ namespace ode_ext {
 
 // Unit normal of a triangle, zero where its area is zero.
 Vec3d face_normal(Vec3f a, Vec3f b, Vec3f c);
+// The same whichever corner is its first, bit for bit.
+Vec3f face_normal(const std::vector<Vec3f>& vertices, const Triangle& triangle);
 
 struct Normals {
-  std::vector<Vec3f> faces;     // unit; zero where the area is zero
+  std::vector<Vec3f> faces;     // as face_normal
   std::vector<Vec3f> vertices;  // unit; zero where all incident faces have zero area
 };
 

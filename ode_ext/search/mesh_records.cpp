@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "mesh/both.h"
+#include "mesh/normals.h"
 #include "mesh/ray_cast.h"
 #include "mesh/rings.h"
 #include "search/deform_topology.h"
@@ -92,11 +93,12 @@ ox_triangle to_record(const Mesh& mesh, std::uint32_t triangle, const MeshRange&
   record.facet = facets.empty() ? triangle : facets[triangle];
   if (mesh.deformable) return record;
   const Triangle& corners = mesh.topology->triangles[triangle];
-  const bool flat = mesh.face_normals[triangle] == Vec3f{};
+  const Vec3f normal = face_normal(mesh.vertices, corners);
+  const bool flat = normal == Vec3f{};
   store(record.a, mesh.vertices[corners[0]]);
   store(record.b, mesh.vertices[corners[flat ? 0 : 1]]);
   store(record.c, mesh.vertices[corners[flat ? 0 : 2]]);
-  store(record.normal, mesh.face_normals[triangle]);
+  store(record.normal, normal);
   return record;
 }
 

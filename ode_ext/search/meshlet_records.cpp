@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "mesh/normals.h"
+
 namespace ode_ext {
 namespace {
 
@@ -23,16 +25,17 @@ std::uint32_t triangle_index(const Mesh& mesh, const Meshlet& meshlet, std::uint
   return mesh.topology->meshlets.triangles[meshlet.triangle_first + k];
 }
 
-// Where the corners of a triangle of a meshlet are among its vertices.
-ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
+// Where it is among the vertices of the meshlet.
+ox_u32 place_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t vertex) {
   const auto first = mesh.topology->meshlets.vertices.begin() + meshlet.vertex_first;
+  return static_cast<ox_u32>(std::find(first, first + meshlet.vertex_count, vertex) - first);
+}
+
+ox_u32 corner_places(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t triangle) {
   ox_u32 places = 0;
-  for (std::uint32_t corner = 0; corner < 3; ++corner) {
-    const auto place =
-        std::find(first, first + meshlet.vertex_count, mesh.topology->triangles[triangle][corner]) -
-        first;
-    places |= static_cast<ox_u32>(place) << OX_CORNER_SHIFT(corner);
-  }
+  for (std::uint32_t corner = 0; corner < 3; ++corner)
+    places |= place_of(mesh, meshlet, mesh.topology->triangles[triangle][corner])
+              << OX_CORNER_SHIFT(corner);
   return places;
 }
 
@@ -49,10 +52,11 @@ void store_indices(const Mesh& mesh, const Meshlet& meshlet, const MeshRange& ra
   }
   record.edge_count = meshlet.edge_count;
   for (std::uint32_t k = 0; k < meshlet.edge_count; ++k) {
-    const MeshletEdge& edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
-    record.edge[k] = range.edge_first + edge.edge;
+    const std::uint32_t edge = mesh.topology->meshlets.edges[meshlet.edge_first + k];
+    record.edge[k] = range.edge_first + edge;
     for (std::uint32_t end = 0; end < 2; ++end)
-      record.ends[k / 2] |= std::uint32_t{edge.ends[end]} << OX_END_SHIFT(k, end);
+      record.ends[k / 2] |= place_of(mesh, meshlet, mesh.topology->edge(edge).vertices[end])
+                            << OX_END_SHIFT(k, end);
   }
 }
 
@@ -62,7 +66,8 @@ Vec3f vertex_of(const Mesh& mesh, const Meshlet& meshlet, std::uint32_t k) {
 
 void store_places(const Mesh& mesh, const Meshlet& meshlet, ox_meshlet& record) {
   for (std::uint32_t k = 0; k < meshlet.triangle_count; ++k) {
-    if (mesh.face_normals[triangle_index(mesh, meshlet, k)] != Vec3f{}) record.with_area |= 1u << k;
+    const Triangle& corners = mesh.topology->triangles[triangle_index(mesh, meshlet, k)];
+    if (face_normal(mesh.vertices, corners) != Vec3f{}) record.with_area |= 1u << k;
   }
   for (std::uint32_t k = 0; k < OX_LANES; ++k) {
     const Vec3f vertex = vertex_of(mesh, meshlet, k);

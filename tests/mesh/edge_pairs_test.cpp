@@ -20,7 +20,7 @@ Cell cell_behind(const Mesh& mesh, std::uint32_t triangle) {
   Vec3d middle{};
   for (const std::uint32_t corner : t)
     middle = middle + (1.0 / 3) * Vec3d(mesh.vertices[corner] + mesh.origin);
-  return shapes::cell_of(middle - 0.25 * Vec3d(mesh.face_normals[triangle]));
+  return shapes::cell_of(middle - 0.25 * face_normal(mesh, triangle));
 }
 
 std::map<std::array<std::uint32_t, 2>, std::vector<Edge>> edges_by_ends(const Mesh& mesh) {

@@ -106,10 +106,10 @@ TEST(Facets, DoNotFollowAGentleCurve) {
   EXPECT_LT(facets_of(mesh).size(), 100u);
   // Of one of its triangles all differ by less than a tenth of a degree, so of one another by less
   // than two.
-  for (std::size_t t = 0; t < mesh.topology->facets.size(); ++t)
-    for (std::size_t other = 0; other < t; ++other) {
+  for (std::uint32_t t = 0; t < mesh.topology->facets.size(); ++t)
+    for (std::uint32_t other = 0; other < t; ++other) {
       if (mesh.topology->facets[t] != mesh.topology->facets[other]) continue;
-      const Vec3d away = Vec3d(mesh.face_normals[t]) - Vec3d(mesh.face_normals[other]);
+      const Vec3d away = face_normal(mesh, t) - face_normal(mesh, other);
       EXPECT_LT(length(away), 0.2 * kDegree);
     }
 }

@@ -33,7 +33,6 @@ class Meshes : public testing::TestWithParam<bool> {
     device_.finish();
   }
 
-  // All that is there of a mesh, by kind, as if it were the first.
   // The same where the list is placed in one go.
   void expect_as_placed_afresh(const MeshList& list) { expect_as_placed_afresh(meshes_, list); }
   void expect_as_placed_afresh(const DeviceMeshes& on_device, const MeshList& list) {
@@ -150,6 +149,23 @@ TEST_P(Meshes, StayWhereTheyAreWhileOthersComeAndGo) {
   set({all[4], all[3], all[2]});
   EXPECT_EQ(meshes_.range(0).vertex_first, last);
   expect_as_placed_afresh({all[4], all[3], all[2]});
+}
+
+TEST_P(Meshes, HaveTheEndsOfTheEdgesOfTheirMeshlets) {
+  const MeshList all = five_meshes();
+  set(all);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const ox_mesh mesh = read<ox_mesh>(meshes_.records(), i, 1)[0];
+    std::size_t count = 0;
+    for (const ox_meshlet& meshlet :
+         read<ox_meshlet>(meshes_.meshlets(), mesh.meshlet_first, mesh.meshlet_count))
+      for (ox_u32 e = 0; e < meshlet.edge_count; ++e, ++count) {
+        const ox_edge edge = read<ox_edge>(meshes_.edges(), meshlet.edge[e], 1)[0];
+        for (std::size_t end = 0; end < 2; ++end)
+          EXPECT_EQ(meshlet.vertex_index[OX_END(meshlet.ends, e, end)], edge.vertex[end]);
+      }
+    EXPECT_EQ(count, all[i]->topology->edges.size() + all[i]->topology->flat_edges.size());
+  }
 }
 
 TEST_P(Meshes, AreThoseOfTheListWhicheverCameBefore) {
