@@ -3,6 +3,7 @@
 #ifndef ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
 #define ODE_EXT_KERNELS_CONTACTS_WHOLE_DEPTH_H
 
+#include "contacts/behind_border.h"
 #include "contacts/comes_back.h"
 
 // Of the members of a block that are points of mesh `side` how far the last and the first are along
@@ -101,7 +102,12 @@ static inline float ox_whole_depth(const ox_region_view* r, const ox_limits* lim
   for (uint side = 0u; side < 2u && blocks > OX_KEPT_BLOCKS; ++side)
     if (farthest[side] != OX_NONE)
       kept->block[side][kept->found[side]++ % OX_KEPT_BLOCKS] = farthest[side];
-  return depth == -INFINITY ? INFINITY : ox_max(depth, 0.0f);  // nothing there is to be moved
+  if (!(depth > -INFINITY && depth < INFINITY)) return INFINITY;  // or nothing is to be moved
+  depth = ox_max(depth, 0.0f);
+  if (!ox_has_border(r, extent->plane)) return depth;
+  const float level = extent->plane->level[ox_clears_side(extent->plane, 0u) ? 0 : 1];
+  depth = ox_max(depth, level + ox_reach_behind_border(r, extent->plane, limits->cost - level));
+  return depth > limits->cost ? INFINITY : depth;
 }
 
 #define OX_DIRECTIONS 27u
