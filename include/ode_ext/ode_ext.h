@@ -257,8 +257,9 @@ ODE_EXT_API int dBatchColliderGetMeshlets(dBatchColliderID collider, dTriMeshDat
 /**
  * Announces that the vertices of a mesh moved or that it was rebuilt (after the change, and after
  * dGeomTriMeshDataUpdate). Without the announcement the change is seen at the next pass, or the
- * next dCollide of the mesh outside of passes, which reads the meshes that it is asked of, unless
- * `trust_meshes` is set. All colliders are told, since any may be asked about the mesh: collider is
+ * next dCollide of the mesh by a thread that is in no pass, which reads the meshes that it is asked
+ * of; within the callbacks of a pass only if the mesh is of other arrays now. With `trust_meshes`
+ * it is not seen at all. All colliders are told, since any may be asked about the mesh: collider is
  * one that lives, or 0.
  */
 ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTriMeshDataID data);

@@ -2,6 +2,7 @@
 #include "ode/batch_collider.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -84,6 +85,8 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   if (depth_ == 1 && may_hold_pair) {
     known_.note_outermost(root, pairs.size());
     made_outside_ = 0;
+  } else if (depth_ == 1) {
+    age_where_many(0);
   }
   failed_ = false;
   begin_stats(depth_ > 1);  // this pass is one of them
@@ -153,11 +156,14 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   stats_.pairs_colliding = known_.colliding() + unasked_colliding;
 }
 
-// Bounds what is kept for a program whose passes hold no pair, where nothing else is forgotten.
-// `pairs`: that are asked for at once.
+// `pairs`: that are asked for at once. While a pass runs it needs what it has.
 void BatchCollider::age_outside(std::size_t pairs) {
-  if (is_within_a_pass()) return;  // a pass forgets by itself, and needs what it has
   most_at_once_ = std::max<std::uint64_t>(most_at_once_, pairs);
+  if (depth_ == 0) age_where_many(pairs);
+}
+
+// Bounds what is kept for a program whose passes hold no pair, where nothing else is forgotten.
+void BatchCollider::age_where_many(std::size_t pairs) {
   if (made_outside_ <= std::max(kAnswersOutside, kTimesAsked * most_at_once_)) return;
   known_.age();
   made_outside_ = 0;
@@ -197,7 +203,8 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     known->passes_unasked = 0;
   }
   // Outside of any pass nothing has read the meshes since the last question.
-  if (alone) known_.look_again();
+  std::optional<KnownPairs::LookBetween> look;
+  if (alone) look.emplace(known_);
   const auto holds_now = [&] { return known != nullptr && known_.holds(*known, g1, g2, true); };
   const auto is_given_up = [&] { return !alone && known != nullptr && known_.is_given_up(*known); };
   try {
@@ -213,7 +220,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     }
     if (alone) make_anew_what_keeps_failing();
     age_outside(1);
-    if (alone) ++made_outside_;
+    ++made_outside_;
     known = &known_.entry(g1, g2);
     known->last_round = known_.round();
     known_.begin_batch(false);

@@ -79,7 +79,11 @@ class BatchCollider {
   void compute_pairs(std::span<const dGeomID> geoms);
   const Answer* find_or_compute(dGeomID g1, dGeomID g2);
   void age_outside(std::size_t pairs);
-  bool is_within_a_pass() const { return depth_ != 0; }
+  void age_where_many(std::size_t pairs);
+  // Whether this thread is; another that asks meanwhile is in none.
+  bool is_within_a_pass() const {
+    return depth_ != 0 && pass_thread_ == std::this_thread::get_id();
+  }
   // visit(i, what is known of the pair of the i-th contact, it).
   template <class Visit>
   void for_each_known(const dContactGeom* contacts, int count, int skip, Visit visit);
@@ -113,7 +117,8 @@ class BatchCollider {
 
   std::atomic<int> depth_{0};
   std::thread::id pass_thread_;
-  // Outside of any pass, since what is known aged: answers made, and the most asked for at once.
+  // By questions since the last pass that held a pair, or since what is known aged: answers made,
+  // and the most asked for at once.
   std::uint64_t made_outside_ = 0, most_at_once_ = 0;
   bool failed_ = false;         // the pass that runs is answered by ODE's own collider
   bool failure_said_ = false;   // one message per run of failures

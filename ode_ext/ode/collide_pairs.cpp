@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // BatchCollider, where a program gives it the pairs.
 #include <numeric>
+#include <optional>
 
 #include "ode/batch_collider.h"
 #include "ode/contact_export.h"
@@ -63,7 +64,7 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
   const HeldMessages held;
   const std::lock_guard lock(mutex_);
   hear_announcements();
-  begin_stats(is_within_a_pass());
+  begin_stats(is_passing());
   try {
     make_anew_what_keeps_failing();
     compute_pairs(geoms);
@@ -92,7 +93,8 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
 }
 
 void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
-  if (!is_within_a_pass()) known_.look_again();
+  std::optional<KnownPairs::LookBetween> look;
+  if (!is_within_a_pass()) look.emplace(known_);
   age_outside(geoms.size() / 2);
   known_.begin_batch(is_within_a_pass());
   for (std::size_t i = 0; i < geoms.size() / 2; ++i) {
@@ -104,7 +106,7 @@ void BatchCollider::compute_pairs(std::span<const dGeomID> geoms) {
     known_.add(answer, GatheredPair{{g1, g1}, {g2, g2}});
   }
   stats_.pairs = static_cast<long long>(geoms.size() / 2);
-  if (!is_within_a_pass()) made_outside_ += known_.changed();
+  made_outside_ += known_.changed();
   known_.compute(nullptr);
   note_report();
 }

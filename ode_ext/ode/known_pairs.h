@@ -46,7 +46,22 @@ class KnownPairs {
   void note_outermost(const PassRoot& root, std::size_t pairs) { rounds_.note_pass(root, pairs); }
   // Meshes are read anew when this number changes.
   std::uint64_t look() const { return look_; }
-  void look_again() { ++look_; }
+  void look_again() { look_ = ++looks_; }
+  // While one lives meshes are read anew. Then it is as before: a pass of another thread reads
+  // again what was read meanwhile, and nothing else.
+  class LookBetween {
+   public:
+    explicit LookBetween(KnownPairs& known) : known_(known), before_(known.look_) {
+      known_.look_again();
+    }
+    ~LookBetween() { known_.look_ = before_; }
+    LookBetween(const LookBetween&) = delete;
+    LookBetween& operator=(const LookBetween&) = delete;
+
+   private:
+    KnownPairs& known_;
+    std::uint64_t before_;
+  };
 
   Answer* find(dGeomID g1, dGeomID g2) { return answers_.find(g1, g2); }
   Answer& entry(dGeomID g1, dGeomID g2) { return answers_.entry(g1, g2); }
@@ -106,7 +121,7 @@ class KnownPairs {
   PairScene scene_;  // that is being built
   Rounds rounds_;
   std::uint64_t pass_ = 0;
-  std::uint64_t look_ = 0;
+  std::uint64_t look_ = 0, looks_ = 0;
   bool skips_given_up_ = false;
   std::string why_given_up_;
   std::int64_t given_up_ = 0;

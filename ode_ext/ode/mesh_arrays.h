@@ -24,6 +24,8 @@ struct MeshArrays {
   std::size_t triangle_count;
   bool is_single;  // coordinates are floats, not doubles
 
+  bool operator==(const MeshArrays&) const = default;  // the same arrays, whatever is in them
+
   // Overwrites `source` by the triangles, bit for bit as ODE gives them; the places are the
   // vertices up to the last that a triangle names, or where these are more than there are corners,
   // one for each corner. False: of what is not finite, or names no vertex, ODE has to be asked.

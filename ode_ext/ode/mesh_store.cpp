@@ -26,7 +26,8 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, int t
   const auto [place, is_new] = entries_.try_emplace(data);
   Entry& entry = place->second;
   if (is_new) entry.order = next_order_++;
-  const bool looked = entry.last_look == look;
+  const std::optional<MeshArrays> arrays = arrays_of(data);
+  const bool looked = entry.last_look == look && entry.arrays == arrays;
   entry.last_round = round;
   if (has_triangles(entry, triangle_count) && !entry.changed && (looked || trust_)) {
     entry.last_look = look;
@@ -39,6 +40,7 @@ const std::shared_ptr<const Mesh>& MeshStore::refresh(dTriMeshDataID data, int t
     resident_is_stale_ = true;  // whatever of this is done when memory runs out
     update(entry);
   }
+  entry.arrays = arrays;
   entry.left_box = !entry.mesh->vertices.empty() && !reader.knows(box_as_given(*entry.mesh));
   entry.last_look =
       look;  // not before: where memory is short the mesh is not what it was taken for

@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "ode/mesh_arrays.h"
 
 namespace ode_ext {
 
@@ -25,8 +27,9 @@ class MeshStore {
 
   // The mesh as it is now: its triangles are compared with those it was made of, and if they are
   // others it is rebuilt, or followed where it is deformable and only its vertices moved. Looks
-  // once per mesh and value of `look`, and where it has not as many triangles as a geom says;
-  // `round` is what prune goes by (rounds.h).
+  // once per mesh and value of `look`, and where it has not as many triangles as a geom says, or is
+  // of other arrays: another mesh may have the handle by now. `round` is what prune goes by
+  // (rounds.h).
   const std::shared_ptr<const Mesh>& refresh(dTriMeshDataID data, int triangle_count,
                                              std::uint64_t look, std::uint64_t round);
 
@@ -70,6 +73,7 @@ class MeshStore {
   struct Entry {
     std::shared_ptr<const Mesh> mesh;
     std::shared_ptr<const MeshTopology> topology;  // of a deformable mesh, of all its shapes
+    std::optional<MeshArrays> arrays;              // that it was last looked at in
     std::uint64_t last_look = 0;
     std::uint64_t last_round = 0;
     std::uint64_t order = 0;

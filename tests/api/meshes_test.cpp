@@ -20,12 +20,13 @@ class ApiMeshes : public ::testing::Test {
     dGeomTriMeshDataUpdate(soft.id());
   }
   Contacts right() { return fresh_answer(g1, g2); }
+  static TestPose place() { return turned({1, 2, 3}, 1, {0.7, 0.25, 0.125}); }
 
   OdeWorld world;
   dSpaceID space = world.space(SpaceKind::Simple);
   OdeMesh& soft = world.mesh(make_cube(1, 2));
   OdeMesh& hard = world.mesh(make_icosphere(0.6, 2));
-  dGeomID g1 = world.geom(soft, turned({1, 2, 3}, 1, {0.7, 0.25, 0.125}), space);
+  dGeomID g1 = world.geom(soft, place(), space);
   dGeomID g2 = world.geom(hard, {}, space);
 };
 
@@ -130,6 +131,34 @@ TEST_F(ApiMeshes, AnnouncedInsideACallbackAreSeenInIt) {
   ASSERT_FALSE(context.before.empty());
   EXPECT_NE(difference(context.after, context.before), "");
   EXPECT_EQ(difference_with_geoms(context.after, right()), "");
+}
+
+// By the arrays that they are of: nothing else tells without reading all of them.
+TEST_F(ApiMeshes, ReplacedOrBuiltAgainInsideACallbackAreSeenInIt) {
+  const BatchCollider collider;
+  struct Context {
+    OdeWorld& world;
+    OdeMesh& mesh;
+    dGeomID other, geom;
+    Contacts before, replaced, built;
+  } context{world, world.mesh(make_cube(1, 2)), g2, nullptr, {}, {}, {}};
+  context.geom = world.geom(context.mesh, place());  // in no space, which is locked
+  const auto callback = [](void* data, dGeomID, dGeomID) {
+    auto& c = *static_cast<Context*>(data);
+    c.before = collide(c.geom, c.other);
+    c.world.destroy(c.geom);
+    ASSERT_TRUE(c.mesh.replace_at_same_address(make_cube(0.1, 2)));
+    c.geom = c.world.geom(c.mesh, place());
+    c.replaced = collide(c.geom, c.other);
+    c.mesh.rebuild(make_cube(1.1, 2));
+    dGeomTriMeshSetData(c.geom, c.mesh.id());
+    c.built = collide(c.geom, c.other);
+  };
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &context, callback), 1);
+  EXPECT_FALSE(context.before.empty());
+  EXPECT_TRUE(context.replaced.empty());
+  EXPECT_EQ(difference_with_geoms(context.built, fresh_answer(context.geom, g2)), "");
+  EXPECT_FALSE(context.built.empty());
 }
 
 TEST_F(ApiMeshes, BuiltAgainAreSeenAtTheNextPass) {

@@ -171,7 +171,7 @@ TEST_F(ApiCollidePairsRefuses, AGeomThatIsNoMesh) {
 
 // So many cubes and as many more, each of the former with each of the latter.
 class ApiManyPairs : public ::testing::Test {
- protected:
+ public:  // callbacks, plain functions, use it too
   void make(std::size_t half, const TestPose& pose = {}) {
     for (std::size_t i = 0; i < 2 * half; ++i) geoms.push_back(world.geom(cube, pose));
     move();
@@ -224,6 +224,25 @@ TEST_F(ApiManyPairs, AreForgottenBetweenPassesWithoutMeshes) {
   ask_between_passes(20);
   EXPECT_EQ(alone_after_asking(), alone) << "it is kept";
   ask_between_passes(25);
+  EXPECT_EQ(alone_after_asking(), alone + 1) << "it is not";
+}
+
+// As of a program of which the spaces hold boxes that stand for meshes.
+TEST_F(ApiManyPairs, AreForgottenThatPassesWithoutMeshesAskFor) {
+  make(40);
+  const dSpaceID boxes = world.space(SpaceKind::Simple);
+  for (int i = 0; i < 2; ++i) world.own(dCreateBox(boxes, 1, 1, 1));
+  const auto pass = [&](int calls) {
+    const auto callback = [](void* data, dGeomID, dGeomID) {
+      static_cast<ApiManyPairs*>(data)->ask_for_moved(1);
+    };
+    for (int i = 0; i < calls; ++i)
+      ASSERT_EQ(dBatchColliderSpaceCollide(collider, boxes, this, callback), 1);
+  };
+  const long long alone = alone_after_asking();
+  pass(20);
+  EXPECT_EQ(alone_after_asking(), alone) << "it is kept";
+  pass(25);
   EXPECT_EQ(alone_after_asking(), alone + 1) << "it is not";
 }
 

@@ -62,6 +62,37 @@ TEST(ApiThreads, AskTheColliderOfTheirOwnPassesOutsideOfThem) {
   EXPECT_EQ(dBatchColliderGetCount(second, dBatchCounterPairsAlone), 1);
 }
 
+// Another thread's pass may go on for long; this one makes none.
+TEST(ApiThreads, OutsideOfPassesSeeMeshesAsTheyAreWhileAnotherPasses) {
+  struct Bystander {
+    OdeWorld world{};
+    OdeMesh& mesh = world.mesh(make_cube(1));
+    dGeomID a = world.geom(mesh, {});
+    dGeomID b = world.geom(world.mesh(make_cube(1)), at(0.1, 0.2, 0.9));
+    Contacts before{}, after{}, in_pass{};
+  } bystander;
+  const dSpaceID space = bystander.world.space(SpaceKind::Simple);
+  const OdeMesh& ball = bystander.world.mesh(make_icosphere(0.6, 1));
+  bystander.world.geom(ball, {}, space);
+  bystander.world.geom(ball, at(0.5, 0, 0), space);
+  const BatchCollider collider;
+  const auto callback = [](void* data, dGeomID o1, dGeomID o2) {
+    auto& c = *static_cast<Bystander*>(data);
+    std::thread([&] {
+      c.before = collide(c.a, c.b);
+      for (auto& coordinate : c.mesh.edit().vertices) coordinate *= 0.1f;
+      dGeomTriMeshDataUpdate(c.mesh.id());
+      c.after = collide(c.a, c.b);
+    }).join();
+    c.in_pass = collide(o1, o2);
+  };
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &bystander, callback), 1);
+  EXPECT_FALSE(bystander.before.empty());
+  EXPECT_TRUE(bystander.after.empty());
+  EXPECT_FALSE(bystander.in_pass.empty());
+  EXPECT_EQ(collider.stats().pairs_alone, 2);  // none of those of the pass was asked for again
+}
+
 TEST(ApiThreads, HaveAChangedMeshAnnouncedToWhicheverColliderAnswers) {
   OdeWorld world;
   OdeMesh& mesh = world.mesh(make_cube(1));
