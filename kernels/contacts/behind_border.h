@@ -114,9 +114,10 @@ static inline ox_behind ox_behind_stretch(const ox_region_view* r, uint of, floa
                                                 : ox_deepest_of_stretch(r, of, direction, &stretch);
 }
 
-// Points below a feature, if it is of the border of the mesh of a plane, at most so many: below
-// itself, and of each stretch that begins at it the deepest. Returns how many.
-#define OX_BEHIND_FEATURE 3u
+// Points below a feature, if it is of the border of the mesh of a plane, no more than there is room
+// for candidates: below itself, and the deepest of the stretches that begin at it. Returns how
+// many.
+#define OX_BEHIND_FEATURE OX_CANDIDATES_PER_FEATURE
 static inline uint ox_find_behind_border(const ox_region_view* r, uint k, const ox_plane* plane,
                                          ox_behind* at) {
   const ox_scene* scene = r->scene;
@@ -135,23 +136,22 @@ static inline uint ox_find_behind_border(const ox_region_view* r, uint k, const 
   at[0].position = position;
   at[0].depth = ox_max(ox_depth_to(of, position, down, &below), 0.0f);
   at[0].triangle = below.id[0];
-  uint count = 1u;
   if (!is_vertex) {
     const bool to_vertex = ox_is_vertex(scene->features[partner].flags);
-    if ((f->flags & OX_FEATURE_LEAVES) != 0u && !to_vertex) return count;  // it ends here
-    at[count] = ox_behind_stretch(r, of, down, position, &below, end,
-                                  to_vertex ? end : ox_a_little_on(r, end, position));
-    return at[count].triangle == OX_NONE ? count : count + 1u;
+    if ((f->flags & OX_FEATURE_LEAVES) != 0u && !to_vertex) return 1u;  // it ends here
+    at[1] = ox_behind_stretch(r, of, down, position, &below, end,
+                              to_vertex ? end : ox_a_little_on(r, end, position));
+    return at[1].triangle == OX_NONE ? 1u : 2u;
   }
+  at[1].depth = -INFINITY;
   for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
     __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
-    if (edge->triangle[1] != OX_NONE || edge->vertex[0] != f->source || count == OX_BEHIND_FEATURE)
-      continue;
+    if (edge->triangle[1] != OX_NONE || edge->vertex[0] != f->source) continue;
     const float3 to = ox_vertex_of(scene, r->pair, of, edge->vertex[1]);
-    at[count] = ox_behind_stretch(r, of, down, position, &below, to, to);
-    if (at[count].triangle != OX_NONE) ++count;
+    const ox_behind deepest = ox_behind_stretch(r, of, down, position, &below, to, to);
+    if (deepest.depth > at[1].depth) at[1] = deepest;
   }
-  return count;
+  return at[1].depth == -INFINITY ? 1u : 2u;
 }
 
 // How far the solid reaches along the way down from a plane, of which ox_has_border, from the base

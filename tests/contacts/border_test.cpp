@@ -156,6 +156,36 @@ TEST(Border, OfTilesThatMeetAtACrestHoldsABodyAsOneMeshDoes) {
   EXPECT_GT(crossed, 150);
 }
 
+// Every vertex is of the border, and begins up to four of its edges.
+TEST(Border, OfAChequeredFloorBearsABallByAllItsCells) {
+  Random random(11);
+  const int cells = 40;
+  TestMesh floor = make_sheet(2, cells);
+  std::vector<unsigned> kept;
+  for (std::size_t t = 0; t < floor.indices.size(); t += 3) {
+    Point middle{};
+    for (std::size_t k = 0; k < 3; ++k)
+      middle = middle + (1.0 / 3) * floor.vertex(floor.indices[t + k]);
+    const int column = static_cast<int>((middle[0] + 1) * cells / 2);
+    const int row = static_cast<int>((middle[1] + 1) * cells / 2);
+    if ((column + row) % 2 == 0)
+      kept.insert(kept.end(), floor.indices.begin() + static_cast<std::ptrdiff_t>(t),
+                  floor.indices.begin() + static_cast<std::ptrdiff_t>(t) + 3);
+  }
+  floor.indices = kept;
+  for (int i = 0; i < 20; ++i) {
+    const double by = random.uniform(0.01, 0.1);
+    const TestPose pose =
+        turned({1, 2, 3}, i, {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.4 - by});
+    const Placed placed{make_icosphere(0.4, 4), floor, pose, TestPose{}};
+    const std::vector<Contact> found = placed.contacts(TestPose{});
+    ASSERT_FALSE(found.empty());
+    EXPECT_LE(deepest(found), 1.05 * by);
+    EXPECT_GT(deepest(found), 0.5 * by);
+    for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.7);
+  }
+}
+
 // A fence longer than what lies on it: that was sent along its own length, or held by nothing.
 TEST(Border, OfAWallBearsWhatLiesOnItsTop) {
   Random random(10);
