@@ -10,10 +10,6 @@
 
 #include "contacts/ways.h"
 
-static inline bool ox_is_border(const ox_scene* scene, uint edge) {
-  return scene->edges[edge].triangle[1] == OX_NONE;
-}
-
 // Whether a feature is of the border of its mesh.
 static inline bool ox_is_of_border(const ox_scene* scene, __global const ox_feature* f) {
   if (!ox_is_vertex(f->flags)) return ox_is_border(scene, f->source);
@@ -99,19 +95,19 @@ static inline float3 ox_a_little_on(const ox_region_view* r, float3 from, float3
   return from + ox_min(inside / sqrt(ox_dot(d, d)), 0.5f) * d;
 }
 
-// The deepest below the stretch from a feature of the border to another point; its triangle is
-// OX_NONE where none is deeper than the ends.
-static inline ox_behind ox_behind_stretch(const ox_region_view* r, uint of, float3 direction,
-                                          float3 from, const ox_plane* below, float3 to,
-                                          float3 asked) {
+// Looks below the stretch from a feature of the border to another point for what is deeper than
+// `deepest`.
+static inline void ox_look_behind(const ox_region_view* r, uint of, float3 direction, float3 from,
+                                  const ox_plane* below, float3 to, float3 asked,
+                                  ox_behind* deepest) {
   ox_border_stretch stretch;
   stretch.from = from;
   stretch.to = to;
   stretch.below[0] = *below;
   stretch.below[1] = ox_face_behind(r, of, asked, direction);
-  const ox_behind none = {from, -INFINITY, OX_NONE};
-  return stretch.below[1].kind == OX_PLANE_NONE ? none
-                                                : ox_deepest_of_stretch(r, of, direction, &stretch);
+  if (stretch.below[1].kind == OX_PLANE_NONE) return;
+  const ox_behind found = ox_deepest_of_stretch(r, of, direction, &stretch);
+  if (found.depth > deepest->depth) *deepest = found;
 }
 
 // Points below a feature, if it is of the border of the mesh of a plane, no more than there is room
@@ -136,20 +132,19 @@ static inline uint ox_find_behind_border(const ox_region_view* r, uint k, const 
   at[0].position = position;
   at[0].depth = ox_max(ox_depth_to(of, position, down, &below), 0.0f);
   at[0].triangle = below.id[0];
+  at[1].depth = -INFINITY;
   if (!is_vertex) {
     const bool to_vertex = ox_is_vertex(scene->features[partner].flags);
     if ((f->flags & OX_FEATURE_LEAVES) != 0u && !to_vertex) return 1u;  // it ends here
-    at[1] = ox_behind_stretch(r, of, down, position, &below, end,
-                              to_vertex ? end : ox_a_little_on(r, end, position));
-    return at[1].triangle == OX_NONE ? 1u : 2u;
-  }
-  at[1].depth = -INFINITY;
-  for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
-    __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
-    if (edge->triangle[1] != OX_NONE || edge->vertex[0] != f->source) continue;
-    const float3 to = ox_vertex_of(scene, r->pair, of, edge->vertex[1]);
-    const ox_behind deepest = ox_behind_stretch(r, of, down, position, &below, to, to);
-    if (deepest.depth > at[1].depth) at[1] = deepest;
+    ox_look_behind(r, of, down, position, &below, end,
+                   to_vertex ? end : ox_a_little_on(r, end, position), &at[1]);
+  } else {
+    for (uint i = scene->ring_starts[f->source]; i < scene->ring_starts[f->source + 1u]; ++i) {
+      const uint edge = scene->rings[i].edge;
+      if (!ox_is_border(scene, edge) || scene->edges[edge].vertex[0] != f->source) continue;
+      const float3 to = ox_vertex_of(scene, r->pair, of, scene->edges[edge].vertex[1]);
+      ox_look_behind(r, of, down, position, &below, to, to, &at[1]);
+    }
   }
   return at[1].depth == -INFINITY ? 1u : 2u;
 }

@@ -12,6 +12,10 @@
 #include "lib/scene.h"
 #include "lib/transform.h"
 
+static inline bool ox_is_border(const ox_scene* scene, uint edge) {
+  return scene->edges[edge].triangle[1] == OX_NONE;
+}
+
 static inline float ox_distance2_to_segment(float3 p, float3 a, float3 b) {
   const float3 along = b - a;
   const float length2 = ox_dot(along, along);
@@ -57,8 +61,7 @@ static inline bool ox_goes_on(const ox_scene* scene, uint pair_side, float3 p, f
   if (found->at_border[side] == 0u) return true;
   for (uint i = found->head[side]; i != OX_NONE; i = scene->crossings[i].before) {
     __global const ox_edge_crossing* c = scene->crossings + i;
-    __global const ox_edge* edge = scene->edges + c->edge;
-    if (edge->triangle[1] != OX_NONE) continue;
+    if (!ox_is_border(scene, c->edge)) continue;
     const float3 from = ox_vertex_from_base(scene, c, 0u);
     const float3 along = ox_vertex_from_base(scene, c, 1u) - from;
     const float length = sqrt(ox_dot(along, along));
@@ -81,8 +84,7 @@ static inline bool ox_is_beyond_border(const ox_scene* scene, __global const ox_
   const uint sides[3] = {t->side_ab, t->side_bc, t->side_ca};
   for (uint k = 0u; k < 3u; ++k) {
     const float3 along = corners[(k + 1u) % 3u] - corners[k];
-    const bool is_border =
-        (sides[k] & OX_WITHIN_FACET) == 0u && scene->edges[sides[k]].triangle[1] == OX_NONE;
+    const bool is_border = (sides[k] & OX_WITHIN_FACET) == 0u && ox_is_border(scene, sides[k]);
     if (is_border && ox_dot(ox_plain_cross(along, p - corners[k]), vload3(0, t->normal)) < 0.0f)
       return true;
   }

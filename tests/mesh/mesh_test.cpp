@@ -20,6 +20,10 @@ void expect_whole(const Mesh& mesh) {
   EXPECT_EQ(mesh.normals.size(), mesh.vertices.size());
   EXPECT_EQ(mesh.exits.size(), mesh.vertices.size());
   EXPECT_EQ(mesh.topology->source_triangle.size(), mesh.topology->triangles.size());
+  for (std::uint32_t t = 0; t < mesh.topology->triangles.size(); ++t) {
+    const double norm = length(face_normal(mesh, t));
+    EXPECT_TRUE(norm == 0 || std::abs(norm - 1) < 1e-6) << norm;
+  }
   EXPECT_EQ(test::validate_bvh(build_bvh(mesh.vertices, mesh.topology->triangles), mesh.vertices,
                                mesh.topology->triangles),
             "");
