@@ -2,12 +2,13 @@
 // Flood: which vertices of one mesh are inside the other? The crossing nearest to an end of an edge
 // tells on which side of the surface that end is, and both ends of an edge without crossings are on
 // one side. So from the former ends that are inside, over the latter edges, all vertices inside are
-// reached; of a part of the mesh without crossings one of its vertices is asked. An open target has
-// no inside, but its faces have a space behind them. A part without crossings is not there, but
-// where it lies on a face; and where the flood gets round the border, to an end in front, all
-// vertices are looked at (vertex_step.cl). Crossings are those of meshes in general position: none
-// only touches. Of these vertices rays are cast (ray_step.cl), for the face that each leaves by;
-// but of those inside a closed target that lie within a facet none: they bound nothing.
+// reached, those of a chunk that hangs together and has no crossing edge all at once; of a part of
+// the mesh without crossings one of its vertices is asked. An open target has no inside, but its
+// faces have a space behind them. A part without crossings is not there, but where it lies on a
+// face; and where the flood gets round the border, to an end in front, all vertices are looked at
+// (vertex_step.cl). Crossings are those of meshes in general position: none only touches. Of these
+// vertices rays are cast (ray_step.cl), for the face that each leaves by; but of those inside a
+// closed target that lie within a facet none: they bound nothing.
 //
 // in    pairs, meshes, chunks, crossings, the list of them of each side of a pair (found),
 //       vertices, edges, rings, triangles, meshlets, meshlet_nodes
@@ -18,8 +19,8 @@
 // item  1 side of a pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
 #include "lib/closest.h"
+#include "lib/crossed_edges.h"
 #include "lib/flat.h"
-#include "lib/flood_table.h"
 #include "lib/flooded.h"
 #include "lib/general_position.h"
 #include "lib/vertex_ray.h"
@@ -31,6 +32,7 @@ typedef struct {
   uint pair_side;
   __global const ox_mesh* source;
   __global const ox_mesh* target;
+  uint vertex_first;  // of the source
   ox_flood_table table;
   bool leaks;    // the flood got round the border of an open target
   bool told;     // a crossing tells of an end of its edge
@@ -44,32 +46,26 @@ static bool ox_is_open(const ox_flood_state* s) {
   return (s->target->flags & OX_MESH_CLOSED) == 0u;
 }
 
-static bool ox_has_key(const ox_flood_state* s, uint key) {
-  return s->table.places != 0u &&
-         s->scene->flood_words[ox_find_key(s->scene, &s->table, key)] != 0u;
+static uint ox_chunk_of(const ox_flood_state* s, uint vertex) {
+  return s->source->chunk_first + (vertex - s->vertex_first) / OX_CHUNK_VERTICES;
 }
-
-// Of a key that is not there. False: there is no room.
-static bool ox_add_key(ox_flood_state* s, uint key, uint value) {
-  if (!ox_grow_table(s->scene, &s->table)) return false;
-  const uint word = ox_find_key(s->scene, &s->table, key);
-  ox_settle();
-  s->scene->flood_words[word] = key;
-  s->scene->flood_words[word + 1u] = value;
-  ox_settle();
-  ++s->table.used;
-  return true;
+static uint ox_bit_in_chunk(const ox_flood_state* s, uint vertex) {
+  return 1u << (vertex - s->vertex_first) % OX_CHUNK_VERTICES;
 }
 
 static bool ox_is_looked_at(const ox_flood_state* s, uint vertex) {
   if (s->table.places == 0u) return false;
-  const uint word = ox_find_key(s->scene, &s->table, OX_KEY(vertex / 32u, OX_KEY_VERTICES));
+  const uint key = OX_KEY(ox_chunk_of(s, vertex), OX_KEY_CHUNK);
+  const uint word = ox_find_key(s->scene, &s->table, key);
   return s->scene->flood_words[word] != 0u &&
-         (s->scene->flood_words[word + 1u] >> vertex % 32u & 1u) != 0u;
+         (s->scene->flood_words[word + 1u] & ox_bit_in_chunk(s, vertex)) != 0u;
 }
 
-// The first of those in the queue that hang together has this bit.
+// Bits of a vertex in the queue, whose index is below both: it is the first of those that hang
+// together; all of its chunk are queued from it on, the first, and no edge at them crosses.
 #define OX_QUEUE_BEGINS 0x80000000u
+#define OX_QUEUE_CHUNK 0x40000000u
+#define OX_QUEUE_VERTEX (~(OX_QUEUE_BEGINS | OX_QUEUE_CHUNK))
 
 // Whether a vertex lies on the surface of a target that is larger in general position. Rays of
 // vertices start as far out of their own mesh.
@@ -80,34 +76,54 @@ static bool ox_lies_on(const ox_flood_state* s, uint index) {
                                            OX_INFLATION * s->pair->epsilon, 0.0f) != OX_NONE;
 }
 
-// Queues a vertex, with that bit or without. False: there is no room, or it is known to be in
-// front.
+static void ox_queue_chunk(ox_flood_state* s, __global const ox_chunk* chunk, uint begins) {
+  __global uint* queue = ox_queue(s->scene, &s->table) + s->table.queued;
+  for (uint i = OX_ITEM; i < chunk->count; i += OX_ITEMS)
+    queue[i] = chunk->first + i | (i == 0u ? begins | OX_QUEUE_CHUNK : 0u);
+  s->table.queued += chunk->count;
+  ox_settle();
+}
+
+// Queues a vertex, or its chunk. `begins`: OX_QUEUE_BEGINS or 0. False: there is no room, or it is
+// known to be in front.
 static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
   if (!ox_grow_table(s->scene, &s->table)) return false;
-  const uint key = OX_KEY(vertex / 32u, OX_KEY_VERTICES);
+  __global const ox_chunk* chunk = s->scene->chunks + ox_chunk_of(s, vertex);
+  const uint key = OX_KEY(ox_chunk_of(s, vertex), OX_KEY_CHUNK);
   const uint word = ox_find_key(s->scene, &s->table, key);
   const bool is_new = s->scene->flood_words[word] == 0u;
   const uint known = is_new ? 0u : s->scene->flood_words[word + 1u];
-  if ((known >> vertex % 32u & 1u) != 0u) return true;
+  if ((known & ox_bit_in_chunk(s, vertex)) != 0u) return true;
   // What a crossing tells of needs not lie on it to be known, and to get there is no leak.
-  if (s->lies && (ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE)) || !ox_lies_on(s, vertex)))
+  if (s->lies &&
+      (ox_has_key(s->scene, &s->table, OX_KEY(vertex, OX_KEY_OUTSIDE)) || !ox_lies_on(s, vertex)))
     return true;
-  if ((ox_is_open(s) || s->asks) && ox_has_key(s, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
+  if ((ox_is_open(s) || s->asks) &&
+      ox_has_key(s->scene, &s->table, OX_KEY(vertex, OX_KEY_OUTSIDE))) {
     s->leaks = ox_is_open(s);
     s->refuted = s->asks;
     return false;
   }
+  const bool is_whole = is_new && !s->lies && chunk->is_joined != 0u;
   ox_settle();
   s->scene->flood_words[word] = key;
-  s->scene->flood_words[word + 1u] = known | 1u << vertex % 32u;
+  s->scene->flood_words[word + 1u] =
+      is_whole ? (1u << chunk->count) - 1u : known | ox_bit_in_chunk(s, vertex);
   ox_settle();
   if (is_new) ++s->table.used;
-  ox_queue(s->scene, &s->table)[s->table.queued++] = vertex | begins;
+  if (is_whole)
+    ox_queue_chunk(s, chunk, begins);
+  else
+    ox_queue(s->scene, &s->table)[s->table.queued++] = vertex | begins;
   return true;
 }
 
 static uint ox_queued(const ox_flood_state* s, uint i) {
-  return ox_queue(s->scene, &s->table)[i] & ~OX_QUEUE_BEGINS;
+  return ox_queue(s->scene, &s->table)[i] & OX_QUEUE_VERTEX;
+}
+
+static bool ox_is_chunk_queued(const ox_flood_state* s, uint i) {
+  return i < s->table.queued && (ox_queue(s->scene, &s->table)[i] & OX_QUEUE_CHUNK) != 0u;
 }
 
 // How deep what of a solid is behind an open target is by the rays of its vertices, which go as far
@@ -151,7 +167,7 @@ static void ox_cast_queue(const ox_flood_state* s) {
                      OX_NONE);
       continue;
     }
-    const bool begins = is_queued && vertex != ox_queue(s->scene, &s->table)[i];
+    const bool begins = is_queued && (ox_queue(s->scene, &s->table)[i] & OX_QUEUE_BEGINS) != 0u;
     const bool bounds =
         is_queued && !ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex);
     const uint index = ox_append_each(s->scene, OX_LIST_RAYS, bounds);
@@ -186,11 +202,22 @@ static void ox_look_at_all(const ox_flood_state* s) {
   }
 }
 
-// Strings the crossings of an edge together, from the last to come on.
+static bool ox_mark_chunk(ox_flood_state* s, uint vertex) {
+  const uint key = OX_KEY(ox_chunk_of(s, vertex), OX_KEY_CHUNK);
+  return ox_has_key(s->scene, &s->table, key) ||
+         ox_add_key(s->scene, &s->table, key, OX_CHUNK_CROSSED);
+}
+
+// Strings the crossings of an edge together, from the last to come on, before any vertex is looked
+// at.
 static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
   __global ox_edge_crossing* c = s->scene->crossings + crossing;
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
-  if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_NONE)) return false;
+  __global const ox_edge* edge = s->scene->edges + c->edge;
+  if (!ox_has_key(s->scene, &s->table, key) &&
+      !(ox_add_key(s->scene, &s->table, key, OX_NONE) && ox_mark_chunk(s, edge->vertex[0]) &&
+        ox_mark_chunk(s, edge->vertex[1])))
+    return false;
   const uint word = ox_find_key(s->scene, &s->table, key);
   const uint last = s->scene->flood_words[word + 1u];
   ox_settle();
@@ -200,54 +227,8 @@ static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
   return true;
 }
 
-#define OX_END_UNPARTED 0  // the edge does not cross
-#define OX_END_INSIDE 1
-#define OX_END_OUTSIDE 2
-
-// On which side of the surface that crosses the edge first, seen from it, an end is. Crossings of
-// which rounding may have changed the order, at a ridge, in a valley, or where the edge runs along
-// a face, are passed over together where as many enter as leave.
-static uint ox_side_of_end(const ox_flood_state* s, uint edge, uint end) {
-  const uint word = ox_find_key(s->scene, &s->table, OX_KEY(edge, OX_KEY_EDGE));
-  if (s->scene->flood_words[word] == 0u) return OX_END_UNPARTED;
-  const uint all = s->scene->flood_words[word + 1u];
-  if (s->scene->crossings[all].of_edge == OX_NONE)  // as mostly
-    return (s->scene->crossings[all].leaves != 0u) == (end == 0u) ? OX_END_INSIDE : OX_END_OUTSIDE;
-  const float sign = end == 0u ? 1.0f : -1.0f;
-  const float near = s->pair->epsilon;
-  for (float passed = -INFINITY;;) {
-    float first = INFINITY;
-    float last = -INFINITY;
-    for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
-      const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
-      if (begin <= passed || begin >= first) continue;
-      first = begin;
-      last = sign * s->scene->crossings[c].t + s->scene->crossings[c].blur + near;
-    }
-    if (first == INFINITY) return OX_END_UNPARTED;
-    for (bool more = true; more;) {
-      more = false;
-      for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
-        const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
-        const float until = sign * s->scene->crossings[c].t + s->scene->crossings[c].blur + near;
-        if (begin < first || begin > last || until <= last) continue;
-        last = until;
-        more = true;
-      }
-    }
-    int leaving = 0;
-    for (uint c = all; c != OX_NONE; c = s->scene->crossings[c].of_edge) {
-      const float begin = sign * s->scene->crossings[c].t - s->scene->crossings[c].blur - near;
-      if (begin >= first && begin <= last)
-        leaving += (s->scene->crossings[c].leaves != 0u) == (end == 0u) ? 1 : -1;
-    }
-    if (leaving != 0) return leaving > 0 ? OX_END_INSIDE : OX_END_OUTSIDE;
-    passed = last;
-  }
-}
-
 static bool ox_is_parted(const ox_flood_state* s, uint edge) {
-  return ox_side_of_end(s, edge, 0u) != OX_END_UNPARTED;
+  return ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, 0u) != OX_END_UNPARTED;
 }
 
 // Whether it is the crossing by which its edge is looked at, once for all of them.
@@ -265,9 +246,33 @@ static bool ox_is_for_edge(const ox_flood_state* s, uint crossing) {
 static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint outside = OX_KEY(s->scene->edges[edge].vertex[end], OX_KEY_OUTSIDE);
-    if (ox_side_of_end(s, edge, end) == OX_END_OUTSIDE && !ox_has_key(s, outside) &&
-        !ox_add_key(s, outside, OX_OUTSIDE_SO_FAR))
+    if (ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, end) == OX_END_OUTSIDE &&
+        !ox_has_key(s->scene, &s->table, outside) &&
+        !ox_add_key(s->scene, &s->table, outside, OX_OUTSIDE_SO_FAR))
       return false;
+  }
+  return true;
+}
+
+static bool ox_flood_others(ox_flood_state* s, uint other, bool is_next) {
+  for (uint left = ox_group_bits(is_next); left != 0u; left &= left - 1u)
+    if (!ox_flood_vertex(s, ox_of_item(other, ox_lowest(left)), 0u)) return false;
+  return true;
+}
+
+// On from a chunk, at which no edge crosses.
+static bool ox_flood_from_chunk(ox_flood_state* s, __global const ox_chunk* chunk) {
+  for (uint begin = 0u; begin < chunk->count; begin += OX_ITEMS) {
+    const uint vertex = chunk->first + begin + OX_ITEM;
+    const bool is_there = begin + OX_ITEM < chunk->count;
+    const uint end = is_there ? s->scene->ring_starts[vertex + 1u] : 0u;
+    uint k = is_there ? s->scene->ring_starts[vertex] : 0u;
+    for (; ox_any_item(k < end); ++k) {
+      const uint other = s->scene->rings[k < end ? k : 0u].vertex;
+      const bool is_next =
+          k < end && other - chunk->first >= chunk->count && !ox_is_looked_at(s, other);
+      if (!ox_flood_others(s, other, is_next)) return false;
+    }
   }
   return true;
 }
@@ -276,10 +281,15 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
 // vertex has about six neighbours.
 #define OX_AT_ONCE (OX_ITEMS == 1u ? 1u : 2u)
 static bool ox_flood_next(ox_flood_state* s, uint* next) {
+  if (ox_is_chunk_queued(s, *next)) {
+    __global const ox_chunk* chunk = s->scene->chunks + ox_chunk_of(s, ox_queued(s, *next));
+    *next += chunk->count;
+    return ox_flood_from_chunk(s, chunk);
+  }
   const uint of_each = OX_ITEMS / OX_AT_ONCE;
   const uint queued = *next + OX_ITEM / of_each;
-  const bool is_queued = queued < s->table.queued;
-  *next = min(*next + OX_AT_ONCE, s->table.queued);
+  *next = ox_is_chunk_queued(s, *next + 1u) ? *next + 1u : min(*next + OX_AT_ONCE, s->table.queued);
+  const bool is_queued = queued < *next;
   const uint vertex = is_queued ? ox_queued(s, queued) : 0u;
   const uint end = is_queued ? s->scene->ring_starts[vertex + 1u] : 0u;
   uint k = is_queued ? s->scene->ring_starts[vertex] + OX_ITEM % of_each : 0u;
@@ -288,8 +298,7 @@ static bool ox_flood_next(ox_flood_state* s, uint* next) {
     const uint other = neighbour->vertex;
     // Mostly it is looked at.
     const bool is_next = k < end && !ox_is_looked_at(s, other) && !ox_is_parted(s, neighbour->edge);
-    for (uint left = ox_group_bits(is_next); left != 0u; left &= left - 1u)
-      if (!ox_flood_vertex(s, ox_of_item(other, ox_lowest(left)), 0u)) return false;
+    if (!ox_flood_others(s, other, is_next)) return false;
   }
   return true;
 }
@@ -307,7 +316,7 @@ static bool ox_flood_from(ox_flood_state* s, uint vertex, uint* next) {
 
 static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
-    const uint side = ox_side_of_end(s, edge, end);
+    const uint side = ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, end);
     if (side != OX_END_UNPARTED) s->told = true;
     if (side == OX_END_INSIDE && !ox_flood_from(s, s->scene->edges[edge].vertex[end], next))
       return false;
@@ -351,7 +360,7 @@ static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_insi
   const uint queued = s->table.queued;
   s->refuted = false;
   bool done = ox_flood_vertex(s, vertex, OX_QUEUE_BEGINS);
-  for (uint asked = queued + 1u; done && is_near; ++asked) {
+  for (uint asked = queued; done && is_near; ++asked) {
     while (done && asked == s->table.queued && *next < asked) done = ox_flood_next(s, next);
     if (!done || asked == s->table.queued) break;
     const uint other = ox_queued(s, asked);
@@ -367,9 +376,13 @@ static bool ox_flood_if_inside(ox_flood_state* s, uint vertex, bool is_near_insi
 static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint vertex = s->scene->edges[edge].vertex[end];
-    if (ox_side_of_end(s, edge, end) != OX_END_OUTSIDE || ox_is_looked_at(s, vertex)) continue;
+    if (ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, end) != OX_END_OUTSIDE ||
+        ox_is_looked_at(s, vertex))
+      continue;
     const uint key = OX_KEY(vertex, OX_KEY_OUTSIDE);
-    if (!ox_has_key(s, key) && !ox_add_key(s, key, OX_OUTSIDE_SO_FAR)) return false;
+    if (!ox_has_key(s->scene, &s->table, key) &&
+        !ox_add_key(s->scene, &s->table, key, OX_OUTSIDE_SO_FAR))
+      return false;
     const uint word = ox_find_key(s->scene, &s->table, key);
     if (s->scene->flood_words[word + 1u] == OX_OUTSIDE_ASKED) continue;
     ox_settle();
@@ -446,6 +459,7 @@ static void ox_flood_sides(const ox_scene* scene) {
     state.pair_side = i;
     state.source = scene->meshes + pair->mesh[i & 1u];
     state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
+    state.vertex_first = scene->chunks[state.source->chunk_first].first;
     state.told = state.asks = state.refuted = state.lies = false;
     state.crossed = 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);

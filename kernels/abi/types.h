@@ -131,9 +131,10 @@ typedef struct {
   ox_u32 first, count;  // index into all of them
   ox_f32 centre[3];
   ox_f32 half_size[3];
-  ox_f32 reach;  // largest finite exit of its vertices
-  ox_f32 moved;  // the farthest one of them went in its own frame at the last deformation [m]
-  ox_u32 padding[2];
+  ox_f32 reach;      // largest finite exit of its vertices
+  ox_f32 moved;      // the farthest one of them went in its own frame at the last deformation [m]
+  ox_u32 is_joined;  // whether edges lead from each of them to each without leaving the run
+  ox_u32 padding;
 } ox_chunk;
 OX_STATIC_ASSERT(sizeof(ox_chunk) == 48, ox_chunk_is_48_bytes);
 

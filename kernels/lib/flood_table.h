@@ -8,12 +8,13 @@
 
 #include "lib/append.h"
 
-// What a key is of: the index of a vertex or an edge. They are below 2^30: as many edges are those
-// of 700 million triangles, and their meshlets one buffer of 45 GiB.
+// What a key is of: the index of a chunk, a vertex or an edge. They are below 2^30: as many edges
+// are those of 700 million triangles, and their meshlets one buffer of 45 GiB.
 //
-// Vertices 32 k to 32 k + 31, which are near one another (mesh/runs.h); value: a bit for each that
-// is looked at. One gets its ray where it is still queued in the end.
-#define OX_KEY_VERTICES 1u
+// Value: a bit for each vertex of the chunk that is looked at, and OX_CHUNK_CROSSED. A vertex gets
+// its ray where it is still queued in the end.
+#define OX_KEY_CHUNK 1u
+#define OX_CHUNK_CROSSED (1u << OX_CHUNK_VERTICES)  // an edge at one of its vertices crosses
 #define OX_KEY_OUTSIDE 2u  // outside by its nearest crossing; value: OX_OUTSIDE_... (flood.cl)
 #define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
 #define OX_KEY(index, kind) ((index) << 2 | (kind))
@@ -68,10 +69,11 @@ static inline __global uint* ox_queue(const ox_scene* scene, const ox_flood_tabl
   return scene->flood_words + table->first + 2u * table->places;
 }
 
-// Room for one key more, the table being at most half full, and for one vertex more in the queue.
-// False: there is none.
+// Room for one key more, the table being at most half full, and for the vertices of a chunk in the
+// queue. False: there is none.
 static inline bool ox_grow_table(const ox_scene* scene, ox_flood_table* table) {
-  if (2u * (table->used + 1u) <= table->places && table->queued < OX_QUEUE_ROOM * table->places)
+  if (2u * (table->used + 1u) <= table->places &&
+      table->queued + OX_CHUNK_VERTICES <= OX_QUEUE_ROOM * table->places)
     return true;
   if (table->places == 0u) {
     *table = ox_empty_table(scene, OX_LEAST_PLACES);
@@ -96,6 +98,22 @@ static inline bool ox_grow_table(const ox_scene* scene, ox_flood_table* table) {
   larger.used = table->used;
   larger.queued = table->queued;
   *table = larger;
+  return true;
+}
+
+static inline bool ox_has_key(const ox_scene* scene, const ox_flood_table* table, uint key) {
+  return table->places != 0u && scene->flood_words[ox_find_key(scene, table, key)] != 0u;
+}
+
+// Of a key that is not there. False: there is no room.
+static inline bool ox_add_key(const ox_scene* scene, ox_flood_table* table, uint key, uint value) {
+  if (!ox_grow_table(scene, table)) return false;
+  const uint word = ox_find_key(scene, table, key);
+  ox_settle();
+  scene->flood_words[word] = key;
+  scene->flood_words[word + 1u] = value;
+  ox_settle();
+  ++table->used;
   return true;
 }
 

@@ -52,6 +52,7 @@ void connect(Edges edges, const Bvh& bvh, MeshTopology& topology) {
   topology.flat_edges = std::move(edges.flat);
   topology.sides = std::move(edges.sides);
 }
+  find_joined(topology.edges, topology.flat_edges, topology.chunks);
 
 // What was appended to keeps no room for more.
 void trim(Mesh& mesh, MeshTopology& topology) {

@@ -22,6 +22,8 @@ struct VertexChunk {
   std::uint32_t first;
   std::uint32_t count;
   Box box;
+  // Whether its edges alone, without vertices of other chunks, lead from each of them to each.
+  bool joined = false;
 };
 
 inline constexpr std::uint32_t kChunkVertices = kRunLength;

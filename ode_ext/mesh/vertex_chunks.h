@@ -4,11 +4,16 @@
 
 #include <vector>
 
+#include "mesh/edges.h"
 #include "mesh/mesh.h"
 
 namespace ode_ext {
 
 // Runs of kChunkVertices, the last one shorter, each with its tight box.
 std::vector<VertexChunk> cut_into_chunks(const std::vector<Vec3f>& vertices);
+
+// Finds which of all chunks of a mesh are joined by its edges.
+void find_joined(const std::vector<Edge>& edges, const std::vector<Edge>& flat_edges,
+                 std::vector<VertexChunk>& chunks);
 
 }  // namespace ode_ext

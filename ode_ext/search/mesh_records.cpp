@@ -46,6 +46,7 @@ ox_chunk to_record(const Mesh& mesh, const VertexChunk& chunk, std::uint32_t ver
   ox_chunk record{};
   record.first = vertex_first + chunk.first;
   record.count = chunk.count;
+  record.is_joined = chunk.joined ? 1 : 0;
   if (mesh.deformable) return record;
   store_box(chunk.box, record);
   for (std::uint32_t v = chunk.first; v < chunk.first + chunk.count; ++v)

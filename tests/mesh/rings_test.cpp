@@ -75,6 +75,28 @@ TEST(Rings, JoinByEdgesOfTrianglesAllThatTheseJoin) {
   }
 }
 
+TEST(Chunks, AreJoinedWhereEdgesWithinThemLeadFromEachVertexToEach) {
+  std::vector<test::TestMesh> meshes = test::small_meshes();
+  meshes.push_back(test::make_icosphere(1, 4));
+  meshes.push_back(test::make_plate(1, 0.01, 9));
+  std::size_t joined = 0, apart = 0;
+  for (const test::TestMesh& made : meshes) {
+    const Mesh mesh = build_mesh(soup_of(made));
+    Joints within;
+    for (const auto& [a, b] : joints_of(mesh))
+      if (a / kChunkVertices == b / kChunkVertices) within.emplace(a, b);
+    const auto parts = parts_of(within, mesh.vertices.size());
+    for (const VertexChunk& chunk : mesh.topology->chunks) {
+      const auto first = parts.begin() + chunk.first;
+      EXPECT_EQ(chunk.joined, std::all_of(first, first + chunk.count,
+                                          [&](std::uint32_t part) { return part == chunk.first; }));
+      ++(chunk.joined ? joined : apart);
+    }
+  }
+  EXPECT_GT(joined, 0u);
+  EXPECT_GT(apart, 0u);
+}
+
 TEST(Rings, NameTheEdgeToEachNeighbour) {
   const Mesh mesh = build_mesh(soup_of(test::make_cube(1, 3)));
   ASSERT_FALSE(mesh.topology->flat_edges.empty());

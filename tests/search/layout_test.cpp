@@ -65,6 +65,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_chunk, half_size),
     OFFSET_OF(ox_chunk, reach),
     OFFSET_OF(ox_chunk, moved),
+    OFFSET_OF(ox_chunk, is_joined),
     SIZE_OF(ox_edge),
     OFFSET_OF(ox_edge, vertex),
     OFFSET_OF(ox_edge, triangle),
