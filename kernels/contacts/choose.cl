@@ -79,15 +79,37 @@ static bool ox_is_needed(const ox_region_view* r, const ox_joint_choice* planes,
          ox_taken_back(before, planes->plane[i].normal, planes->depth[i]) <= allowed;
 }
 
+// Where a plane is chosen again, what it was chosen for before was not the deepest below it: units
+// were deeper below what they propose themselves, as the upper side of a thin part in a thick floor
+// is. So it is chosen for the deepest for which it is less; whether for another unit than *unit.
+static bool ox_goes_on_to_deepest(const ox_region_view* r, uint waiting, const ox_moves* before,
+                                  uint* unit, ox_plane_choice* choice, ox_joint_choice* together) {
+  bool again = false;
+  for (uint i = 0u; i < before->count; ++i)
+    again = again || ox_is_same_plane(before->chosen + i, &choice->plane);
+  if (!again) return false;
+  const uint deepest = ox_find_deepest(r, waiting, &choice->plane);
+  if (deepest == OX_NONE || deepest == *unit) return false;
+  ox_joint_choice all;
+  const ox_plane_choice other = ox_choose_for(r, deepest, before, &all);
+  if (!ox_is_same_plane(&other.plane, &choice->plane)) return false;
+  *unit = deepest;
+  *choice = other;
+  *together = all;
+  return true;
+}
+
 // Moves past the planes that are chosen for a unit. *more: candidates so far beyond one for each
 // feature, for which there is room (OX_CANDIDATES_PER_FEATURE).
 static void ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
-  const uint flags = ox_flags_of(r, unit);
-  const uint side = ox_side_of(flags);
   ox_joint_choice together;
   ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
   if (choice.plane.kind == OX_PLANE_NONE) return;
+  if (ox_goes_on_to_deepest(r, waiting, moves, &unit, &choice, &together) && ox_is_first_item())
+    ox_mark_cleared(r, unit);
+  const uint flags = ox_flags_of(r, unit);
+  const uint side = ox_side_of(flags);
   if ((ox_target_of(r, 1u - side)->flags & OX_MESH_DEFORMABLE) != 0u) {
     const ox_plane_choice own = ox_choose_own_face(r, unit, moves, &choice);
     if (ox_is_taken_along(r, unit, moves, ox_min(own.depth, choice.depth))) return;

@@ -23,20 +23,6 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
   return by;
 }
 
-// The units of a block that wait.
-typedef struct {
-  ox_floats position[3], end[3];
-  ox_ints is_b;
-} ox_unit_block;
-
-static inline void ox_load_units(const ox_region_view* r, uint block, ox_unit_block* units) {
-  for (uint axis = 0u; axis < 3u; ++axis) {
-    units->position[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_POSITION + axis, block);
-    units->end[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_END + axis, block);
-  }
-  units->is_b = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
-}
-
 // Adds those that a plane clears by a move so far along it.
 static inline void ox_add_cleared_by(const ox_unit_block* units, const ox_plane* plane, float along,
                                      float past, ox_ints* cleared) {

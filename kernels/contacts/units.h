@@ -153,20 +153,63 @@ static inline uint ox_bring_first(const ox_region_view* r, uint count, uint mask
   return kept;
 }
 
-// Of the waiting units the deepest below what it has proposed so far; there is one. Of several that
-// are as deep, to within the clearance, the first: it is not for rounding to say which that is.
-static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
+// The units of a block that wait.
+typedef struct {
+  ox_floats position[3], end[3];
+  ox_ints is_b;
+} ox_unit_block;
+
+static inline void ox_load_units(const ox_region_view* r, uint block, ox_unit_block* units) {
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    units->position[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_POSITION + axis, block);
+    units->end[axis] = OX_LOAD_FLOATS(&r->members, OX_MEMBER_END + axis, block);
+  }
+  units->is_b = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
+}
+
+// Of a block of waiting units how deep each is below a plane, where that clears it and it proposes
+// none that is less deep, else -INFINITY; of no plane how deep below what it has proposed so far.
+static inline void ox_find_depths(const ox_region_view* r, uint block, const ox_plane* plane,
+                                  ox_floats* depths) {
+  const ox_floats least = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
+  *depths = plane == 0 ? least : (ox_floats)(-INFINITY);
+  if (plane == 0) return;
+  const float above = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const float3 n = plane->normal;
+  ox_unit_block units;
+  ox_load_units(r, block, &units);
+  const ox_floats one = units.position[0] * n.x + units.position[1] * n.y + units.position[2] * n.z;
+  const ox_floats other = units.end[0] * n.x + units.end[1] * n.y + units.end[2] * n.z;
+  for (uint side = 0u; side < 2u; ++side) {
+    if (!ox_clears_side(plane, side)) continue;
+    const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
+    const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
+    const ox_floats depth = OX_GREATER(a, b);
+    const ox_ints is_less =
+        (a + b >= above + above) & (depth < least) & (side == 0u ? ~units.is_b : units.is_b);
+    *depths = is_less != 0 ? depth : *depths;
+  }
+}
+
+// Of the waiting units the deepest, by ox_find_depths; OX_NONE: there is none. Of several that are
+// as deep, to within the clearance, the first: it is not for rounding to say which that is.
+static inline uint ox_find_deepest(const ox_region_view* r, uint waiting, const ox_plane* plane) {
   const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats most = (ox_floats)(-INFINITY);
   for (uint block = 0u; block < blocks; ++block) {
-    const ox_floats least = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
+    ox_floats depths;
+    ox_find_depths(r, block, plane, &depths);
     const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-    most = left > 0 && least > most ? least : most;
+    most = left > 0 && depths > most ? depths : most;
   }
-  const float deepest = ox_greatest_of(&most) - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const float greatest = ox_greatest_of(&most);
+  if (greatest == -INFINITY) return OX_NONE;
+  const float deepest = greatest - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   uint best = OX_NONE;
   for (uint block = 0u; block < blocks; ++block) {
-    const ox_ints is_deepest = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block) >= deepest;
+    ox_floats depths;
+    ox_find_depths(r, block, plane, &depths);
+    const ox_ints is_deepest = depths >= deepest;
     uint lanes = ox_mask_of(&is_deepest) & ox_present_lanes(waiting, block);
     for (; lanes != 0u; lanes &= lanes - 1u) {
       const uint k = OX_VECTOR_WIDTH * block + ox_lowest(lanes);
@@ -179,10 +222,10 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting) {
 // The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper,
 // but for the tie, so only those need it that are the deepest without.
 static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
-  uint k = ox_find_deepest(r, waiting);
+  uint k = ox_find_deepest(r, waiting, 0);
   while ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) == 0u) {
     ox_propose_nearest(r, k);
-    k = ox_find_deepest(r, waiting);
+    k = ox_find_deepest(r, waiting, 0);
   }
   return k;
 }

@@ -2,9 +2,14 @@
 // Bodies that are thinner than the distance within which contacts are merged.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "contacts/placed.h"
+#include "support/extruded.h"
 #include "support/rig.h"
 
 namespace ode_ext::test {
@@ -40,6 +45,43 @@ TEST(Thin, RailsHoldWhatLiesOnThemAtAllFourCorners) {
   const Placed placed{make_cube(1), make_box({4, 0.01, 1}), at(0, 0, 0.5 - 1e-4), at(0, 0, -0.5)};
   for (const TestPose& frame : some_frames())
     EXPECT_EQ(at_corners(placed.contacts(frame)), (std::array<int, 4>{1, 1, 1, 1}));
+}
+
+// Of a part that is below the floor by more than it is thick the upper side proposed to leave by
+// the lower side of the floor. So it was taken out vertex by vertex, the least deep first, and
+// after sixteen of these the others had no contacts: 0.0055 m of 0.025.
+TEST(Thin, PartsThatAreDeeperThanThickHaveContactsAsDeepAsTheyAre) {
+  Profile teeth;
+  for (int i = 0; i < 96; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 96, radius = (i & 2) != 0 ? 0.5 : 0.42;
+    teeth.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  struct Part {
+    const char* name;
+    TestMesh mesh;
+    double thickness;
+  };
+  Random random(1);
+  for (const Part& part : {Part{"washer", hub(polygon(48, 0.25), 0.5, 0.01), 0.01},
+                           {"thick washer", hub(polygon(48, 0.25), 0.5, 0.08), 0.08},
+                           {"plate with a hole", hub(polygon(64, 0.3), 0.6, 0.02), 0.02},
+                           {"gear", extruded(teeth, 0.04), 0.04}})
+    for (const double deep : {1.0, 1.5, 2.0})
+      for (int i = 0; i < 10; ++i) {
+        const double around = random.uniform(0, 2 * std::numbers::pi);
+        const TestPose tilted =
+            turned({std::cos(around), std::sin(around), 0}, random.uniform(0.05, 0.2));
+        double lowest = 0;
+        const std::vector<float>& v = part.mesh.vertices;
+        for (std::size_t k = 0; k < v.size(); k += 3)
+          lowest = std::min(lowest, rotate(tilted, {v[k], v[k + 1], v[k + 2]})[2]);
+        TestPose pose = tilted;
+        pose.position[2] = -lowest - deep * part.thickness;
+        const Placed placed{part.mesh, make_box({20, 20, 2}), pose, at(0, 0, -1)};
+        const std::vector<Contact> found = placed.contacts(TestPose{});
+        EXPECT_NEAR(deepest(found), deep * part.thickness, 1e-4) << part.name << ", pose " << i;
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.99) << part.name << ", pose " << i;
+      }
 }
 
 }  // namespace
