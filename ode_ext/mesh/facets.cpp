@@ -48,6 +48,35 @@ std::vector<Seed> seeds(const std::vector<Vec3f>& vertices,
   return result;
 }
 
+// Of the longest side of a triangle, how far off a corner may be: a coordinate is rounded by 2^-24
+// of itself at most, so the three of them by less than two of these, and by as much again by the
+// program that gave them. Coordinates are taken to be as large as that side: where a mesh was
+// modelled, and what else is in it, is to decide nothing.
+constexpr double kRounding = 0x1p-22;
+
+// The plane of a triangle, and how far from it a point of it may be.
+class Plane {
+ public:
+  Plane(const std::vector<Vec3f>& vertices, const Triangle& triangle, Vec3f normal)
+      : at_(vertices[triangle[0]]), normal_(normal) {
+    const Vec3d to_b = Vec3d(vertices[triangle[1]]) - at_,
+                to_c = Vec3d(vertices[triangle[2]]) - at_;
+    const double longest = std::max({length(to_b), length(to_c), length(to_c - to_b)});
+    const double height = length(cross(to_b, to_c)) / longest;
+    rounding_ = kRounding * longest;
+    turned_ = std::min(rounding_ / height, kFlat);
+  }
+  bool holds(const Vec3d& point) const {
+    const Vec3d way = point - at_;
+    return std::abs(dot(normal_, way)) <= rounding_ + turned_ * length(way);
+  }
+
+ private:
+  Vec3d at_, normal_;
+  double rounding_;  // [m]
+  double turned_;    // [rad]
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
@@ -61,13 +90,20 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
     facet[seed.triangle] = seed.triangle;
     const Vec3f normal = face_normals[seed.triangle];
     if (normal == Vec3f{}) continue;
+    const Plane plane(vertices, triangles[seed.triangle], normal);
+    const auto belongs = [&](std::uint32_t t) {
+      return length(Vec3d(face_normals[t]) - Vec3d(normal)) < kFlat ||
+             (dot(Vec3d(face_normals[t]), Vec3d(normal)) > 0 &&
+              std::all_of(triangles[t].begin(), triangles[t].end(),
+                          [&](std::uint32_t v) { return plane.holds(Vec3d(vertices[v])); }));
+    };
     open.assign(1, seed.triangle);
     while (!open.empty()) {
       const std::uint32_t triangle = open.back();
       open.pop_back();
       for (const std::uint32_t next : neighbours[triangle]) {
         if (next == kNone || facet[next] != kNone || face_normals[next] == Vec3f{}) continue;
-        if (!(length(Vec3d(face_normals[next]) - Vec3d(normal)) < kFlat)) continue;
+        if (!belongs(next)) continue;
         facet[next] = seed.triangle;
         open.push_back(next);
       }

@@ -33,11 +33,6 @@ std::vector<bool> marked(const std::vector<Wall>& walls, std::size_t triangle_co
   return is_wall;
 }
 
-// Both begin with their lowest corner.
-bool have_same_corners(const Triangle& a, const Triangle& b) {
-  return a[0] == b[0] && std::minmax(a[1], a[2]) == std::minmax(b[1], b[2]);
-}
-
 // Two, and no more, that have the same corners.
 void add_triangle_walls(const std::vector<Triangle>& triangles, std::vector<Wall>& walls) {
   for (std::uint32_t first = 0, last = 0; first < triangles.size(); first = last) {
@@ -101,14 +96,6 @@ void add_quad_walls(const std::vector<Vec3f>& vertices, const std::vector<Triang
   }
 }
 
-template <typename T>
-void erase_marked(const std::vector<bool>& is_marked, std::vector<T>& values) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (!is_marked[i]) values[kept++] = values[i];
-  values.resize(kept);
-}
-
 // The solid that closed triangles bound, asked from its inside or outside: by what three rays meet
 // first, since one may graze an edge.
 class Solid {
@@ -145,23 +132,6 @@ Vec3d middle_of(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
   return (1.0 / 3) * sum;
 }
 
-void leave_out_unused_vertices(WeldedMesh& mesh) {
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
-  for (const Triangle& triangle : mesh.triangles)
-    for (const std::uint32_t corner : triangle) number[corner] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kNone) continue;
-    number[v] = kept;
-    mesh.vertices[kept++] = mesh.vertices[v];
-  }
-  mesh.vertices.resize(kept);
-  for (Triangle& triangle : mesh.triangles)
-    for (std::uint32_t& corner : triangle) corner = number[corner];
-  for (std::uint32_t& corner : mesh.corner_vertex)
-    if (corner != kNone) corner = number[corner];
-}
-
 }  // namespace
 
 bool leave_out_inner_walls(WeldedMesh& mesh, const std::vector<HalfEdge>& half_edges) {
@@ -170,18 +140,17 @@ bool leave_out_inner_walls(WeldedMesh& mesh, const std::vector<HalfEdge>& half_e
   add_triangle_walls(mesh.triangles, walls);
   add_quad_walls(mesh.vertices, mesh.triangles, half_edges, walls);
   if (walls.empty()) return false;
-  std::vector<Triangle> others = mesh.triangles;
-  erase_marked(marked(walls, others.size()), others);
+  std::vector<Triangle> others;
+  const std::vector<bool> may_be_wall = marked(walls, mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (!may_be_wall[i]) others.push_back(mesh.triangles[i]);
   if (others.empty() || !is_boundary(half_edges_of(others))) return false;
   const Solid solid(mesh.vertices, std::move(others));
   std::erase_if(walls, [&](const Wall& wall) {
     return !solid.holds(middle_of(mesh.vertices, mesh.triangles[wall[0]]));
   });
   if (walls.empty()) return false;
-  const std::vector<bool> is_wall = marked(walls, mesh.triangles.size());
-  erase_marked(is_wall, mesh.triangles);
-  erase_marked(is_wall, mesh.source_triangle);
-  leave_out_unused_vertices(mesh);
+  leave_out(marked(walls, mesh.triangles.size()), mesh);
   return true;
 }
 

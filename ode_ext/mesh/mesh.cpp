@@ -11,6 +11,7 @@
 #include "mesh/edge_pairs.h"
 #include "mesh/exit_distance.h"
 #include "mesh/facets.h"
+#include "mesh/folded.h"
 #include "mesh/half_edges.h"
 #include "mesh/inner_walls.h"
 #include "mesh/measures.h"
@@ -51,8 +52,8 @@ void connect(Edges edges, const Bvh& bvh, MeshTopology& topology) {
   topology.edges = std::move(edges.apart);
   topology.flat_edges = std::move(edges.flat);
   topology.sides = std::move(edges.sides);
-}
   find_joined(topology.edges, topology.flat_edges, topology.chunks);
+}
 
 // What was appended to keeps no room for more.
 void trim(Mesh& mesh, MeshTopology& topology) {
@@ -82,7 +83,10 @@ Mesh build_mesh(SourceTriangles given, const MeshOptions& options) {
   // No number may depend on the shape that a deformable mesh happened to be met in first, or equal
   // contacts would be told apart by its past; nor on how the program lists a rigid one.
   WeldedMesh welded = weld(source, mesh.deformable ? VertexOrder::kListing : VertexOrder::kRuns);
-  if (!mesh.deformable) order_by_vertices(welded);
+  if (!mesh.deformable) {
+    order_by_vertices(welded);
+    leave_out_folded(welded);
+  }
   std::vector<HalfEdge> half_edges = half_edges_of(welded.triangles);
   if (!mesh.deformable && leave_out_inner_walls(welded, half_edges))
     half_edges = half_edges_of(welded.triangles);

@@ -88,6 +88,31 @@ bool is_listed_first(const Listed& a, const Listed& b) {
          std::tuple(others(b.rotated), b.rotated, b.source);
 }
 
+template <typename T>
+void erase_marked(const std::vector<bool>& is_marked, std::vector<T>& values) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!is_marked[i]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+void leave_out_unused_vertices(WeldedMesh& mesh) {
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
+  for (const Triangle& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) number[corner] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    number[v] = kept;
+    mesh.vertices[kept++] = mesh.vertices[v];
+  }
+  mesh.vertices.resize(kept);
+  for (Triangle& triangle : mesh.triangles)
+    for (std::uint32_t& corner : triangle) corner = number[corner];
+  for (std::uint32_t& corner : mesh.corner_vertex)
+    if (corner != kNone) corner = number[corner];
+}
+
 }  // namespace
 
 WeldedMesh weld(const SourceTriangles& source, VertexOrder order) {
@@ -142,6 +167,16 @@ void order_by_vertices(WeldedMesh& mesh) {
     mesh.triangles[i] = listed[i].rotated;
     mesh.source_triangle[i] = listed[i].source;
   }
+}
+
+bool have_same_corners(const Triangle& a, const Triangle& b) {
+  return a[0] == b[0] && std::minmax(a[1], a[2]) == std::minmax(b[1], b[2]);
+}
+
+void leave_out(const std::vector<bool>& is_left_out, WeldedMesh& mesh) {
+  erase_marked(is_left_out, mesh.triangles);
+  erase_marked(is_left_out, mesh.source_triangle);
+  leave_out_unused_vertices(mesh);
 }
 
 }  // namespace ode_ext

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -169,6 +171,35 @@ TEST(Facets, OfTrianglesOfNoAreaAreTheirOwn) {
 }
 
 TEST(Facets, OfNothingAreNone) { EXPECT_TRUE(facets({}, {}, {}, {}).empty()); }
+
+// A disc with a needle at each of its chords: rounding turns these by degrees.
+TEST(Facets, AreNotBrokenByNeedlesThatRoundingTurns) {
+  const int sides = 48;
+  const Vec3f middle{};
+  const auto at = [&](double radius, double side) {
+    const double angle = 2 * std::numbers::pi * side / sides;
+    const double x = radius * std::cos(angle), y = radius * std::sin(angle);
+    // Turned out of the planes of coordinates, which round nothing.
+    return Vec3f(Vec3d{x, 0.8 * y, 0.6 * y});
+  };
+  for (const double thin : {1e-4, 1e-5, 1e-6}) {
+    const double inner = 0.5 * (1 - thin) * std::cos(std::numbers::pi / sides);
+    TriangleSoup soup;
+    for (int i = 0; i < sides; ++i) {
+      const Vec3f a = at(0.5, i), b = at(0.5, i + 1), in = at(inner, i + 0.5);
+      shapes::append(soup, middle, a, in);
+      shapes::append(soup, middle, in, b);
+      shapes::append(soup, a, b, in);
+    }
+    EXPECT_EQ(sizes_of(soup), (std::multiset<std::size_t>{3u * sides})) << thin;
+  }
+}
+
+// A plate as thin as rounding has two sides all the same.
+TEST(Facets, FaceOneWay) {
+  const TriangleSoup soup = shapes::box({1000, 0, 0}, {1000.000122f, 1, 1});
+  EXPECT_GE(sizes_of(soup).size(), 2u);
+}
 
 }  // namespace
 }  // namespace ode_ext

@@ -241,8 +241,26 @@ void ContactMesh::find_edges() {
   }
 }
 
+// Whether rounding may have turned a triangle out of the plane of another.
+bool ContactMesh::lies_in(std::size_t triangle, std::size_t seed) const {
+  if (!(dot(normals[triangle], normals[seed]) > 0)) return false;
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, distance(corner(seed, k), corner(seed, (k + 1) % 3)));
+  const double rounding = 0x1p-22 * longest;
+  const double area =
+      length(cross(corner(seed, 1) - corner(seed, 0), corner(seed, 2) - corner(seed, 0)));
+  const double turned = std::min(rounding * longest / area, kFacetAngle);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point way = corner(triangle, k) - corner(seed, 0);
+    if (!(std::fabs(dot(normals[seed], way)) <= rounding + turned * length(way))) return false;
+  }
+  return true;
+}
+
 // Largest first, ties by place: each takes the connected triangles that turn away from it by less
-// than kFacetAngle. Compared with the first and not with the next, or a fine sphere would be flat.
+// than kFacetAngle, or face as it does and lie in its plane as far as is known. Compared with the
+// first and not with the next, or a fine sphere would be flat.
 void ContactMesh::find_facets() {
   std::vector<std::size_t> order(triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -265,7 +283,8 @@ void ContactMesh::find_facets() {
         for (const std::size_t next : edges[side].triangles) {
           if (next == kNowhere || facet_of[next] != kNowhere || length(normals[next]) == 0)
             continue;
-          if (!(distance(normals[next], normals[seed]) < kFacetAngle)) continue;
+          if (!(distance(normals[next], normals[seed]) < kFacetAngle) && !lies_in(next, seed))
+            continue;
           facet_of[next] = facet_of[seed];
           open.push_back(next);
         }

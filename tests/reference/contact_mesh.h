@@ -74,6 +74,7 @@ struct ContactMesh {
   void find_facets();
   void describe_facets();
   void describe_vertices();
+  bool lies_in(std::size_t triangle, std::size_t seed) const;
 };
 
 }  // namespace ode_ext::test
