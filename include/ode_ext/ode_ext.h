@@ -178,9 +178,13 @@ enum {
  * Of which feature of each mesh a contact is. A contact at a vertex is of the vertex and a facet,
  * one where an edge crosses a facet of the edge and the facet, one between two edges of both edges.
  * While the same features touch it has the same id, wherever the geoms go; no two contacts of a
- * pair have one id. Numbers are given within each mesh when the collider first meets it, and stay
- * until the mesh changes (a deformable mesh: until its triangles do, or vertices of it meet or
- * part). They depend on that mesh alone: not on other meshes, on threads, or on the process.
+ * pair have one id. Which features touch may change though little moves: of two faces that lie on
+ * one another the plane of either may be taken, so that all contacts of theirs get other ids, and a
+ * corner that hardly touches may be an edge's. A program that starts from the forces of the step
+ * before takes those of the nearest contact where an id is new. Numbers are given within each mesh
+ * when the collider first meets it, and stay until the mesh changes (a deformable mesh: until its
+ * triangles do, or vertices of it meet or part). They depend on that mesh alone: not on other
+ * meshes, on threads, or on the process.
  */
 typedef struct dBatchContactId {
   unsigned feature1; /**< of the mesh of g1: exchanged arguments exchange the two */

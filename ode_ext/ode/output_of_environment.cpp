@@ -34,6 +34,12 @@ bool take(int descriptor) {
   return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
+bool do_trace_and_capture_name_one() {
+  const char* trace = std::getenv("ODE_EXT_TRACE");
+  const char* capture = std::getenv("ODE_EXT_CAPTURE");
+  return trace != nullptr && capture != nullptr && std::strcmp(trace, capture) == 0;
+}
+
 }  // namespace
 
 std::FILE* open_output_of_environment(const char* variable) {
@@ -43,6 +49,8 @@ std::FILE* open_output_of_environment(const char* variable) {
   int descriptor = open_to_write(path, variable);
   if (!take(descriptor)) {
     close(descriptor);
+    if (do_trace_and_capture_name_one())
+      throw std::runtime_error("ODE_EXT_TRACE and ODE_EXT_CAPTURE both name '" + path + "'");
     path += '.' + std::to_string(getpid());
     descriptor = open_to_write(path, variable);
     take(descriptor);

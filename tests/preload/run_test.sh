@@ -48,6 +48,7 @@ expect 2 "--config 'rays=none': dBatchConfigCheck: config: rays is 'none', expec
   --config rays=none true
 expect 2 "--capture '/missing/f': No such file or directory" --capture /missing/f true
 expect 2 "--trace '/': Is a directory" --trace / true
+expect 2 "--capture '': expected a file" --capture "" true
 expect 0 "" --max-contacts 64 --log off --config workload=exact --trace "$results/t" true
 [[ ! -e $results/t ]] || fail "--trace is written by a program without meshes"
 expect 127 "not found" nosuchprogram

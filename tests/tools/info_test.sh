@@ -22,6 +22,13 @@ none=$(ODE_EXT_DEVICE=nosuch "$info") || code=$?
 [[ $code -eq 3 ]] || fail "exit code $code without a device"
 [[ $(grep -c 'matches "nosuch"' <<< "$none") -eq 1 ]] || fail "says not once what matches nothing"
 
+for argument in "" --settings; do
+  code=0
+  said=$("$info" $argument 2>&1 > /dev/full) || code=$?
+  [[ $code -eq 2 && $said == *"the list could not be written"* ]] ||
+    fail "a list that is lost ($argument): exit $code, $said"
+done
+
 kept=$(mktemp)
 trap 'rm -f "$kept"' EXIT
 echo "of another program" > "$kept"

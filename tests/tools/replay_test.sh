@@ -104,6 +104,10 @@ refused 2 "is damaged: record 1" "$work/other"
 refused 2 "is not a capture" "$0"
 refused 2 "cannot read" "$work/nowhere"
 refused 2 "cannot read" "$work"
+code=0
+said=$("$replay" "$work/rigid.capture" 2>&1 > /dev/full) || code=$?
+[[ $code -eq 2 && $said == *"the report could not be written"* ]] ||
+  fail "a report that is lost: exit $code, $said"
 refused 3 "no OpenCL device matches" --device nowhere "$work/rigid.capture"
 
 said=$(ODE_EXT_CAPTURE=$work/no/where "$falling_objects" --objects 2 --steps 1 --quiet 2>&1) &&
@@ -112,6 +116,9 @@ said=$(ODE_EXT_CAPTURE=$work/no/where "$falling_objects" --objects 2 --steps 1 -
 said=$(ODE_EXT_CAPTURE=/dev/full "$falling_objects" --objects 4 --steps 9 --quiet 2>&1) ||
   fail "a full disk ends the program: $said"
 [[ $said == *"cannot be written any more: No space left"* ]] || fail "a full disk: $said"
+said=$(ODE_EXT_CAPTURE=$work/both ODE_EXT_TRACE=$work/both "$falling_objects" --objects 2 \
+  --steps 1 --quiet 2>&1) && fail "one file for capture and trace is no error"
+[[ $said == *"ODE_EXT_TRACE and ODE_EXT_CAPTURE both name '$work/both'"* ]] || fail "$said"
 
 # Programs that run at one time, as of one script, whose files have one name.
 said=$(flock "$work/shared" env ODE_EXT_CAPTURE="$work/shared" "$falling_objects" \

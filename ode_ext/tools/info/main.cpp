@@ -22,6 +22,13 @@ std::string describe_devices(const char* selection) {
   return text;
 }
 
+// `code`, or where what was printed is lost another.
+int ended(int code) {
+  if (std::cout.flush()) return code;
+  std::cerr << "ode_ext-info: the list could not be written\n";
+  return kExitUsage;
+}
+
 // The settings of dBatchColliderParams::config.
 void list_settings() {
   for (int i = 0; dBatchConfigName(i) != nullptr; ++i) {
@@ -57,7 +64,8 @@ int main(int argc, char** argv) {
   app.footer(
       "Without --device the environment variable ODE_EXT_DEVICE counts; without that a GPU is\n"
       "preferred to an accelerator and that to a CPU.\n"
-      "Exit codes: 0 a collider works, 2 wrong usage, 3 no device.");
+      "Exit codes: 0 a collider works, 2 wrong usage or a list that could not be written,\n"
+      "3 no device.");
   std::string device;
   app.add_option("--device", device, "As ODE_EXT_DEVICE: platform:type:name, or an index");
   bool settings = false;
@@ -71,7 +79,7 @@ int main(int argc, char** argv) {
   }
   if (settings) {
     list_settings();
-    return kExitOk;
+    return ended(kExitOk);
   }
   const char* selection = app.count("--device") > 0 ? device.c_str() : nullptr;
   dInitODE2(0);
@@ -82,5 +90,5 @@ int main(int argc, char** argv) {
   const int exit_code =
       dBatchDeviceChoose(selection) < 0 ? kExitNoDevice : try_to_create(selection);
   dCloseODE();
-  return exit_code;
+  return ended(exit_code);
 }

@@ -154,11 +154,14 @@ int replay(const Options& options) {
     Replay replay(options);
     replay.run();
     exit_code = report(options, replay.totals());
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("the report could not be written");
   } catch (const DeviceError& error) {
     std::fprintf(stderr, "ode_ext-replay: %s\n", error.what());
     exit_code = kExitNoDevice;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ode_ext-replay: %s\n", error.what());
+    exit_code = kExitUsage;
   }
   dCloseODE();
   return exit_code;
@@ -177,8 +180,8 @@ int main(int argc, char** argv) {
       "The time is that of the calls that collide; meshes are made in the first that meets them.\n"
       "Settings whose contacts depend on passes before are not replayed to the byte:\n"
       "rays=iterative-paper, misprediction=ignore, misprediction=backtrack.\n"
-      "Exit codes: 0 the same, 1 different, 2 wrong usage, no capture or nothing to compare,\n"
-      "3 no device.");
+      "Exit codes: 0 the same, 1 different, 2 wrong usage, no capture, nothing to compare or a\n"
+      "report that could not be written, 3 no device.");
   Options options;
   app.add_option("file", options.file, "The capture (required)");
   const auto* device = app.add_option("--device", options.device,

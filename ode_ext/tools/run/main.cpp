@@ -121,7 +121,7 @@ void check_option(const std::string& option, const std::string& value) {
              value != "info") {
     fault = "expected off, error, warning or info";
   } else if (option == "trace" || option == "capture") {
-    fault = why_not_written(value);
+    fault = value.empty() ? "expected a file" : why_not_written(value);
   } else if (option == "config") {
     fault = fault_of_config(value, preload_library());
   }
