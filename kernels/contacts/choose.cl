@@ -81,56 +81,57 @@ static bool ox_is_needed(const ox_region_view* r, const ox_joint_choice* planes,
 
 // Where a plane is chosen again, what it was chosen for before was not the deepest below it: units
 // were deeper below what they propose themselves, as the upper side of a thin part in a thick floor
-// is. So it is chosen for the deepest for which it is less; whether for another unit than *unit.
-static bool ox_goes_on_to_deepest(const ox_region_view* r, uint waiting, const ox_moves* before,
-                                  uint* unit, ox_plane_choice* choice, ox_joint_choice* together) {
+// is. So it is chosen for the deepest that propose none less, if that goes farther.
+static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_moves* before,
+                                uint* unit, ox_plane_choice* choice, ox_joint_choice* together) {
   bool again = false;
   for (uint i = 0u; i < before->count; ++i)
     again = again || ox_is_same_plane(before->chosen + i, &choice->plane);
-  if (!again) return false;
+  if (!again) return;
   const uint deepest = ox_find_deepest(r, waiting, &choice->plane);
-  if (deepest == OX_NONE || deepest == *unit) return false;
+  if (deepest == OX_NONE || deepest == *unit) return;
   ox_joint_choice all;
   const ox_plane_choice other = ox_choose_for(r, deepest, before, &all);
-  if (!ox_is_same_plane(&other.plane, &choice->plane)) return false;
+  if (!ox_is_same_plane(&other.plane, &choice->plane) || !(other.depth > choice->depth)) return;
   *unit = deepest;
   *choice = other;
   *together = all;
-  return true;
 }
 
-// Moves past the planes that are chosen for a unit. *more: candidates so far beyond one for each
-// feature, for which there is room (OX_CANDIDATES_PER_FEATURE).
-static void ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
+// Moves past the planes that are chosen for a unit, or for one that is deeper below the first of
+// them; returns which. *more: candidates so far beyond one for each feature, for which there is
+// room (OX_CANDIDATES_PER_FEATURE).
+static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
   ox_joint_choice together;
   ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
-  if (choice.plane.kind == OX_PLANE_NONE) return;
-  if (ox_goes_on_to_deepest(r, waiting, moves, &unit, &choice, &together) && ox_is_first_item())
-    ox_mark_cleared(r, unit);
+  if (choice.plane.kind == OX_PLANE_NONE) return unit;
+  ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
   const uint side = ox_side_of(flags);
   if ((ox_target_of(r, 1u - side)->flags & OX_MESH_DEFORMABLE) != 0u) {
     const ox_plane_choice own = ox_choose_own_face(r, unit, moves, &choice);
-    if (ox_is_taken_along(r, unit, moves, ox_min(own.depth, choice.depth))) return;
+    if (ox_is_taken_along(r, unit, moves, ox_min(own.depth, choice.depth))) return unit;
     const uint deepest = ox_deepest_below(r, &own);
     if (deepest < waiting) {
       ox_move_past(m, &own, deepest, waiting, moves);
       if (ox_is_first_item()) ox_mark_cleared(r, deepest);
     }
     // Else it has been cleared.
-    if (deepest < waiting || (deepest != OX_NONE && ox_has_moved(moves, own.plane.normal))) return;
+    if (deepest < waiting || (deepest != OX_NONE && ox_has_moved(moves, own.plane.normal)))
+      return unit;
   }
   ox_move_past(m, &choice, unit, waiting, moves);
   const uint ends = ox_is_vertex(flags) ? 1u : 2u;
   for (uint i = 1u; i < together.count && moves->count < OX_MOST_PLANES; ++i) {
     if (!ox_is_needed(r, &together, i, moves)) continue;
-    if (*more + ends > r->count) return;
+    if (*more + ends > r->count) return unit;
     *more += ends;
     choice.plane = together.plane[i];
     choice.depth = together.depth[i];
     ox_move_past(m, &choice, unit, waiting, moves);
   }
+  return unit;
 }
 
 // Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
@@ -141,9 +142,8 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   uint more = 0u;
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
-    const uint seed = ox_deepest_unit(r, waiting);
-    ox_take_out(m, seed, waiting, &moves, &more);
-    if (ox_is_first_item()) ox_mark_cleared(r, seed);
+    const uint taken = ox_take_out(m, ox_deepest_unit(r, waiting), waiting, &moves, &more);
+    if (ox_is_first_item()) ox_mark_cleared(r, taken);
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);
   }

@@ -168,7 +168,8 @@ static inline void ox_load_units(const ox_region_view* r, uint block, ox_unit_bl
 }
 
 // Of a block of waiting units how deep each is below a plane, where that clears it and it proposes
-// none that is less deep, else -INFINITY; of no plane how deep below what it has proposed so far.
+// none that is less deep, by more than is not known, else -INFINITY; of no plane how deep below
+// what it has proposed so far.
 static inline void ox_find_depths(const ox_region_view* r, uint block, const ox_plane* plane,
                                   ox_floats* depths) {
   const ox_floats least = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
@@ -185,8 +186,8 @@ static inline void ox_find_depths(const ox_region_view* r, uint block, const ox_
     const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
     const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
     const ox_floats depth = OX_GREATER(a, b);
-    const ox_ints is_less =
-        (a + b >= above + above) & (depth < least) & (side == 0u ? ~units.is_b : units.is_b);
+    const ox_ints is_less = (a + b >= above + above) & (depth + above <= least) &
+                            (side == 0u ? ~units.is_b : units.is_b);
     *depths = is_less != 0 ? depth : *depths;
   }
 }

@@ -14,7 +14,9 @@
 // Value: a bit for each vertex of the chunk that is looked at, and OX_CHUNK_CROSSED. A vertex gets
 // its ray where it is still queued in the end.
 #define OX_KEY_CHUNK 1u
-#define OX_CHUNK_CROSSED (1u << OX_CHUNK_VERTICES)  // an edge at one of its vertices crosses
+// An edge at one of its vertices crosses. That the key is there says so: the chunk is not taken
+// whole.
+#define OX_CHUNK_CROSSED (1u << OX_CHUNK_VERTICES)
 #define OX_KEY_OUTSIDE 2u  // outside by its nearest crossing; value: OX_OUTSIDE_... (flood.cl)
 #define OX_KEY_EDGE 3u     // that crosses; value: one of its crossings
 #define OX_KEY(index, kind) ((index) << 2 | (kind))

@@ -54,25 +54,44 @@ std::vector<Seed> seeds(const std::vector<Vec3f>& vertices,
 // modelled, and what else is in it, is to decide nothing.
 constexpr double kRounding = 0x1p-22;
 
+using Corners = std::array<Vec3d, 3>;
+
+Corners corners_of(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
+  return {Vec3d(vertices[triangle[0]]), Vec3d(vertices[triangle[1]]), Vec3d(vertices[triangle[2]])};
+}
+
+double longest_side(const Corners& t) {
+  return std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
+}
+
+double height(const Corners& t) {
+  return length(cross(t[1] - t[0], t[2] - t[0])) / longest_side(t);
+}
+
 // The plane of a triangle, and how far from it a point of it may be.
 class Plane {
  public:
-  Plane(const std::vector<Vec3f>& vertices, const Triangle& triangle, Vec3f normal)
-      : at_(vertices[triangle[0]]), normal_(normal) {
-    const Vec3d to_b = Vec3d(vertices[triangle[1]]) - at_,
-                to_c = Vec3d(vertices[triangle[2]]) - at_;
-    const double longest = std::max({length(to_b), length(to_c), length(to_c - to_b)});
-    const double height = length(cross(to_b, to_c)) / longest;
-    rounding_ = kRounding * longest;
-    turned_ = std::min(rounding_ / height, kFlat);
+  Plane(const Corners& corners, Vec3f normal) : corners_(corners), normal_(normal) {
+    rounding_ = kRounding * longest_side(corners);
+    turned_ = std::min(rounding_ / height(corners), kFlat);
   }
-  bool holds(const Vec3d& point) const {
-    const Vec3d way = point - at_;
-    return std::abs(dot(normal_, way)) <= rounding_ + turned_ * length(way);
+  // Whether a triangle lies in it, and faces as it does but for what rounding turns either by.
+  bool holds(const Corners& triangle, Vec3f normal) const {
+    return dot(Vec3d(normal), normal_) > 0 &&
+           length(Vec3d(normal) - normal_) <= kFlat + rounding_ / height(triangle) &&
+           std::all_of(triangle.begin(), triangle.end(),
+                       [&](const Vec3d& corner) { return holds(corner); });
   }
 
  private:
-  Vec3d at_, normal_;
+  bool holds(const Vec3d& point) const {
+    double nearest = INFINITY;
+    for (const Vec3d& corner : corners_) nearest = std::min(nearest, length(point - corner));
+    return std::abs(dot(normal_, point - corners_[0])) <= rounding_ + turned_ * nearest;
+  }
+
+  Corners corners_;
+  Vec3d normal_;
   double rounding_;  // [m]
   double turned_;    // [rad]
 };
@@ -90,12 +109,10 @@ std::vector<std::uint32_t> facets(const std::vector<Vec3f>& vertices,
     facet[seed.triangle] = seed.triangle;
     const Vec3f normal = face_normals[seed.triangle];
     if (normal == Vec3f{}) continue;
-    const Plane plane(vertices, triangles[seed.triangle], normal);
+    const Plane plane(corners_of(vertices, triangles[seed.triangle]), normal);
     const auto belongs = [&](std::uint32_t t) {
       return length(Vec3d(face_normals[t]) - Vec3d(normal)) < kFlat ||
-             (dot(Vec3d(face_normals[t]), Vec3d(normal)) > 0 &&
-              std::all_of(triangles[t].begin(), triangles[t].end(),
-                          [&](std::uint32_t v) { return plane.holds(Vec3d(vertices[v])); }));
+             plane.holds(corners_of(vertices, triangles[t]), face_normals[t]);
     };
     open.assign(1, seed.triangle);
     while (!open.empty()) {

@@ -7,8 +7,8 @@
 
 namespace ode_ext {
 
-// Leaves them out, and vertices that no other triangle has, but where nothing else is. A solid that
-// is cut into needles stays one so: with faces that cover one another it would be an open mesh. The
+// Leaves them out, and vertices that no other triangle has, unless nothing would be left. With
+// faces that cover one another a solid that is cut into needles would be an open mesh. The
 // triangles are in the order of order_by_vertices.
 void leave_out_folded(WeldedMesh& mesh);
 

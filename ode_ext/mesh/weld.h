@@ -36,7 +36,7 @@ bool are_apart(const std::vector<Vec3f>& vertices);
 // on the order in which the program lists triangles, or the corners of one.
 void order_by_vertices(WeldedMesh& mesh);
 
-// Of two triangles in that order: those that do follow one another.
+// Whether two triangles have the same corners. In that order those that do follow one another.
 bool have_same_corners(const Triangle& a, const Triangle& b);
 
 // Leaves triangles out, and vertices that none has then.

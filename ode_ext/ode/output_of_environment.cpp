@@ -9,9 +9,11 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "ode/messages.h"
 
@@ -34,10 +36,12 @@ bool take(int descriptor) {
   return flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
-bool do_trace_and_capture_name_one() {
+bool trace_and_capture_are_one() {
   const char* trace = std::getenv("ODE_EXT_TRACE");
   const char* capture = std::getenv("ODE_EXT_CAPTURE");
-  return trace != nullptr && capture != nullptr && std::strcmp(trace, capture) == 0;
+  std::error_code none;
+  return trace != nullptr && capture != nullptr &&
+         std::filesystem::equivalent(trace, capture, none);
 }
 
 }  // namespace
@@ -49,7 +53,7 @@ std::FILE* open_output_of_environment(const char* variable) {
   int descriptor = open_to_write(path, variable);
   if (!take(descriptor)) {
     close(descriptor);
-    if (do_trace_and_capture_name_one())
+    if (trace_and_capture_are_one())
       throw std::runtime_error("ODE_EXT_TRACE and ODE_EXT_CAPTURE both name '" + path + "'");
     path += '.' + std::to_string(getpid());
     descriptor = open_to_write(path, variable);

@@ -243,17 +243,25 @@ void ContactMesh::find_edges() {
 
 // Whether rounding may have turned a triangle out of the plane of another.
 bool ContactMesh::lies_in(std::size_t triangle, std::size_t seed) const {
-  if (!(dot(normals[triangle], normals[seed]) > 0)) return false;
-  double longest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    longest = std::max(longest, distance(corner(seed, k), corner(seed, (k + 1) % 3)));
-  const double rounding = 0x1p-22 * longest;
-  const double area =
-      length(cross(corner(seed, 1) - corner(seed, 0), corner(seed, 2) - corner(seed, 0)));
-  const double turned = std::min(rounding * longest / area, kFacetAngle);
+  const auto longest = [&](std::size_t t) {
+    return std::max({distance(corner(t, 0), corner(t, 1)), distance(corner(t, 1), corner(t, 2)),
+                     distance(corner(t, 2), corner(t, 0))});
+  };
+  const auto height = [&](std::size_t t) {
+    return length(cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0))) / longest(t);
+  };
+  const double rounding = 0x1p-22 * longest(seed);
+  if (!(dot(normals[triangle], normals[seed]) > 0) ||
+      !(distance(normals[triangle], normals[seed]) <= kFacetAngle + rounding / height(triangle)))
+    return false;
+  const double turned = std::min(rounding / height(seed), kFacetAngle);
   for (std::size_t k = 0; k < 3; ++k) {
-    const Point way = corner(triangle, k) - corner(seed, 0);
-    if (!(std::fabs(dot(normals[seed], way)) <= rounding + turned * length(way))) return false;
+    const Point p = corner(triangle, k);
+    double nearest = distance(p, corner(seed, 0));
+    for (std::size_t of = 1; of < 3; ++of)
+      nearest = std::min(nearest, distance(p, corner(seed, of)));
+    if (!(std::fabs(dot(normals[seed], p - corner(seed, 0))) <= rounding + turned * nearest))
+      return false;
   }
   return true;
 }
