@@ -26,16 +26,11 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
 // Adds those that a plane clears by a move so far along it.
 static inline void ox_add_cleared_by(const ox_unit_block* units, const ox_plane* plane, float along,
                                      float past, ox_ints* cleared) {
-  const float3 n = plane->normal;
-  const ox_floats one =
-      units->position[0] * n.x + units->position[1] * n.y + units->position[2] * n.z;
-  const ox_floats other = units->end[0] * n.x + units->end[1] * n.y + units->end[2] * n.z;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(plane, side)) continue;
-    const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
-    const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
-    const ox_ints clears = (a + b >= past + past) & (a <= along) & (b <= along);
-    *cleared |= clears & (side == 0u ? ~units->is_b : units->is_b);
+    ox_floats one, other;
+    const ox_ints clears = ox_ends_below(units, plane, side, past, &one, &other);
+    *cleared |= clears & (one <= along) & (other <= along);
   }
 }
 

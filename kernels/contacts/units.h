@@ -167,6 +167,18 @@ static inline void ox_load_units(const ox_region_view* r, uint block, ox_unit_bl
   units->is_b = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)OX_FEATURE_SIDE) != 0;
 }
 
+// How deep both ends of units are below a plane that clears such of mesh `side`; which it clears.
+static inline ox_ints ox_ends_below(const ox_unit_block* units, const ox_plane* plane, uint side,
+                                    float past, ox_floats* one, ox_floats* other) {
+  const float3 n = plane->normal;
+  const ox_floats p =
+      units->position[0] * n.x + units->position[1] * n.y + units->position[2] * n.z;
+  const ox_floats q = units->end[0] * n.x + units->end[1] * n.y + units->end[2] * n.z;
+  *one = plane->level[side] + (side == 0u ? -p : p);
+  *other = plane->level[side] + (side == 0u ? -q : q);
+  return (*one + *other >= past + past) & (side == 0u ? ~units->is_b : units->is_b);
+}
+
 // Of a block of waiting units how deep each is below a plane, where that clears it and it proposes
 // none that is less deep, by more than is not known, else -INFINITY; of no plane how deep below
 // what it has proposed so far.
@@ -176,18 +188,14 @@ static inline void ox_find_depths(const ox_region_view* r, uint block, const ox_
   *depths = plane == 0 ? least : (ox_floats)(-INFINITY);
   if (plane == 0) return;
   const float above = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  const float3 n = plane->normal;
   ox_unit_block units;
   ox_load_units(r, block, &units);
-  const ox_floats one = units.position[0] * n.x + units.position[1] * n.y + units.position[2] * n.z;
-  const ox_floats other = units.end[0] * n.x + units.end[1] * n.y + units.end[2] * n.z;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(plane, side)) continue;
-    const ox_floats a = plane->level[side] + (side == 0u ? -one : one);
-    const ox_floats b = plane->level[side] + (side == 0u ? -other : other);
-    const ox_floats depth = OX_GREATER(a, b);
-    const ox_ints is_less = (a + b >= above + above) & (depth + above <= least) &
-                            (side == 0u ? ~units.is_b : units.is_b);
+    ox_floats one, other;
+    const ox_ints clears = ox_ends_below(&units, plane, side, above, &one, &other);
+    const ox_floats depth = OX_GREATER(one, other);
+    const ox_ints is_less = clears & (depth + above <= least);
     *depths = is_less != 0 ? depth : *depths;
   }
 }

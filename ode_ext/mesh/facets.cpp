@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "mesh/ray_cast.h"
+#include "mesh/corners.h"
 
 namespace ode_ext {
 namespace {
@@ -35,8 +35,7 @@ std::vector<Seed> seeds(const std::vector<Vec3f>& vertices,
   std::vector<Seed> result;
   result.reserve(triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    std::array<Vec3d, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = Vec3d(vertices[triangles[t][k]]);
+    Corners corners = corners_of(vertices, triangles[t]);
     // From whichever corner they are listed: rounding is to be the same.
     std::sort(corners.begin(), corners.end(), [](const Vec3d& a, const Vec3d& b) {
       return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -48,31 +47,13 @@ std::vector<Seed> seeds(const std::vector<Vec3f>& vertices,
   return result;
 }
 
-// Of the longest side of a triangle, how far off a corner may be: a coordinate is rounded by 2^-24
-// of itself at most, so the three of them by less than two of these, and by as much again by the
-// program that gave them. Coordinates are taken to be as large as that side: where a mesh was
-// modelled, and what else is in it, is to decide nothing.
-constexpr double kRounding = 0x1p-22;
-
-using Corners = std::array<Vec3d, 3>;
-
-Corners corners_of(const std::vector<Vec3f>& vertices, const Triangle& triangle) {
-  return {Vec3d(vertices[triangle[0]]), Vec3d(vertices[triangle[1]]), Vec3d(vertices[triangle[2]])};
-}
-
-double longest_side(const Corners& t) {
-  return std::max({length(t[1] - t[0]), length(t[2] - t[1]), length(t[0] - t[2])});
-}
-
-double height(const Corners& t) {
-  return length(cross(t[1] - t[0], t[2] - t[0])) / longest_side(t);
-}
-
-// The plane of a triangle, and how far from it a point of it may be.
+// The plane of a triangle, and how far from it a point of it may be. Coordinates are taken to be as
+// large as its longest side: where a mesh was modelled, and what else is in it, is to decide
+// nothing.
 class Plane {
  public:
   Plane(const Corners& corners, Vec3f normal) : corners_(corners), normal_(normal) {
-    rounding_ = kRounding * longest_side(corners);
+    rounding_ = kCornerRounding * longest_side(corners);
     turned_ = std::min(rounding_ / height(corners), kFlat);
   }
   // Whether a triangle lies in it, and faces as it does but for what rounding turns either by.

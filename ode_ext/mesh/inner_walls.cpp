@@ -36,9 +36,7 @@ std::vector<bool> marked(const std::vector<Wall>& walls, std::size_t triangle_co
 // Two, and no more, that have the same corners.
 void add_triangle_walls(const std::vector<Triangle>& triangles, std::vector<Wall>& walls) {
   for (std::uint32_t first = 0, last = 0; first < triangles.size(); first = last) {
-    for (last = first + 1;
-         last < triangles.size() && have_same_corners(triangles[first], triangles[last]);)
-      ++last;
+    last = static_cast<std::uint32_t>(end_of_same_corners(triangles, first));
     if (last - first == 2 && triangles[first] != triangles[first + 1])
       walls.push_back({first, first + 1});
   }

@@ -169,8 +169,14 @@ void order_by_vertices(WeldedMesh& mesh) {
   }
 }
 
-bool have_same_corners(const Triangle& a, const Triangle& b) {
-  return a[0] == b[0] && std::minmax(a[1], a[2]) == std::minmax(b[1], b[2]);
+std::size_t end_of_same_corners(const std::vector<Triangle>& triangles, std::size_t first) {
+  const Triangle& a = triangles[first];
+  std::size_t end = first + 1;
+  for (; end < triangles.size(); ++end) {
+    const Triangle& b = triangles[end];
+    if (a[0] != b[0] || std::minmax(a[1], a[2]) != std::minmax(b[1], b[2])) break;
+  }
+  return end;
 }
 
 void leave_out(const std::vector<bool>& is_left_out, WeldedMesh& mesh) {

@@ -36,8 +36,9 @@ bool are_apart(const std::vector<Vec3f>& vertices);
 // on the order in which the program lists triangles, or the corners of one.
 void order_by_vertices(WeldedMesh& mesh);
 
-// Whether two triangles have the same corners. In that order those that do follow one another.
-bool have_same_corners(const Triangle& a, const Triangle& b);
+// In that order triangles with the same corners follow one another, those of one winding first: the
+// first after them.
+std::size_t end_of_same_corners(const std::vector<Triangle>& triangles, std::size_t first);
 
 // Leaves triangles out, and vertices that none has then.
 void leave_out(const std::vector<bool>& is_left_out, WeldedMesh& mesh);
