@@ -12,7 +12,7 @@
 // item  1 region (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: none; a region makes two candidates for each feature at most
 #include "contacts/own_faces.h"
-#include "contacts/whole_contacts.h"
+#include "contacts/sheet.h"
 
 // A unit that needs no plane any more.
 static void ox_mark_cleared(const ox_region_view* r, uint k) {
@@ -34,7 +34,7 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
 static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
                          ox_moves* moves) {
   const ox_region_view* r = m->region;
-  ox_add_move(r, choice, moves);
+  ox_add_move(r, choice, seed, moves);
   __global const ox_feature* of_seed = ox_feature_of(r, seed);
   if (choice->plane.kind == OX_PLANE_EDGES)
     ox_add_edge_contact(m, choice);
@@ -103,6 +103,12 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
 // room (OX_CANDIDATES_PER_FEATURE).
 static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
+  if (ox_is_outside(r, unit)) {  // of a contact where the region has no other
+    const ox_plane_choice nearest = ox_choose_nearest(r, unit);
+    if (moves->count == 0u && nearest.plane.kind != OX_PLANE_NONE)
+      ox_move_past(m, &nearest, unit, waiting, moves);
+    return unit;
+  }
   ox_joint_choice together;
   ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
@@ -158,73 +164,6 @@ static void ox_choose_parts(ox_manifold* m) {
   ox_mark_bends(r, units);
   if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, 0u)) == 0u)
     ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, OX_MEMBER_BEND));
-}
-
-// A sheet has no inside: what is behind it is what its ray meets it for, on whichever side. Each
-// vertex is cleared by the face that it is behind. Where there is none, the edge that goes through
-// the sheet with its shorter end the least is drawn back, or through another open mesh with the end
-// that is behind that; where there is none of those either, the edge of the sheet that goes through
-// the other mesh the least.
-static void ox_choose_sheet(ox_manifold* m) {
-  const ox_region_view* r = m->region;
-  bool any = false;
-  // Of edges through a sheet, and through a closed mesh.
-  uint best[2] = {OX_NONE, OX_NONE};
-  ox_plane_choice least[2] = {ox_no_choice(), ox_no_choice()};
-  for (uint k = 0u; k < r->count; ++k) {
-    __global const ox_feature* f = ox_feature_of(r, k);
-    if (f->triangle == OX_NONE) continue;
-    const uint side = ox_side_of(f->flags);
-    ox_plane_choice choice = ox_no_choice();
-    choice.plane = ox_plane_of_face(r->scene, r->pair, 1u - side, f->triangle);
-    if (choice.plane.kind == OX_PLANE_NONE) continue;
-    if (ox_is_vertex(f->flags)) {
-      const float3 position = vload3(0, f->position);
-      float depth = ox_plane_depth(&choice.plane, side, position);
-      const bool reversed = (f->flags & OX_FEATURE_REVERSED) != 0u;
-      if (reversed) {
-        depth = -depth;
-        choice.plane.normal = -choice.plane.normal;
-      }
-      if (ox_is_first_item())
-        ox_add_candidate(m, &choice, side, position, ox_max(depth, 0.0f),
-                         reversed ? OX_HIT_REVERSED : 0u, f->source, f->triangle,
-                         ox_touch_of(f, f->triangle));
-      ++m->manifold;
-      any = true;
-      continue;
-    }
-    __global const ox_mesh* target = r->scene->meshes + r->scene->pairs[r->pair].mesh[1u - side];
-    const bool is_solid = (target->flags & OX_MESH_CLOSED) != 0u;
-    if (is_solid) {  // as deep as the other end of the chord
-      const float3 end = ox_vector_of(&r->members, OX_MEMBER_END, k);
-      choice.depth = ox_max(ox_plane_depth(&choice.plane, side, end), 0.0f);
-    } else {
-      __global const ox_edge* edge = r->scene->edges + f->source;
-      const float3 from = ox_vertex_of(r->scene, r->pair, side, edge->vertex[0]);
-      const float3 to = ox_vertex_of(r->scene, r->pair, side, edge->vertex[1]);
-      const float3 d = to - from;
-      const float of_from = ox_plane_depth(&choice.plane, side, from);
-      const float of_to = ox_plane_depth(&choice.plane, side, to);
-      // A sheet has no front; of the ends of an edge through another open mesh one is behind it.
-      float depth = ox_max(ox_max(of_from, of_to), 0.0f);
-      if ((target->flags & OX_MESH_TWO_SIDED) != 0u)
-        depth = f->t * f->t < 0.25f * ox_dot(d, d) ? of_from : of_to;
-      if (depth < 0.0f) choice.plane.normal = -choice.plane.normal;
-      choice.depth = ox_min(fabs(depth), target->reach);
-    }
-    choice.plane.id[1] = f->source;  // of one face the first edge
-    choice.judged = choice.depth;
-    if (!ox_is_better_choice(&choice, least + is_solid)) continue;
-    least[is_solid] = choice;
-    best[is_solid] = k;
-  }
-  const uint through = best[0] != OX_NONE ? 0u : 1u;
-  if (any || best[through] == OX_NONE || !ox_is_first_item()) return;
-  __global const ox_feature* f = ox_feature_of(r, best[through]);
-  ox_add_candidate(m, least + through, ox_side_of(f->flags), vload3(0, f->position),
-                   least[through].depth, OX_HIT_POINT, f->at[0], f->triangle,
-                   ox_touch_of(f, f->triangle));
 }
 
 static void ox_choose_planes(const ox_scene* scene) {

@@ -15,8 +15,12 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
   for (uint i = 0u; i < last; ++i)
     if (moves->along[i] >= 0.0f) ox_take_better(r, k, moves->chosen + i, moves->along[i], &by);
   const float3 normal = ox_vector_of(&r->members, OX_MEMBER_NORMAL, k);
-  if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <=
-      moves->far[last] * ox_dot(moves->chosen[last].normal, normal)) {
+  const float cosine = ox_dot(moves->chosen[last].normal, normal);
+  if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <= moves->far[last] * cosine) {
+    const ox_plane on = ox_plane_on(r, moves, last);
+    if (cosine <= OX_SAME_WAY && by.plane.kind == OX_PLANE_NONE &&
+        ox_take_better(r, k, &on, moves->far[last], &by))
+      return by;
     const ox_plane plane = ox_own_plane(r, k);
     ox_take_better(r, k, &plane, INFINITY, &by);
   }

@@ -104,6 +104,10 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
   ox_try_unit(r, seed, &own, &best);
+  for (uint i = 0u; i < seed->before->count; ++i) {
+    const ox_plane on = ox_plane_on(r, seed->before, i);
+    ox_try_unit(r, seed, &on, &best);
+  }
   const ox_ends ends = ox_ends_of(r, seed->unit);
   const uint blocks = (r->plane_count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
@@ -134,6 +138,23 @@ static inline ox_plane ox_surface_near(const ox_region_view* r, uint side, float
       !ox_stays_inside(r, side, p, &nearest, ox_plane_depth(&nearest, side, p)))
     return nearest;
   return ox_no_plane();
+}
+
+// Whether the curve in which the surfaces meet runs over the facet of a plane.
+static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane) {
+  if (plane->kind == OX_PLANE_EDGES) return true;
+  const uint facet = ox_facet_of(r->scene, plane->id[0]);
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    uint crossed = ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
+                              plane->kind | OX_PLANE_CROSSED) &
+                   ox_present_lanes(r->plane_count, block);
+    for (; crossed != 0u; crossed &= crossed - 1u) {
+      const ox_plane other =
+          ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(crossed));
+      if (ox_facet_of(r->scene, other.id[0]) == facet) return true;
+    }
+  }
+  return false;
 }
 
 // The least of the planes that do not separate it, where all together do; else OX_PLANE_NONE. Where
@@ -230,7 +251,11 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   const float far = ox_min(known.depth, known.judged) / OX_WORTH;
   const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
-  return ox_take_better(r, unit, &nearest, far, &near) ? near : known;
+  if (!ox_take_better(r, unit, &nearest, far, &near)) return known;
+  // What of a body is more than halfway through a thin part goes back by the face that it came in
+  // by, as what is beside it does, which is not so deep.
+  return ox_looks_back(nearest.normal, known.plane.normal) && ox_is_crossed(r, &known.plane) ? known
+                                                                                             : near;
 }
 
 #endif

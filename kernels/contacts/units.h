@@ -64,24 +64,52 @@ static inline void ox_set_own(const ox_region_view* r, uint k, const ox_plane_ch
 // Has a chord propose the face nearest to its middle too: it may go along below a face that nothing
 // of the region meets. A vertex has the face that its ray leaves by (GRAPP), which serves as well:
 // to ask for the nearest of vertices too made no nut on a bolt less deep, and took a third more for
-// deep tori. Of an open mesh the nearest may be one that the chord is in front of.
+// deep tori. But what is inside by no more than A is made larger may have a ray that meets none. Of
+// an open mesh the nearest may be one that the chord is in front of.
 static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);
   ox_settle();
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
   ox_settle();
-  if (ox_is_vertex(flags) || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
+  const bool has_face =
+      ox_is_vertex(flags) && ox_words_of(&r->members, OX_MEMBER_PLANE)[k] != OX_NONE;
+  if (has_face || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
   ox_plane_choice own = ox_no_choice();
   own.plane = ox_own_plane(r, k);
   own.depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
   own.judged = own.depth + ox_edge_tie(r, &own.plane);
+  const bool is_none = own.plane.kind == OX_PLANE_NONE;
   const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.judged);
-  if (!ox_take_better(r, k, &nearest, INFINITY, &own)) return;
+  if (!ox_take_better(r, k, &nearest, INFINITY, &own)) {
+    if (is_none) ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = 0.0f;
+    ox_settle();
+    return;
+  }
   ox_settle();
   ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.id[0] | OX_OWN_NEAREST;
   ox_set_own(r, k, &own);
   ox_settle();
+}
+
+// Whether a unit that has been asked for the nearest face is behind none: where an edge leaves a
+// solid and enters it again, as at a corner of its side, rounding may take the stretch between for
+// one that is inside.
+static inline bool ox_is_outside(const ox_region_view* r, uint k) {
+  return ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE &&
+         (ox_target_of(r, ox_side_of(ox_flags_of(r, k)))->flags & OX_MESH_CLOSED) != 0u;
+}
+
+// The nearest face, whether or not it is behind that.
+static inline ox_plane_choice ox_choose_nearest(const ox_region_view* r, uint k) {
+  ox_plane_choice choice = ox_no_choice();
+  const uint side = ox_side_of(ox_flags_of(r, k));
+  choice.plane = ox_nearest_face(r, side, ox_middle_of(r, k), INFINITY);
+  const float one = ox_plane_depth(&choice.plane, side, ox_position_of(r, k));
+  const float other =
+      ox_plane_depth(&choice.plane, side, ox_vector_of(&r->members, OX_MEMBER_END, k));
+  choice.depth = choice.judged = ox_max(ox_max(one, other), 0.0f);
+  return choice;
 }
 
 // Of the waiting units, the first of the members, the best of the planes that their features

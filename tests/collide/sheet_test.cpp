@@ -191,6 +191,52 @@ TEST_F(Sheet, WhoseEdgesAloneGoThroughAPlateAreDrawnBack) {
   }
 }
 
+// None of its vertices is beyond the sheet: the lowest is beyond the border. An edge that went
+// through the sheet was drawn back by either end, whether that was behind the sheet or beside it.
+TEST_F(Sheet, SolidsOverItsBorderComeBackByNoMoreThanTheyAreIn) {
+  Random random(34);
+  int met = 0;
+  for (const TestMesh& body : {make_cube(0.2), make_tetrahedron(0.4), make_rod(0.8, 0.05),
+                               make_box({0.5, 0.1, 0.02}), make_cylinder(0.1, 0.2, 16)})
+    for (int i = 0; i < 60; ++i) {
+      const TestPose tilted = random.pose(0);
+      Point low{0, 0, 1};
+      for (int k = 0; k < body.vertex_count(); ++k) {
+        const Point p = rotate(tilted, body.vertex(static_cast<std::size_t>(k)));
+        if (p[2] < low[2]) low = p;
+      }
+      const double in = i % 2 == 0 ? 0.001 : 0.004;
+      TestPose pose = tilted;
+      pose.position = {1 - low[0] + random.uniform(0, 0.02), random.uniform(-0.5, 0.5),
+                       -low[2] - in};
+      for (const Contact& contact : contacts(pair_of(rigid(body), pose, sheet))) {
+        EXPECT_GT(contact.normal.z, 0) << i;
+        EXPECT_LE(contact.depth, 1.001 * in) << i;
+        ++met;
+      }
+    }
+  EXPECT_GT(met, 100);
+}
+
+// The bar is in it on both sides of a fold, with both of its ends above.
+TEST_F(Sheet, BarsAcrossAFoldAreHeldUp) {
+  for (const double slope : {0.1, 0.3})
+    for (const double in : {5e-4, 1e-3, 3e-3, 1e-2}) {
+      TestMesh tent = make_sheet(0.6, 2);
+      for (std::size_t i = 0; i < tent.vertices.size(); i += 3)
+        tent.vertices[i + 2] = static_cast<float>(-slope * std::abs(tent.vertices[i]));
+      const auto found = contacts(pair_of(
+          rigid(make_rod(0.8, 0.05)),
+          turned({1, 0, 0}, std::acos(-1.0) / 4, {0.02, 0.013, 0.025 * std::sqrt(2.0) - in}),
+          deformable(soup_of(tent), 0.02f)));
+      ASSERT_FALSE(found.empty());
+      for (const Contact& contact : found) {
+        EXPECT_GT(contact.normal.z, 0.5) << slope << ", " << in;
+        EXPECT_LE(contact.depth, 1.001 * in) << slope << ", " << in;
+      }
+    }
+}
+
 // Of a sheet that lies on many posts there is a region of each, and more contacts in a region than
 // planes a rigid one may have.
 TEST_F(Sheet, KeepTheSameFewContactsInWhateverCompany) {

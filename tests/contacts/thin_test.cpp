@@ -84,5 +84,32 @@ TEST(Thin, PartsThatAreDeeperThanThickHaveContactsAsDeepAsTheyAre) {
       }
 }
 
+// Past the middle of a plate that is bent a little the lower side is nearer to what is deepest.
+// That was sent out there, what is beside it back up, and the body was jammed and shot off.
+TEST(Thin, BodiesMoreThanHalfwayThroughABentPlateGoBackByTheSideTheyCameIn) {
+  const double thickness = 0.05;
+  TestMesh plate = make_box({1.6, 1.6, thickness}, 2, 2, 1);
+  for (std::size_t i = 0; i < plate.vertices.size(); i += 3)
+    plate.vertices[i + 2] += 0.03f * std::abs(plate.vertices[i]);
+  Random random(7);
+  for (const TestMesh& body : {make_cylinder(0.15, 0.3, 24), make_icosphere(0.18, 2)})
+    for (const double deep : {0.5, 0.7, 0.8, 0.9})
+      for (int i = 0; i < 30; ++i) {
+        TestPose pose = random.pose(0);
+        const double x = random.uniform(-0.1, 0.1);
+        double lowest = 1;  // over the upper side
+        for (int k = 0; k < body.vertex_count(); ++k) {
+          const Point p = rotate(pose, body.vertex(static_cast<std::size_t>(k)));
+          lowest = std::min(lowest, p[2] - 0.03 * std::abs(x + p[0]));
+        }
+        const double in = deep * thickness;
+        pose.position = {x, random.uniform(-0.3, 0.3), 0.5 * thickness - lowest - in};
+        const std::vector<Contact> found =
+            Placed{body, plate, pose, TestPose{}}.contacts(TestPose{});
+        EXPECT_GT(deepest(found), 0.7 * in) << deep << ", pose " << i;
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0) << deep << ", pose " << i;
+      }
+}
+
 }  // namespace
 }  // namespace ode_ext::test

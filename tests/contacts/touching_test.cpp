@@ -8,6 +8,7 @@
 #include <numbers>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "contacts/placed.h"
 #include "support/rig.h"
@@ -15,11 +16,14 @@
 namespace ode_ext::test {
 namespace {
 
-// Along y, open upwards: half a tube of 1 m and 1.1 m, of so many flat strips.
-TestMesh half_pipe(unsigned strips) {
+// Along y, open upwards: half a tube of 1 m and 1.1 m, of so many flat strips, each cut at `cuts`.
+TestMesh half_pipe(unsigned strips, const std::vector<double>& cuts = {}) {
   TestMesh pipe;
   const unsigned corners = 2 * (strips + 1);  // of a cross section
-  for (const double y : {-1.0, 1.0})
+  std::vector<double> sections{-1};
+  sections.insert(sections.end(), cuts.begin(), cuts.end());
+  sections.push_back(1);
+  for (const double y : sections)
     for (unsigned i = 0; i < corners; ++i) {
       const bool inner = i <= strips;
       const double angle = std::numbers::pi * (inner ? i : corners - 1 - i) / strips;
@@ -30,15 +34,17 @@ TestMesh half_pipe(unsigned strips) {
   const auto add = [&](unsigned a, unsigned b, unsigned c) {
     pipe.indices.insert(pipe.indices.end(), {a, b, c});
   };
-  for (unsigned i = 0; i < corners; ++i) {
-    const unsigned j = (i + 1) % corners;
-    add(i, j, j + corners);
-    add(i, j + corners, i + corners);
-  }
+  const unsigned far = corners * static_cast<unsigned>(cuts.size() + 1);  // the other end
+  for (unsigned first = 0; first < far; first += corners)
+    for (unsigned i = 0; i < corners; ++i) {
+      const unsigned j = (i + 1) % corners;
+      add(first + i, first + j, first + j + corners);
+      add(first + i, first + j + corners, first + i + corners);
+    }
   for (unsigned i = 0; i < strips; ++i) {
     const unsigned a = i, b = i + 1, c = corners - 2 - i, d = corners - 1 - i;
     add(a, d, c), add(a, c, b);
-    add(a + corners, c + corners, d + corners), add(a + corners, b + corners, c + corners);
+    add(a + far, c + far, d + far), add(a + far, b + far, c + far);
   }
   return pipe;
 }
@@ -124,6 +130,36 @@ TEST(Touching, BoxesOverABendOfTheFloorAreNotHeldBack) {
         for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.98) << bend << ", " << deep;
       }
   }
+}
+
+// On a groove of two walls that is cut where the front of the box is: a vertex of its bottom is at
+// the front for a moment, and to either side of it by less than floats know. It was taken out
+// through the front, and the box stopped there.
+TEST(Touching, BoxesInAGrooveAreNotHeldBackWhereItIsCut) {
+  TestMesh box = make_box({0.12, 0.25, 0.12});  // on an edge
+  for (std::size_t i = 0; i < box.vertices.size(); i += 3) {
+    const float x = box.vertices[i], z = box.vertices[i + 2];
+    box.vertices[i] = (x - z) * std::numbers::sqrt2_v<float> / 2;
+    box.vertices[i + 2] = (x + z) * std::numbers::sqrt2_v<float> / 2;
+  }
+  const double lowest = 0.06 * std::numbers::sqrt2;
+  const TestMesh groove = half_pipe(2, {0});
+  std::size_t contacts = 0;
+  for (const double pitch : {0.0, 1e-3, 0.01, 0.05})
+    for (const double deep : {1e-4, 1e-3, 5e-3})
+      for (const double past : {-1.5e-6, -1e-6, -5e-7, 1e-7, 1e-6, 5e-6, 0.01 * deep}) {
+        // In front, where it is lowest, it is so deep; its front passes the vertex at y = 0.
+        const double sine = std::sin(-pitch), cosine = std::cos(pitch);
+        const double z = -1 - deep - 0.125 * sine + lowest * cosine;
+        const double y = (past - 0.125 - sine * (1 + z)) / cosine;
+        const Placed placed{box, groove, turned({1, 0, 0}, -pitch, {0, y, z}), TestPose{}};
+        const std::vector<Contact> found = placed.contacts(TestPose{});
+        EXPECT_GE(found.size(), 2u);
+        for (const Contact& c : found)
+          EXPECT_LT(std::abs(c.normal.y), 0.1) << pitch << ", " << deep << ", " << past;
+        contacts += found.size();
+      }
+  EXPECT_GT(contacts, 300u);
 }
 
 }  // namespace
