@@ -8,7 +8,8 @@
 //
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
-//       planes: which of them part of the region is past; members: units, in another order
+//       planes: which of them part of the region is past, and those of a sheet no more; members:
+//       units, in another order
 // item  1 region (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: none; a region makes two candidates for each feature at most
 #include "contacts/own_faces.h"

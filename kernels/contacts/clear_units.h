@@ -5,8 +5,9 @@
 
 #include "contacts/unit_plane.h"
 
-// The plane by which the last move clears a unit: its own, or else the least of the unit's best and
-// of those before that the move takes it past; OX_PLANE_NONE: there is none.
+// The plane by which the last move clears a unit: its own; or else the least of the unit's best and
+// of those before that the move takes it past; but where that is the unit's and faces another way,
+// the face that lies on the move's plane; OX_PLANE_NONE: there is none.
 static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
                                                 const ox_moves* moves) {
   const uint last = moves->count - 1u;
@@ -17,11 +18,12 @@ static inline ox_plane_choice ox_clearing_plane(const ox_region_view* r, uint k,
   const float3 normal = ox_vector_of(&r->members, OX_MEMBER_NORMAL, k);
   const float cosine = ox_dot(moves->chosen[last].normal, normal);
   if (ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] <= moves->far[last] * cosine) {
+    const ox_plane plane = ox_own_plane(r, k);
+    if (plane.kind == OX_PLANE_NONE) return by;
     const ox_plane on = ox_plane_on(r, moves, last);
     if (cosine <= OX_SAME_WAY && by.plane.kind == OX_PLANE_NONE &&
         ox_take_better(r, k, &on, moves->far[last], &by))
       return by;
-    const ox_plane plane = ox_own_plane(r, k);
     ox_take_better(r, k, &plane, INFINITY, &by);
   }
   return by;

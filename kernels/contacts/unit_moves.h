@@ -34,8 +34,8 @@ static inline uint ox_face_on(const ox_region_view* r, uint unit, const ox_plane
   const ox_scene* scene = r->scene;
   uint best = OX_NONE;
   float most = OX_SAME_WAY;
-  if (plane->kind == OX_PLANE_EDGES) return best;
   const uint side = ox_side_of(ox_flags_of(r, unit));
+  if (plane->kind == OX_PLANE_EDGES || !ox_clears_side(plane, side)) return best;
   uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[unit];
   for (uint end = 0u; end < 2u && feature != OX_NONE; ++end) {
     __global const ox_feature* f = scene->features + feature;

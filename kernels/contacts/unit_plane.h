@@ -140,7 +140,7 @@ static inline ox_plane ox_surface_near(const ox_region_view* r, uint side, float
   return ox_no_plane();
 }
 
-// Whether the curve in which the surfaces meet runs over the facet of a plane.
+// Whether the curve in which the surfaces meet runs over the facet of a plane; two edges cross.
 static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane) {
   if (plane->kind == OX_PLANE_EDGES) return true;
   const uint facet = ox_facet_of(r->scene, plane->id[0]);
@@ -204,8 +204,9 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
 // bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
 // itself and do not separate it; so that is asked after few of them, and taken if it takes no more
 // of the moves before it back. Nothing has to go much farther than to the surface: where what is
-// found does, it is to pass the nearest face, and what is beside it says the rest. *together: where
-// it takes several planes these, of which the least is returned; else none.
+// found does, it is to pass the nearest face, and what is beside it says the rest; but not on
+// through a thin part that what is beside it comes back from. *together: where it takes several
+// planes these, of which the least is returned; else none.
 static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
                                             const ox_moves* before, ox_joint_choice* together) {
   ox_seed seed = ox_seed_of(r, unit, before);
@@ -248,14 +249,17 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
     }
   }
   if (together->count != 0u) return known;
+  // What the moves before have taken out goes no other way.
+  if (known.judged <= OX_MARGIN * r->scene->pairs[r->pair].epsilon) return known;
   const float far = ox_min(known.depth, known.judged) / OX_WORTH;
   const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
   if (!ox_take_better(r, unit, &nearest, far, &near)) return known;
   // What of a body is more than halfway through a thin part goes back by the face that it came in
   // by, as what is beside it does, which is not so deep.
-  return ox_looks_back(nearest.normal, known.plane.normal) && ox_is_crossed(r, &known.plane) ? known
-                                                                                             : near;
+  const bool is_past_middle = ox_looks_back(nearest.normal, known.plane.normal) &&
+                              ox_is_crossed(r, &known.plane) && !ox_unit_stays(r, &seed, &known);
+  return is_past_middle ? known : near;
 }
 
 #endif

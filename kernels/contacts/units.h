@@ -82,7 +82,11 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const bool is_none = own.plane.kind == OX_PLANE_NONE;
   const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.judged);
   if (!ox_take_better(r, k, &nearest, INFINITY, &own)) {
-    if (is_none) ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = 0.0f;
+    ox_settle();
+    // After all that touch.
+    if (is_none)
+      ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] =
+          -2.0f * OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
     ox_settle();
     return;
   }
@@ -94,7 +98,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
 
 // Whether a unit that has been asked for the nearest face is behind none: where an edge leaves a
 // solid and enters it again, as at a corner of its side, rounding may take the stretch between for
-// one that is inside.
+// one that is inside; a vertex may be so by as much as A is made larger.
 static inline bool ox_is_outside(const ox_region_view* r, uint k) {
   return ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE &&
          (ox_target_of(r, ox_side_of(ox_flags_of(r, k)))->flags & OX_MESH_CLOSED) != 0u;

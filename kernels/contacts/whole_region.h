@@ -225,8 +225,11 @@ static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
   const float bound = best->judged;  // the same for all, in whatever order they come
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
-    if ((flags & OX_MEMBER_BEGINS) == 0u) continue;
-    const ox_plane plane = ox_nearest_face(r, ox_side_of(flags), ox_middle_of(r, k), bound);
+    const uint side = ox_side_of(flags);
+    if ((flags & OX_MEMBER_BEGINS) == 0u ||
+        !ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side))
+      continue;
+    const ox_plane plane = ox_nearest_face(r, side, ox_middle_of(r, k), bound);
     ox_try_whole(r, &plane, search, best);
   }
 }

@@ -155,6 +155,7 @@ TEST(Touching, BoxesInAGrooveAreNotHeldBackWhereItIsCut) {
         const Placed placed{box, groove, turned({1, 0, 0}, -pitch, {0, y, z}), TestPose{}};
         const std::vector<Contact> found = placed.contacts(TestPose{});
         EXPECT_GE(found.size(), 2u);
+        EXPECT_GT(deepest(found), 0.5 * deep);
         for (const Contact& c : found)
           EXPECT_LT(std::abs(c.normal.y), 0.1) << pitch << ", " << deep << ", " << past;
         contacts += found.size();
