@@ -167,6 +167,19 @@ static void ox_choose_parts(ox_manifold* m) {
     ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, OX_MEMBER_BEND));
 }
 
+// Whether a region is separated in units. Where it has no crossings, a part of one mesh is inside
+// the other, and leaves as a whole; but not what lies on it all over, as a pocket on what fills it.
+static bool ox_is_in_units(const ox_region_view* r) {
+  if ((r->flags & OX_REGION_VALLEY) == 0u) return false;
+  if ((r->flags & OX_REGION_CROSSED) != 0u) return true;
+  const float touch = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  for (uint k = 0u; k < r->count; ++k)
+    if (ox_nearest_face(r, ox_side_of(ox_flags_of(r, k)), ox_position_of(r, k), touch).kind ==
+        OX_PLANE_NONE)
+      return false;
+  return true;
+}
+
 static void ox_choose_planes(const ox_scene* scene) {
   const uint region_count = scene->counters[OX_COUNTER_REGIONS * OX_COUNTER_STRIDE];
   for (uint i = ox_next_item(scene, OX_QUEUE_REGIONS); i < region_count;
@@ -192,8 +205,7 @@ static void ox_choose_planes(const ox_scene* scene) {
                             scene->meshes[scene->pairs[view.pair].mesh[1]].flags;
     if ((mesh_flags & OX_MESH_TWO_SIDED) != 0u) {
       ox_choose_sheet(&manifold);
-    } else if ((view.flags & (OX_REGION_CROSSED | OX_REGION_VALLEY)) ==
-               (OX_REGION_CROSSED | OX_REGION_VALLEY)) {
+    } else if (ox_is_in_units(&view)) {
       ox_choose_parts(&manifold);
     } else {
       const ox_plane_choice choice = ox_choose_whole(&view);

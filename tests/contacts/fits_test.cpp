@@ -76,6 +76,20 @@ TestMesh turned_on_lathe(const Profile& profile, int sides) {
   return mesh;
 }
 
+// All of the cavity lies on it, and nothing crosses. It was taken for a part that is inside, and
+// sent out through the wall by all of its width.
+TEST(Fits, ABlockThatFillsACavityIsHeldByItsWalls) {
+  const TestMesh hollow = merged(make_cube(3), inverted(make_cube(1)));
+  for (const double gap : {-1e-6, -1e-7, 0.0, 1e-7, 1e-6}) {
+    const Placed placed{make_cube(1 - 2 * gap), hollow, TestPose{}, TestPose{}};
+    for (const TestPose& frame : some_frames()) {
+      const std::vector<Contact> found = placed.contacts(frame);
+      EXPECT_FALSE(found.empty()) << gap;
+      EXPECT_LT(deepest(found), 1.05 * std::max(-gap, 0.0) + 4 * placed.tolerance(frame)) << gap;
+    }
+  }
+}
+
 // Where an edge of the one goes out of the other and in again at a corner of that, the stretch
 // between was taken to be inside, and to leave by the far end, in 87 of these 900 poses.
 TEST(Fits, ATaperedTubeInItsSocketIsHardlyEverSentOutAtTheFarEnd) {
