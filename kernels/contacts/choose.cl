@@ -167,16 +167,25 @@ static void ox_choose_parts(ox_manifold* m) {
     ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, OX_MEMBER_BEND));
 }
 
+// Whether a vertex lies on a face of the other mesh that faces it.
+static bool ox_is_against_face(const ox_region_view* r, uint k) {
+  __global const ox_feature* f = ox_feature_of(r, k);
+  const uint side = ox_side_of(f->flags);
+  const float touch = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const ox_plane face = ox_nearest_face(r, side, ox_position_of(r, k), touch);
+  if (face.kind == OX_PLANE_NONE) return false;
+  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
+  const float3 in_b = side == 1u ? inward : ox_rotate(r->scene->pairs + r->pair, 0u, inward);
+  return ox_dot(ox_way_of(side, face.normal), in_b) > 0.0f;
+}
+
 // Whether a region is separated in units. Where it has no crossings, a part of one mesh is inside
-// the other, and leaves as a whole; but not what lies on it all over, as a pocket on what fills it.
+// the other, and leaves as a whole; but not what lies on it all over, as a cavity on what fills it.
 static bool ox_is_in_units(const ox_region_view* r) {
   if ((r->flags & OX_REGION_VALLEY) == 0u) return false;
   if ((r->flags & OX_REGION_CROSSED) != 0u) return true;
-  const float touch = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   for (uint k = 0u; k < r->count; ++k)
-    if (ox_nearest_face(r, ox_side_of(ox_flags_of(r, k)), ox_position_of(r, k), touch).kind ==
-        OX_PLANE_NONE)
-      return false;
+    if (!ox_is_against_face(r, k)) return false;
   return true;
 }
 
