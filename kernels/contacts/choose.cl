@@ -104,10 +104,10 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
 // room (OX_CANDIDATES_PER_FEATURE).
 static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
-  if (ox_is_outside(r, unit)) {  // of a contact where the region has no other
+  if (ox_is_outside(r, unit)) {
+    if (moves->count != 0u) return unit;  // of a contact where the region has no other
     const ox_plane_choice nearest = ox_choose_nearest(r, unit);
-    if (moves->count == 0u && nearest.plane.kind != OX_PLANE_NONE)
-      ox_move_past(m, &nearest, unit, waiting, moves);
+    if (nearest.plane.kind != OX_PLANE_NONE) ox_move_past(m, &nearest, unit, waiting, moves);
     return unit;
   }
   ox_joint_choice together;
@@ -174,9 +174,7 @@ static bool ox_is_against_face(const ox_region_view* r, uint k) {
   const float touch = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
   const ox_plane face = ox_nearest_face(r, side, ox_position_of(r, k), touch);
   if (face.kind == OX_PLANE_NONE) return false;
-  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
-  const float3 in_b = side == 1u ? inward : ox_rotate(r->scene->pairs + r->pair, 0u, inward);
-  return ox_dot(ox_way_of(side, face.normal), in_b) > 0.0f;
+  return ox_dot(ox_way_of(side, face.normal), ox_inward_at(r, f)) > 0.0f;
 }
 
 // Whether a region is separated in units. Where it has no crossings, a part of one mesh is inside

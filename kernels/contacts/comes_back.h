@@ -62,8 +62,7 @@ static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
                                         __global const ox_feature* f, float3 back,
                                         const ox_plane* plane, float depth) {
   const float3 direction = ox_way_of(side, plane->normal);
-  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
-  const float3 normal = side == 0u ? -inward : -ox_rotate(r->scene->pairs + r->pair, 0u, inward);
+  const float3 normal = -ox_inward_at(r, f);
   const float cosine = ox_max(ox_dot(normal, back), -OX_LOOKS_BACK);
   const float3 asked =
       vload3(0, f->position) - ox_way_back(back, direction, depth) / cosine * normal;

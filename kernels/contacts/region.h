@@ -43,6 +43,12 @@ static inline void ox_others_of_block(const ox_region_view* r, uint block, uint 
   *is_other = (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & mask) == others;
 }
 
+// The way into its own mesh at a vertex.
+static inline float3 ox_inward_at(const ox_region_view* r, __global const ox_feature* f) {
+  const float3 inward = vload3(0, r->scene->vertices[f->source].direction);
+  return ox_side_of(f->flags) == 1u ? inward : ox_rotate(r->scene->pairs + r->pair, 0u, inward);
+}
+
 // The normal of the face at a vertex of mesh `side` that faces back from a direction the most.
 static inline float3 ox_back_of_vertex(const ox_region_view* r, uint side, uint vertex,
                                        float3 direction) {
