@@ -13,6 +13,7 @@
 #define OX_FEATURE_VERTEX 4u     // no crossing
 #define OX_FEATURE_FLAT 8u       // within a facet: of no contact, and no member of a region
 #define OX_FEATURE_REVERSED 16u  // of a vertex: it is behind the face whose normal is turned
+#define OX_FEATURE_NESTED 32u    // of a crossing: within a longer chord of the edge
 
 typedef struct ox_feature {
   ox_f32 position[3];  // in the frame of B
@@ -61,9 +62,9 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_WORDS 13u
 
 #define OX_MEMBER_BEGINS 64u    // it begins a unit
-#define OX_MEMBER_NEAREST 128u  // a unit: the face nearest to it has been proposed
+#define OX_MEMBER_NEAREST 128u  // a unit: the nearest face that it is behind has been asked for
 #define OX_MEMBER_CLEARED 256u  // a unit: it waits for no plane any more
-#define OX_MEMBER_BEND 512u     // a unit: a chord of an edge at which its mesh bends inwards
+#define OX_MEMBER_LATER 512u    // a unit: only where of no other a plane is known
 
 // A place in the table of the faces of a region, one of each facet.
 typedef struct ox_face {

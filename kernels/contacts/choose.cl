@@ -4,7 +4,7 @@
 // A region is whole where neither mesh has a valley in it, told by an edge or by a face that part
 // of the region is past, or where it is all of a part that is inside: then it parts by the least
 // plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
-// the deepest first, and each plane clears what it can.
+// the deepest first, then what is far from those, and each plane clears what it can.
 //
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
@@ -65,9 +65,19 @@ static bool ox_is_of_bend(const ox_region_view* r, uint k) {
   return ox_dot(one, other) > OX_SAME_WAY;
 }
 
-static void ox_mark_bends(const ox_region_view* r, uint units) {
+// Whether a unit is a chord that does not reach the surface of the solid that it is inside.
+static bool ox_is_nested(const ox_region_view* r, uint k) {
+  const uint flags = ox_flags_of(r, k);
+  return (flags & OX_FEATURE_NESTED) != 0u &&
+         (ox_target_of(r, ox_side_of(flags))->flags & OX_MESH_CLOSED) != 0u;
+}
+
+// Marks the units that come only where of no other a plane is known. What is deepest about a bend
+// is of the other mesh.
+static void ox_mark_later(const ox_region_view* r, uint units) {
   for (uint k = OX_ITEM; k < units; k += OX_ITEMS)
-    if (ox_is_of_bend(r, k)) ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_BEND;
+    if (ox_is_nested(r, k) || ox_is_of_bend(r, k))
+      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
   ox_settle();
 }
 
@@ -124,7 +134,7 @@ static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves
       ox_move_past(m, &own, deepest, waiting, moves);
       if (ox_is_first_item()) ox_mark_cleared(r, deepest);
     }
-    // Else it has been cleared.
+    // Else it has been cleared, or comes later.
     if (deepest < waiting || (deepest != OX_NONE && ox_has_moved(moves, own.plane.normal)))
       return unit;
   }
@@ -142,6 +152,9 @@ static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves
 }
 
 // Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
+// The first half of the planes are for the deepest unit that is left, those after them for the one
+// that is farthest from the units that have one: facets all round a seat are as deep, and the first
+// of them lie side by side.
 static uint ox_clear_units(ox_manifold* m, uint waiting) {
   const ox_region_view* r = m->region;
   ox_moves moves;
@@ -149,7 +162,9 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   uint more = 0u;
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
-    const uint taken = ox_take_out(m, ox_deepest_unit(r, waiting), waiting, &moves, &more);
+    const uint next = moves.count < OX_MOST_PLANES / 2u ? ox_deepest_unit(r, waiting)
+                                                        : ox_farthest_unit(r, waiting, &moves);
+    const uint taken = ox_take_out(m, next, waiting, &moves, &more);
     if (ox_is_first_item()) ox_mark_cleared(r, taken);
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);
@@ -157,14 +172,12 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   return moves.count;
 }
 
-// What is deepest about a bend is of the other mesh: chords of one are units only where of no other
-// a plane is known.
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
   const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
-  ox_mark_bends(r, units);
-  if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, 0u)) == 0u)
-    ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_BEND, OX_MEMBER_BEND));
+  ox_mark_later(r, units);
+  if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, 0u)) == 0u)
+    ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, OX_MEMBER_LATER));
 }
 
 // Whether a vertex lies on a face of the other mesh that faces it.

@@ -3,7 +3,8 @@
 //
 // A crossing by which the edge enters and that by which it leaves again are the two ends of one,
 // paired as brackets are: where parts of the other mesh overlap the outermost two bound the stretch
-// that is inside of any. What is open need not be left as often as it is entered.
+// that is inside of any, and those between are nested in it. What is open need not be left as often
+// as it is entered.
 #ifndef ODE_EXT_KERNELS_CONTACTS_CHORD_H
 #define ODE_EXT_KERNELS_CONTACTS_CHORD_H
 
@@ -84,9 +85,11 @@ static inline uint ox_find_entry(const ox_scene* scene, uint leave) {
   return OX_NONE;
 }
 
-// Partners of all crossings of an edge, from the head of their chain on. Returns its new head.
+// Partners of all crossings of an edge, from the head of their chain on, and which are nested; by
+// one work-item, while others may read other bits of the flags. Returns its new head.
 static inline uint ox_find_partners(const ox_scene* scene, uint head) {
   head = ox_sort_chain(scene->features, head);
+  uint left = OX_NONE;  // the last by which it left without having entered
   // The last by which it entered and has not left yet; each has the one before as its partner.
   uint open = OX_NONE;
   for (uint i = head; i != OX_NONE; i = scene->features[i].next) {
@@ -101,16 +104,24 @@ static inline uint ox_find_partners(const ox_scene* scene, uint head) {
     f->partner = entry != OX_NONE ? entry : open;
     if (f->partner == OX_NONE) {
       f->partner = ox_find_end_inside(scene, f);
+      left = i;
       continue;
     }
     if (entry == OX_NONE) open = scene->features[open].partner;
     scene->features[f->partner].partner = i;
+    if (open == OX_NONE) continue;
+    scene->features[f->partner].flags |= OX_FEATURE_NESTED;
+    f->flags |= OX_FEATURE_NESTED;
   }
   while (open != OX_NONE) {
     __global ox_feature* f = scene->features + open;
     open = f->partner;
+    if (open != OX_NONE) f->flags |= OX_FEATURE_NESTED;
     f->partner = ox_find_end_inside(scene, f);
   }
+  // All before is in the chord that begins at the edge's first vertex and ends there.
+  for (uint i = left == OX_NONE ? OX_NONE : head; i != left; i = scene->features[i].next)
+    scene->features[i].flags |= OX_FEATURE_NESTED;
   return head;
 }
 

@@ -200,9 +200,9 @@ static void ox_join_flat_edge(const ox_scene* scene, uint head) {
   }
 }
 
-// out: partners; what follows one another along the curve or along an edge is united. Edges within
-// facets that lead from no vertex inside need not be followed: what hangs together by them alone is
-// within one facet.
+// out: partners, which are nested; what follows one another along the curve or along an edge is
+// united. Edges within facets that lead from no vertex inside need not be followed: what hangs
+// together by them alone is within one facet.
 static void ox_join_features(const ox_scene* scene) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reduce: the candidates of each pair to a few contacts, of which every prefix is a good answer.
-// The deepest of all, then of each region, then of each manifold, then whatever is farthest from
-// those.
+// The deepest of all, of each region, of each manifold, then whatever is left: each time what is
+// farthest from those that are taken.
 //
 // in    candidates, found: those of each pair; pairs, meshes
 // out   contacts, pair_ranges
@@ -12,10 +12,18 @@
 #include "lib/lanes.h"
 
 // What one is taken for, one after the other: as the deepest of its region, or of its manifold, or
-// for its distance. Bits too, of candidates that do not come into question for that any more.
+// for itself. Bits too, of candidates that do not come into question for that any more.
 #define OX_FOR_REGION 0u
 #define OX_FOR_MANIFOLD 1u
-#define OX_FOR_DISTANCE 2u
+#define OX_FOR_ITSELF 2u
+
+// What is looked for among those that come into question for something: the deepest, or what is
+// farthest from those that are taken; of one region, or one manifold of it, or OX_NONE: of any.
+typedef struct {
+  uint what;
+  bool deepest;
+  uint region, manifold;
+} ox_criterion;
 
 // Of candidates that are as good: a total order by what does not depend on the order in which they
 // came.
@@ -66,11 +74,12 @@ static float ox_merge_distance(const ox_scene* scene, uint p, float3 normal) {
   return ox_min(OX_MERGE * ox_min(a->radius, b->radius), across);
 }
 
-// What candidates are to one that is taken: how far from it, those that face the same way across
-// their normal, since one above the other holds no more; of its region; of its manifold, or near
-// it. What is near and faces another way comes into question for its distance, after all else: at
-// the foot of a wall the floor holds what the wall does not. But two that face one another in one
-// place hold nothing: they jam.
+// What candidates are to one that is taken: how far from it; of its region; of its manifold, or
+// near it. The distance of those that face the same way is across their normal, since one above
+// the other holds no more. That of those near it is none, so that of them the deepest is the next.
+// What is near and faces another way comes into question for itself, after all else: at the foot
+// of a wall the floor holds what the wall does not. But two that face one another in one place
+// hold nothing: they jam.
 static void ox_note_taken(const ox_scene* scene, uint pair, const ox_fields* list, uint count,
                           uint taken) {
   const float3 n = ox_vector_of(list, OX_CANDIDATE_NORMAL, taken);
@@ -102,8 +111,9 @@ static void ox_note_taken(const ox_scene* scene, uint pair, const ox_fields* lis
     const ox_ints is_near = off2 <= merge2;
     flags |= of_manifold | is_near ? none + (1 << OX_FOR_MANIFOLD) : none;
     const ox_ints adds_nothing = is_near & (faces_same_way | (cosine < -OX_SAME_WAY));
-    flags |= adds_nothing ? none + (1 << OX_FOR_DISTANCE) : none;
-    const ox_floats distance2 = OX_LESSER(off2, so_far);
+    flags |= adds_nothing ? none + (1 << OX_FOR_ITSELF) : none;
+    const ox_floats apart2 = is_near ? (ox_floats)(0.0f) : off2;
+    const ox_floats distance2 = OX_LESSER(apart2, so_far);
     OX_STORE_FLOATS(list, OX_CANDIDATE_DISTANCE2, block, count, distance2);
     OX_STORE_WORDS(list, OX_CANDIDATE_TAKEN, block, count, flags);
   }
@@ -111,39 +121,46 @@ static void ox_note_taken(const ox_scene* scene, uint pair, const ox_fields* lis
 
 // How good each of a block is for something; less than nothing: it does not come into question, as
 // what is taken never does, since of its own region and manifold it is one, and near itself.
-static void ox_rate(const ox_fields* list, uint count, uint block, uint what, ox_floats* rating) {
+static void ox_rate(const ox_fields* list, uint count, uint block, const ox_criterion* criterion,
+                    ox_floats* rating) {
   const ox_floats none = (ox_floats)(-1.0f);
-  const ox_floats distance2 = OX_LOAD_FLOATS(list, OX_CANDIDATE_DISTANCE2, block);
-  const ox_floats depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
+  const uint by = criterion->deepest ? OX_CANDIDATE_DEPTH : OX_CANDIDATE_DISTANCE2;
+  const ox_floats value = OX_LOAD_FLOATS(list, by, block);
   const ox_ints taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
   const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-  *rating = left > 0 ? (what == OX_FOR_DISTANCE ? distance2 : depth) : none;
-  const ox_ints out = taken & (ox_ints)(1 << what);
+  *rating = left > 0 ? value : none;
+  const ox_ints out = taken & (ox_ints)(1 << criterion->what);
   *rating = out == 0 ? *rating : none;
+  if (criterion->region == OX_NONE) return;
+  const ox_ints region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block);
+  *rating = region == (int)criterion->region ? *rating : none;
+  if (criterion->manifold == OX_NONE) return;
+  const ox_ints manifold = OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block);
+  *rating = manifold == (int)criterion->manifold ? *rating : none;
 }
 
 // Of as many blocks as are looked at at once.
-static void ox_rate_blocks(const ox_fields* list, uint count, uint first, uint what,
-                           ox_floats* ratings) {
+static void ox_rate_blocks(const ox_fields* list, uint count, uint first,
+                           const ox_criterion* criterion, ox_floats* ratings) {
   const uint last = (count - 1u) / OX_VECTOR_WIDTH;
   for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k)
-    ox_rate(list, count, min(first + k, last), what, ratings + k);
+    ox_rate(list, count, min(first + k, last), criterion, ratings + k);
 }
 
-// The best for something; OX_NONE: there is none.
-static uint ox_best_for(const ox_fields* list, uint count, uint what) {
+// The best by a criterion; OX_NONE: there is none.
+static uint ox_best_by(const ox_fields* list, uint count, const ox_criterion* criterion) {
   const uint blocks = (count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
   ox_floats best = (ox_floats)(-1.0f);
   ox_floats rating[OX_BLOCKS_AT_ONCE];
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
-    ox_rate_blocks(list, count, first, what, rating);
+    ox_rate_blocks(list, count, first, criterion, rating);
     for (uint k = 0u; k < OX_BLOCKS_AT_ONCE; ++k) best = OX_GREATER(rating[k], best);
   }
   const float most = ox_greatest_of(&best);
   if (most < 0.0f) return OX_NONE;
   uint best_one = OX_NONE;
   for (uint first = 0u; first < blocks; first += OX_BLOCKS_AT_ONCE) {
-    ox_rate_blocks(list, count, first, what, rating);
+    ox_rate_blocks(list, count, first, criterion, rating);
     for (uint k = 0u; k < OX_BLOCKS_AT_ONCE && first + k < blocks; ++k) {
       const ox_ints is = rating[k] == most;
       for (uint equal = ox_mask_of(&is); equal != 0u; equal &= equal - 1u) {
@@ -153,6 +170,19 @@ static uint ox_best_for(const ox_fields* list, uint count, uint what) {
     }
   }
   return best_one;
+}
+
+// The next for something: of the region or the manifold of what is farthest from those that are
+// taken the deepest. So facets all round a seat are held all round by any prefix, be each a region
+// or a manifold. The first of all has nothing to be far from. OX_NONE: there is none.
+static uint ox_next_for(const ox_fields* list, uint count, uint what, bool first) {
+  ox_criterion criterion = {what, first, OX_NONE, OX_NONE};
+  const uint best = ox_best_by(list, count, &criterion);
+  if (first || what == OX_FOR_ITSELF || best == OX_NONE) return best;
+  criterion.deepest = true;
+  criterion.region = ox_words_of(list, OX_CANDIDATE_REGION)[best];
+  if (what == OX_FOR_MANIFOLD) criterion.manifold = ox_words_of(list, OX_CANDIDATE_MANIFOLD)[best];
+  return ox_best_by(list, count, &criterion);
 }
 
 static void ox_reduce_candidates(const ox_scene* scene) {
@@ -176,8 +206,8 @@ static void ox_reduce_candidates(const ox_scene* scene) {
     uint taken[OX_MAX_CONTACTS];
     uint n = 0u;
     // Where none comes into question for something, none ever will: bits are only added.
-    for (uint what = OX_FOR_REGION; what <= OX_FOR_DISTANCE && n < most;) {
-      const uint next = ox_best_for(&mine, count, what);
+    for (uint what = OX_FOR_REGION; what <= OX_FOR_ITSELF && n < most;) {
+      const uint next = ox_next_for(&mine, count, what, n == 0u);
       if (next == OX_NONE) {
         ++what;
         continue;

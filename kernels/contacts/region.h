@@ -34,6 +34,15 @@ static inline __global const ox_feature* ox_feature_of(const ox_region_view* r, 
   return r->scene->features + ox_words_of(&r->members, OX_MEMBER_FEATURE)[k];
 }
 
+// The first of one so far, or OX_NONE, and of some of a block of the members.
+static inline uint ox_first_of(const ox_region_view* r, uint block, uint lanes, uint best) {
+  for (; lanes != 0u; lanes &= lanes - 1u) {
+    const uint k = OX_VECTOR_WIDTH * block + ox_lowest(lanes);
+    if (best == OX_NONE || ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))) best = k;
+  }
+  return best;
+}
+
 // Of a block of the members those that are vertices of mesh 1 - `side`, all that are no points of
 // mesh `side`: crossings are of both.
 static inline void ox_others_of_block(const ox_region_view* r, uint block, uint side,

@@ -130,10 +130,10 @@ static inline bool ox_unit_stays(const ox_region_view* r, const ox_seed* seed,
   return ox_stays_inside(r, seed->side, ox_middle_of(r, seed->unit), &choice->plane, choice->depth);
 }
 
-// The face of the other mesh that is nearest to a point, where that leaves the mesh by it; else
-// OX_PLANE_NONE, as of a wall that goes on inside the floor it stands on.
+// The nearest of the faces of the other mesh that a point is behind, where it leaves the mesh by
+// that; else OX_PLANE_NONE, as of a wall that goes on inside the floor it stands on.
 static inline ox_plane ox_surface_near(const ox_region_view* r, uint side, float3 p, float bound) {
-  const ox_plane nearest = ox_nearest_face(r, side, p, bound);
+  const ox_plane nearest = ox_nearest_behind(r, side, p, bound);
   if (nearest.kind == OX_PLANE_NONE ||
       !ox_stays_inside(r, side, p, &nearest, ox_plane_depth(&nearest, side, p)))
     return nearest;

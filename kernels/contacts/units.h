@@ -61,11 +61,11 @@ static inline void ox_set_own(const ox_region_view* r, uint k, const ox_plane_ch
   ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = own->depth;
 }
 
-// Has a chord propose the face nearest to its middle too: it may go along below a face that nothing
-// of the region meets. A vertex has the face that its ray leaves by (GRAPP), which serves as well:
-// to ask for the nearest of vertices too made no nut on a bolt less deep, and took a third more for
-// deep tori. But what is inside by no more than A is made larger may have a ray that meets none. Of
-// an open mesh the nearest may be one that the chord is in front of.
+// Has a chord propose the nearest of the faces that its middle is behind too: it may go along below
+// a face that nothing of the region meets. A vertex has the face that its ray leaves by (GRAPP),
+// which serves as well: to ask for the nearest of vertices too made no nut on a bolt less deep, and
+// took a third more for deep tori. But what is inside by no more than A is made larger may have a
+// ray that meets none. Behind an open mesh it is not known how far, so the nearest tells nothing.
 static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);
   ox_settle();
@@ -80,13 +80,17 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   own.depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
   own.judged = own.depth + ox_edge_tie(r, &own.plane);
   const bool is_none = own.plane.kind == OX_PLANE_NONE;
-  const ox_plane nearest = ox_nearest_face(r, side, ox_middle_of(r, k), own.judged);
-  if (!ox_take_better(r, k, &nearest, INFINITY, &own)) {
+  const float3 middle = ox_middle_of(r, k);
+  const float clearance = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  const ox_plane nearest = ox_nearest_behind(r, side, middle, own.judged);
+  bool is_taken = ox_take_better(r, k, &nearest, INFINITY, &own);
+  // From outside of a solid there is a face on its other side that a point is behind.
+  if (is_taken && is_none && own.depth > clearance)
+    is_taken = ox_is_still_inside(r, side, middle, ox_way_of(side, nearest.normal));
+  if (!is_taken) {
     ox_settle();
     // After all that touch.
-    if (is_none)
-      ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] =
-          -2.0f * OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+    if (is_none) ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = -2.0f * clearance;
     ox_settle();
     return;
   }
@@ -96,9 +100,9 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   ox_settle();
 }
 
-// Whether a unit that has been asked for the nearest face is behind none: where an edge leaves a
-// solid and enters it again, as at a corner of its side, rounding may take the stretch between for
-// one that is inside; a vertex may be so by as much as A is made larger.
+// Whether a unit that has been asked for the nearest face is outside: where an edge leaves a solid
+// and enters it again, as at a corner of its side, rounding may take the stretch between for one
+// that is inside; a vertex may be so by as much as A is made larger.
 static inline bool ox_is_outside(const ox_region_view* r, uint k) {
   return ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE &&
          (ox_target_of(r, ox_side_of(ox_flags_of(r, k)))->flags & OX_MESH_CLOSED) != 0u;
@@ -251,11 +255,8 @@ static inline uint ox_find_deepest(const ox_region_view* r, uint waiting, const 
     ox_floats depths;
     ox_find_depths(r, block, plane, &depths);
     const ox_ints is_deepest = depths >= deepest;
-    uint lanes = ox_mask_of(&is_deepest) & ox_present_lanes(waiting, block);
-    for (; lanes != 0u; lanes &= lanes - 1u) {
-      const uint k = OX_VECTOR_WIDTH * block + ox_lowest(lanes);
-      if (best == OX_NONE || ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))) best = k;
-    }
+    const uint lanes = ox_mask_of(&is_deepest) & ox_present_lanes(waiting, block);
+    best = ox_first_of(r, block, lanes, best);
   }
   return best;
 }

@@ -105,6 +105,13 @@ static inline ox_plane ox_nearest_of(const ox_region_view* r, uint side, float3 
                              : ox_plane_of_face(r->scene, r->pair, 1u - side, triangle);
 }
 
+// The nearest of the faces that a point is behind, or in front of by the clearance at most: where
+// parts of a mesh overlap, the nearest of all may be one that a part has inside another.
+static inline ox_plane ox_nearest_behind(const ox_region_view* r, uint side, float3 p,
+                                         float bound) {
+  return ox_nearest_of(r, side, p, bound, OX_CLEARANCE * r->scene->pairs[r->pair].epsilon);
+}
+
 // GRAPP's ray looks along the normal of the vertex alone.
 static inline ox_plane ox_nearest_face(const ox_region_view* r, uint side, float3 p, float bound) {
   return ox_nearest_of(r, side, p, bound, INFINITY);

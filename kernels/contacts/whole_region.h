@@ -210,15 +210,12 @@ static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 n
   const float farthest = ox_farthest_along(r, side, past);
   uint best = OX_NONE;
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block)
-    for (uint far = ox_members_beyond(r, block, side, past, farthest); far != 0u; far &= far - 1u) {
-      const uint k = OX_VECTOR_WIDTH * block + ox_lowest(far);
-      if (best == OX_NONE || ox_is_before(ox_feature_of(r, k), ox_feature_of(r, best))) best = k;
-    }
+    best = ox_first_of(r, block, ox_members_beyond(r, block, side, past, farthest), best);
   return best;
 }
 
-// Where a body goes on beyond its region the faces at features may be far from the nearest: those
-// nearest to vertices inside and to the middles of chords are tried too.
+// Where a body goes on beyond its region the faces at features may be far from the nearest: of
+// those that vertices inside and the middles of chords are behind the nearest are tried too.
 static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
                                   ox_plane_choice* best) {
   if (!best->of_body) return;
@@ -229,7 +226,7 @@ static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
     if ((flags & OX_MEMBER_BEGINS) == 0u ||
         !ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side))
       continue;
-    const ox_plane plane = ox_nearest_face(r, side, ox_middle_of(r, k), bound);
+    const ox_plane plane = ox_nearest_behind(r, side, ox_middle_of(r, k), bound);
     ox_try_whole(r, &plane, search, best);
   }
 }

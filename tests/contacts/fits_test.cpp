@@ -56,6 +56,37 @@ TEST(Fits, APegThatIsTooThickIsPushedBackByWhatItIsTooThick) {
     }
 }
 
+// [rad] The widest part of a circle about z that the first `count` of some contacts face nowhere.
+double widest_gap(const std::vector<Contact>& contacts, std::size_t count) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < std::min(count, contacts.size()); ++i)
+    angles.push_back(std::atan2(contacts[i].normal[1], contacts[i].normal[0]));
+  if (angles.empty()) return 2 * std::numbers::pi;
+  std::sort(angles.begin(), angles.end());
+  double widest = angles.front() + 2 * std::numbers::pi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    widest = std::max(widest, angles[i] - angles[i - 1]);
+  return widest;
+}
+
+// Each facet is a manifold, and all are as deep. The first eight were of facets side by side in
+// nearly all poses, which push it out of place; from 32 sides on the first sixteen too.
+TEST(Fits, RoundPartsAreHeldAllRoundByTheFirstEightContacts) {
+  Random random(6);
+  for (const int sides : {16, 24, 32, 48, 64, 96}) {
+    const TestMesh peg = extruded(polygon(sides, 0.0503), 0.2),
+                   ring = hub(polygon(sides, 0.05), 0.08, 0.04);
+    for (int i = 0; i < 20; ++i) {
+      const TestPose pose = turned({0, 0, 1}, random.uniform(0, 2 * std::numbers::pi),
+                                   {random.uniform(-1e-5, 1e-5), random.uniform(-1e-5, 1e-5), 0});
+      const std::vector<Contact> found = Placed{peg, ring, pose, TestPose{}}.contacts(TestPose{});
+      for (const std::size_t count : {8, 16})
+        EXPECT_LT(widest_gap(found, count), std::numbers::pi)
+            << sides << " sides, pose " << i << ", the first " << count;
+    }
+  }
+}
+
 // A profile of corners (r, z), counter-clockwise, turned about z.
 TestMesh turned_on_lathe(const Profile& profile, int sides) {
   TestMesh mesh;
@@ -91,11 +122,10 @@ TEST(Fits, ABlockThatFillsACavityIsHeldByItsWalls) {
 }
 
 // Where an edge of the one goes out of the other and in again at a corner of that, the stretch
-// between was taken to be inside, and to leave by the far end, in 87 of these 900 poses.
-TEST(Fits, ATaperedTubeInItsSocketIsHardlyEverSentOutAtTheFarEnd) {
+// between was taken to be inside, and to leave by the far end: in every third pose of 96 sides.
+TEST(Fits, ATaperedTubeInItsSocketIsNotSentOutAtTheFarEnd) {
   Random random(5);
-  int sent = 0;
-  for (const int sides : {32, 40, 48}) {
+  for (const int sides : {32, 40, 48, 64, 96}) {
     const TestMesh tube = turned_on_lathe({{0.08, 0}, {0.12, 0}, {0.16, 0.3}, {0.12, 0.3}}, sides);
     const TestMesh socket =
         turned_on_lathe({{0.12, 0}, {0.19, 0}, {0.19, 0.3}, {0.16, 0.3}}, sides);
@@ -107,10 +137,9 @@ TEST(Fits, ATaperedTubeInItsSocketIsHardlyEverSentOutAtTheFarEnd) {
       const std::vector<Contact> found =
           Placed{tube, socket, pose, TestPose{}}.contacts(TestPose{});
       EXPECT_FALSE(found.empty()) << sides << " sides, pose " << i;
-      if (deepest(found) > 0.05) ++sent;
+      EXPECT_LT(deepest(found), 0.01) << sides << " sides, pose " << i;
     }
   }
-  EXPECT_LT(sent, 10);  // of 900
 }
 
 // A block of which four walls and a floor are left; the floor's top is z = 0.

@@ -73,7 +73,8 @@ class ReferenceReduce {
   }
   float nearest2(const Candidate& c) {
     float nearest = std::numeric_limits<float>::infinity();
-    for (const Candidate& t : result_.taken) nearest = std::min(nearest, apart2(c, t));
+    for (const Candidate& t : result_.taken)
+      nearest = std::min(nearest, is_near(c, t) ? 0.0f : apart2(c, t));
     return nearest;
   }
   bool is_near(const Candidate& c, const Candidate& taken) {
@@ -126,18 +127,37 @@ class ReferenceReduce {
     return true;
   }
   bool take_of_new_region() {
-    return take_first([&](const Candidate& c) { return !regions_.contains(c.region); });
+    const auto may = [&](const Candidate& c) { return !regions_.contains(c.region); };
+    if (result_.taken.empty()) return take_first(may);
+    const std::size_t far = farthest_of(may);
+    if (far == left_.size()) return false;
+    const ox_u32 region = left_[far].region;
+    return take_first([&](const Candidate& c) { return may(c) && c.region == region; });
   }
   bool take_of_new_manifold() {
-    return take_first([&](const Candidate& c) {
+    const auto may = [&](const Candidate& c) {
       return !manifolds_.contains({c.region, c.manifold}) && !is_near_any(c);
-    });
+    };
+    const std::size_t far = farthest_of(may);
+    if (far == left_.size()) return false;
+    const std::pair manifold(left_[far].region, left_[far].manifold);
+    return take_first(
+        [&](const Candidate& c) { return may(c) && std::pair(c.region, c.manifold) == manifold; });
   }
   bool take_farthest() {
+    const std::size_t far = farthest_of([&](const Candidate& c) { return !adds_nothing(c); });
+    if (far == left_.size()) return false;
+    take(far);
+    return true;
+  }
+
+  // Of those that `may` what is farthest from all that are taken.
+  template <class May>
+  std::size_t farthest_of(May may) {
     std::size_t best = left_.size();
     float farthest = -1, next = 0;
     for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (adds_nothing(left_[i])) continue;
+      if (!may(left_[i])) continue;
       const float nearest = nearest2(left_[i]);
       if (nearest > farthest) {
         next = farthest;
@@ -147,11 +167,17 @@ class ReferenceReduce {
         next = std::max(next, nearest);
       }
     }
-    if (best == left_.size()) return false;
+    if (best == left_.size()) return best;
+    // Of those that are near what is taken the first is the deepest.
+    if (farthest == 0 && next == 0) {
+      const auto second =
+          std::find_if(left_.begin() + static_cast<std::ptrdiff_t>(best) + 1, left_.end(), may);
+      decided(static_cast<double>(left_[best].depth - second->depth) / size_);
+      return best;
+    }
     decided((std::sqrt(static_cast<double>(farthest)) - std::sqrt(static_cast<double>(next))) /
             size_);
-    take(best);
-    return true;
+    return best;
   }
 
   std::vector<Candidate> left_;

@@ -125,6 +125,20 @@ ox_u32 partner_by_counting(const StepRecords& records, const std::vector<ox_u32>
   return OX_NONE;
 }
 
+// Whether the edge is inside of something on both sides of a crossing: as often as it leaves what
+// it has not entered, it has been so since its first vertex.
+bool nested_by_counting(const StepRecords& records, const std::vector<ox_u32>& in_order,
+                        std::size_t place) {
+  int depth = 0, least = 0, before = 0, after = 0;
+  for (std::size_t k = 0; k < in_order.size(); ++k) {
+    if (k == place) before = depth;
+    depth += (records.features[in_order[k]].flags & OX_FEATURE_LEAVES) != 0 ? -1 : 1;
+    if (k == place) after = depth;
+    least = std::min(least, depth);
+  }
+  return std::min(before, after) - least >= 1;
+}
+
 TEST(Features, ArePartnersAsBracketsAreHoweverOftenAnEdgeCrosses) {
   TestScene scene;
   scene.add_pair(scene.add_mesh(make_soup(150, 21)), {}, scene.add_mesh(make_soup(150, 22)), {});
@@ -138,7 +152,7 @@ TEST(Features, ArePartnersAsBracketsAreHoweverOftenAnEdgeCrosses) {
     else
       of_edges[{f.flags & OX_FEATURE_SIDE, f.source}].push_back(i);
   }
-  std::size_t most = 0, chords = 0, unsure = 0;
+  std::size_t most = 0, chords = 0, unsure = 0, nested = 0;
   for (auto& [edge, all] : of_edges) {
     most = std::max(most, all.size());
     const auto& features = records.features;
@@ -166,11 +180,15 @@ TEST(Features, ArePartnersAsBracketsAreHoweverOftenAnEdgeCrosses) {
         ++chords;
       }
       EXPECT_EQ(f.partner, expected) << "feature " << all[k];
+      const bool is_nested = nested_by_counting(records, all, k);
+      EXPECT_EQ((f.flags & OX_FEATURE_NESTED) != 0, is_nested) << "feature " << all[k];
+      nested += is_nested ? 1 : 0;
     }
   }
   EXPECT_LT(unsure, of_edges.size() / 20);
   EXPECT_GT(most, 10u);
   EXPECT_GT(chords, 500u);
+  EXPECT_GT(nested, 100u);
 }
 
 // Posts upright in one face.

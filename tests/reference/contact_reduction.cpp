@@ -40,26 +40,39 @@ std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
     manifolds.insert(all[i].manifold);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double gap = apart(all[k], all[i]);
-      gaps[k] = std::min(gaps[k], gap);
       const bool adds = !face_same_way(all[k], all[i]) && !face_one_another(all[k], all[i]);
-      if (gap > merge(all[i].normal)) continue;
+      const bool is_apart = gap > merge(all[i].normal);
+      gaps[k] = std::min(gaps[k], is_apart ? gap : 0);
+      if (is_apart) continue;
       is_merged[k] = true;
       if (!adds) is_near[k] = true;
     }
   };
-  for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
-    if (regions.count(all[i].region) == 0) take(i);
-  for (std::size_t i = 0; i < all.size() && kept.size() < max_contacts; ++i)
-    if (manifolds.count(all[i].manifold) == 0) {
-      if (!is_merged[i]) take(i);
-      manifolds.insert(all[i].manifold);
-    }
-  while (kept.size() < max_contacts) {
+  const auto farthest_of = [&](const auto& may) {
     std::size_t farthest = all.size();
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (!is_near[i] && (farthest == all.size() || gaps[i] > gaps[farthest])) farthest = i;
-    if (farthest == all.size()) break;
-    take(farthest);
+      if (may(i) && (farthest == all.size() || gaps[i] > gaps[farthest])) farthest = i;
+    return farthest;
+  };
+  // Of what is of the same as the farthest of those that `may` the deepest: all are sorted.
+  const auto take_deepest_of_farthest = [&](const auto& may, const auto& of) {
+    while (kept.size() < max_contacts) {
+      const std::size_t far = farthest_of(may);
+      if (far == all.size()) break;
+      std::size_t first = 0;
+      while (!may(first) || of(all[first]) != of(all[far])) ++first;
+      take(first);
+    }
+  };
+  take_deepest_of_farthest([&](std::size_t i) { return regions.count(all[i].region) == 0; },
+                           [](const ReferenceContact& c) { return c.region; });
+  take_deepest_of_farthest(
+      [&](std::size_t i) { return manifolds.count(all[i].manifold) == 0 && !is_merged[i]; },
+      [](const ReferenceContact& c) { return c.manifold; });
+  while (kept.size() < max_contacts) {
+    const std::size_t far = farthest_of([&](std::size_t i) { return !is_near[i]; });
+    if (far == all.size()) break;
+    take(far);
   }
   return kept;
 }
