@@ -152,9 +152,9 @@ static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves
 }
 
 // Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
-// The first half of the planes are for the deepest unit that is left, those after them for the one
-// that is farthest from the units that have one: facets all round a seat are as deep, and the first
-// of them lie side by side.
+// The first half of the planes are for the deepest unit that is left, those after them for what is
+// far from the units that have one: facets all round a seat are as deep, and the first of them lie
+// side by side.
 static uint ox_clear_units(ox_manifold* m, uint waiting) {
   const ox_region_view* r = m->region;
   ox_moves moves;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reduce: the candidates of each pair to a few contacts, of which every prefix is a good answer.
-// The deepest of all, of each region, of each manifold, then whatever is left: each time what is
-// farthest from those that are taken.
+// The deepest of all, of each region, of each manifold, of those hardly less deep the farthest from
+// what is taken; then whatever is left, the farthest first.
 //
 // in    candidates, found: those of each pair; pairs, meshes
 // out   contacts, pair_ranges
@@ -22,6 +22,7 @@
 typedef struct {
   uint what;
   bool deepest;
+  float least_depth;  // [m] no less deep than that
   uint region, manifold;
 } ox_criterion;
 
@@ -131,6 +132,8 @@ static void ox_rate(const ox_fields* list, uint count, uint block, const ox_crit
   *rating = left > 0 ? value : none;
   const ox_ints out = taken & (ox_ints)(1 << criterion->what);
   *rating = out == 0 ? *rating : none;
+  const ox_floats depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
+  *rating = depth >= criterion->least_depth ? *rating : none;
   if (criterion->region == OX_NONE) return;
   const ox_ints region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block);
   *rating = region == (int)criterion->region ? *rating : none;
@@ -172,16 +175,21 @@ static uint ox_best_by(const ox_fields* list, uint count, const ox_criterion* cr
   return best_one;
 }
 
-// The next for something: of the region or the manifold of what is farthest from those that are
-// taken the deepest. So facets all round a seat are held all round by any prefix, be each a region
-// or a manifold. The first of all has nothing to be far from. OX_NONE: there is none.
+// The next for something. Of regions and of manifolds: of those that reach at least half as deep as
+// the deepest that is left the one that comes farthest from what is taken, its deepest. So facets
+// all round a seat, which are as deep, are held all round by any prefix, and what only touches does
+// not come before what is to be pushed out. The first of all has nothing to be far from. OX_NONE:
+// there is none.
 static uint ox_next_for(const ox_fields* list, uint count, uint what, bool first) {
-  ox_criterion criterion = {what, first, OX_NONE, OX_NONE};
+  ox_criterion criterion = {what, what != OX_FOR_ITSELF, 0.0f, OX_NONE, OX_NONE};
   const uint best = ox_best_by(list, count, &criterion);
   if (first || what == OX_FOR_ITSELF || best == OX_NONE) return best;
+  criterion.deepest = false;
+  criterion.least_depth = ox_floats_of(list, OX_CANDIDATE_DEPTH)[best] / OX_WORTH;
+  const uint far = ox_best_by(list, count, &criterion);
   criterion.deepest = true;
-  criterion.region = ox_words_of(list, OX_CANDIDATE_REGION)[best];
-  if (what == OX_FOR_MANIFOLD) criterion.manifold = ox_words_of(list, OX_CANDIDATE_MANIFOLD)[best];
+  criterion.region = ox_words_of(list, OX_CANDIDATE_REGION)[far];
+  if (what == OX_FOR_MANIFOLD) criterion.manifold = ox_words_of(list, OX_CANDIDATE_MANIFOLD)[far];
   return ox_best_by(list, count, &criterion);
 }
 

@@ -64,10 +64,10 @@ static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* c
     moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
 }
 
-// How far each unit of a block is from the nearest of those that planes were chosen for, squared;
-// not at all, if it only touches.
+// How far each unit of a block that is so deep is from the nearest of those that planes were chosen
+// for, squared; less than nothing of the others.
 static inline void ox_find_distances2(const ox_region_view* r, uint block, const ox_moves* moves,
-                                      ox_floats* distances2) {
+                                      float least_depth, ox_floats* distances2) {
   ox_unit_block units;
   ox_load_units(r, block, &units);
   *distances2 = (ox_floats)(INFINITY);
@@ -78,19 +78,21 @@ static inline void ox_find_distances2(const ox_region_view* r, uint block, const
     const ox_floats off2 = x * x + y * y + z * z;
     *distances2 = OX_LESSER(off2, *distances2);
   }
-  const float touches = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  const ox_floats least = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
-  *distances2 = least > touches ? *distances2 : (ox_floats)(0.0f);
+  const ox_floats depth = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
+  *distances2 = depth >= least_depth ? *distances2 : (ox_floats)(-1.0f);
 }
 
-// The waiting unit that is farthest from those that planes were chosen for. Of several that are as
-// far, to within the clearance, the first.
+// Of the waiting units that are at least half as deep as the deepest the one that is farthest from
+// those that planes were chosen for. Of several that are as far, to within the clearance, the
+// first.
 static inline uint ox_farthest_unit(const ox_region_view* r, uint waiting, const ox_moves* moves) {
   const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
+  const float deepest = ox_floats_of(&r->members, OX_MEMBER_LEAST)[ox_deepest_unit(r, waiting)];
+  const float least_depth = ox_min(deepest, deepest / OX_WORTH);
   ox_floats most = (ox_floats)(0.0f);
   for (uint block = 0u; block < blocks; ++block) {
     ox_floats distances2;
-    ox_find_distances2(r, block, moves, &distances2);
+    ox_find_distances2(r, block, moves, least_depth, &distances2);
     const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
     most = left > 0 && distances2 > most ? distances2 : most;
   }
@@ -101,7 +103,7 @@ static inline uint ox_farthest_unit(const ox_region_view* r, uint waiting, const
   uint best = OX_NONE;
   for (uint block = 0u; block < blocks; ++block) {
     ox_floats distances2;
-    ox_find_distances2(r, block, moves, &distances2);
+    ox_find_distances2(r, block, moves, least_depth, &distances2);
     const ox_ints is_farthest = distances2 >= farthest2;
     const uint lanes = ox_mask_of(&is_farthest) & ox_present_lanes(waiting, block);
     best = ox_first_of(r, block, lanes, best);

@@ -87,6 +87,36 @@ TEST(Fits, RoundPartsAreHeldAllRoundByTheFirstEightContacts) {
   }
 }
 
+// Where it is turned as far as its hole lets it and farther, all four corners of it are as deep,
+// and each leg is a region that only touches. Taken for how far they are off, legs left one
+// corner.
+TEST(Fits, APinThatIsTurnedInAPlateIsHeldByItsCornersHoweverManyLegsTouch) {
+  const TestMesh floor_with_pin = merged(moved(make_box({2.4, 2.4, 0.4}), {0, 0, -0.2}),
+                                         moved(make_box({0.056, 0.056, 0.3}), {0, 0, 0.1}));
+  Random random(7);
+  for (const int rows : {4, 6, 9}) {
+    TestMesh plate = moved(
+        hub({{-0.03, -0.03}, {0.03, -0.03}, {0.03, 0.03}, {-0.03, 0.03}}, 0.8, 0.04), {0, 0, 0.14});
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < rows; ++j) {
+        const double x = (i - 0.5 * (rows - 1)) / rows, y = (j - 0.5 * (rows - 1)) / rows;
+        if (std::hypot(x, y) < 0.1) continue;
+        plate = merged(plate, moved(make_box({0.03, 0.03, 0.13}), {x, y, 0.065}));
+      }
+    for (int i = 0; i < 40; ++i) {
+      const double turn = random.uniform(0.085, 0.14) * (i % 2 == 0 ? 1 : -1);
+      const Placed placed{plate, floor_with_pin,
+                          turned({0, 0, 1}, turn, {0, 0, -random.uniform(1e-6, 5e-5)}), TestPose{}};
+      const std::vector<Contact> found = placed.contacts(TestPose{});
+      ASSERT_GE(found.size(), 8u);
+      const auto corners = std::count_if(found.begin(), found.begin() + 8, [](const Contact& c) {
+        return std::abs(c.normal.z) < 0.5;
+      });
+      EXPECT_GE(corners, 3) << rows << " rows of legs, pose " << i;
+    }
+  }
+}
+
 // A profile of corners (r, z), counter-clockwise, turned about z.
 TestMesh turned_on_lathe(const Profile& profile, int sides) {
   TestMesh mesh;

@@ -196,16 +196,18 @@ TEST(Reduction, TakesTheDeepestAndThenTheDeepestOfEveryOtherRegionHoweverNear) {
   EXPECT_EQ(reduced({far, third, deepest, second}), words_of_all({deepest, second, third, far}));
 }
 
-// Side by side they would hold a body on one side alone.
-TEST(Reduction, TakesOfRegionsAndOfManifoldsTheFarthestFirst) {
+// Side by side they would hold a body on one side alone. But what only touches does not come before
+// what is to be pushed out.
+TEST(Reduction, TakesOfRegionsAndOfManifoldsThatAreHalfAsDeepTheFarthestFirst) {
   for (const bool regions : {true, false}) {
     const auto facet = [&](double x, float depth, ox_u32 number) {
       return candidate({x, 0, 0}, depth, regions ? number : 0, regions ? 0 : number);
     };
     const Candidate deepest = facet(0, 0.3f, 0), beside = facet(0.5, 0.25f, 1);
-    const Candidate far = facet(1, 0.1f, 2), of_far = facet(0.9, 0.2f, 2);
-    EXPECT_EQ(reduced({far, beside, of_far, deepest}),
-              words_of_all({deepest, of_far, beside, far}));
+    const Candidate far = facet(1, 0.13f, 2), of_far = facet(0.9, 0.2f, 2);
+    const Candidate touches = facet(-2, 0.01f, 3);
+    EXPECT_EQ(reduced({far, beside, touches, of_far, deepest}),
+              words_of_all({deepest, of_far, beside, touches, far}));
   }
 }
 

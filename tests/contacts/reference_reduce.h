@@ -129,7 +129,7 @@ class ReferenceReduce {
   bool take_of_new_region() {
     const auto may = [&](const Candidate& c) { return !regions_.contains(c.region); };
     if (result_.taken.empty()) return take_first(may);
-    const std::size_t far = farthest_of(may);
+    const std::size_t far = farthest_of(may, half_as_deep(may));
     if (far == left_.size()) return false;
     const ox_u32 region = left_[far].region;
     return take_first([&](const Candidate& c) { return may(c) && c.region == region; });
@@ -138,27 +138,36 @@ class ReferenceReduce {
     const auto may = [&](const Candidate& c) {
       return !manifolds_.contains({c.region, c.manifold}) && !is_near_any(c);
     };
-    const std::size_t far = farthest_of(may);
+    const std::size_t far = farthest_of(may, half_as_deep(may));
     if (far == left_.size()) return false;
     const std::pair manifold(left_[far].region, left_[far].manifold);
     return take_first(
         [&](const Candidate& c) { return may(c) && std::pair(c.region, c.manifold) == manifold; });
   }
   bool take_farthest() {
-    const std::size_t far = farthest_of([&](const Candidate& c) { return !adds_nothing(c); });
+    const std::size_t far = farthest_of([&](const Candidate& c) { return !adds_nothing(c); }, 0);
     if (far == left_.size()) return false;
     take(far);
     return true;
   }
 
-  // Of those that `may` what is farthest from all that are taken.
+  // [m] As the deepest of those that `may`.
   template <class May>
-  std::size_t farthest_of(May may) {
+  float half_as_deep(May may) const {
+    const auto deepest = std::find_if(left_.begin(), left_.end(), may);
+    return deepest == left_.end() ? 0 : deepest->depth / 2;
+  }
+
+  // Of those that `may` and are so deep what is farthest from all that are taken.
+  template <class May>
+  std::size_t farthest_of(May may, float least_depth) {
     std::size_t best = left_.size();
     float farthest = -1, next = 0;
     for (std::size_t i = 0; i < left_.size(); ++i) {
       if (!may(left_[i])) continue;
       const float nearest = nearest2(left_[i]);
+      if (least_depth > 0) decided(static_cast<double>(left_[i].depth - least_depth) / size_);
+      if (left_[i].depth < least_depth) continue;
       if (nearest > farthest) {
         next = farthest;
         farthest = nearest;
@@ -169,10 +178,11 @@ class ReferenceReduce {
     }
     if (best == left_.size()) return best;
     // Of those that are near what is taken the first is the deepest.
-    if (farthest == 0 && next == 0) {
+    if (farthest == 0) {
       const auto second =
           std::find_if(left_.begin() + static_cast<std::ptrdiff_t>(best) + 1, left_.end(), may);
-      decided(static_cast<double>(left_[best].depth - second->depth) / size_);
+      if (second != left_.end())
+        decided(static_cast<double>(left_[best].depth - second->depth) / size_);
       return best;
     }
     decided((std::sqrt(static_cast<double>(farthest)) - std::sqrt(static_cast<double>(next))) /

@@ -54,12 +54,16 @@ std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
       if (may(i) && (farthest == all.size() || gaps[i] > gaps[farthest])) farthest = i;
     return farthest;
   };
-  // Of what is of the same as the farthest of those that `may` the deepest: all are sorted.
+  // All are sorted, so the first that `may` is the deepest. Of those half as deep the farthest says
+  // of what the deepest is taken.
   const auto take_deepest_of_farthest = [&](const auto& may, const auto& of) {
     while (kept.size() < max_contacts) {
-      const std::size_t far = farthest_of(may);
-      if (far == all.size()) break;
-      std::size_t first = 0;
+      std::size_t deepest = 0;
+      while (deepest < all.size() && !may(deepest)) ++deepest;
+      if (deepest == all.size()) break;
+      const std::size_t far = farthest_of(
+          [&](std::size_t i) { return may(i) && all[i].depth >= all[deepest].depth / 2; });
+      std::size_t first = deepest;
       while (!may(first) || of(all[first]) != of(all[far])) ++first;
       take(first);
     }

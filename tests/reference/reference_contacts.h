@@ -43,9 +43,10 @@ ReferenceContacts reference_contacts(const ContactMesh& a, const TestPose& pa, c
 std::vector<ReferenceContact> contacts_of(const ContactPair& pair, const ContactFeatures& features,
                                           const std::vector<ContactManifold>& manifolds);
 
-// The deepest of all, of each region, of each manifold, then what is left, each time what is
-// farthest from those that are kept; of contacts in order. Those closer to one that is kept than
-// the distance for its normal hold no better [m].
+// The deepest of all, of each region, of each manifold, each time of those at least half as deep as
+// the deepest that is left what is farthest from those that are kept; then whatever is left, the
+// farthest first; of contacts in order. Those closer to one that is kept than the distance for its
+// normal hold no better [m].
 using MergeDistance = std::function<double(const Point& normal)>;
 std::vector<ReferenceContact> reduced(const std::vector<ReferenceContact>& all,
                                       std::size_t max_contacts, const MergeDistance& merge);
