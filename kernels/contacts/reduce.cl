@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reduce: the candidates of each pair to a few contacts, of which every prefix is a good answer.
-// The deepest of all, of each region, of each manifold, of those hardly less deep the farthest from
-// what is taken; then whatever is left, the farthest first.
+// The deepest of all, of each region, of each manifold; each time what is farthest from those
+// taken, of those at least half as deep as the deepest left. Then whatever is left, the farthest
+// first.
 //
 // in    candidates, found: those of each pair; pairs, meshes
 // out   contacts, pair_ranges

@@ -69,8 +69,8 @@ double widest_gap(const std::vector<Contact>& contacts, std::size_t count) {
   return widest;
 }
 
-// Each facet is a manifold, and all are as deep. The first eight were of facets side by side in
-// nearly all poses, which push it out of place; from 32 sides on the first sixteen too.
+// Each facet is a manifold or a region, and all are as deep. The first eight were of facets side
+// by side in nearly all poses, which push it out of place; from 32 sides on the first sixteen too.
 TEST(Fits, RoundPartsAreHeldAllRoundByTheFirstEightContacts) {
   Random random(6);
   for (const int sides : {16, 24, 32, 48, 64, 96}) {
