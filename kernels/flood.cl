@@ -324,11 +324,12 @@ static bool ox_flood_ends(ox_flood_state* s, uint edge, uint* next) {
   return true;
 }
 
-// Whether a vertex is so near the surface that rounding may say on which side.
+// Whether a vertex is so near the surface that rounding may say on which side: no farther than what
+// a plane clears may be above it, so that where all of a part are near, the face clears it.
 static bool ox_is_near_surface(const ox_flood_state* s, uint vertex) {
   const uint side = s->pair_side & 1u;
   const float3 p = ox_place(s->pair, side, vload3(0, s->scene->vertices[vertex].position));
-  const float near = 4.0f * OX_MARGIN * s->pair->epsilon;
+  const float near = OX_CLEARANCE * s->pair->epsilon;
   return ox_closest_triangle(&s->scene->surfaces, s->target, ox_base(s->pair, 1u - side), p, near,
                              0.0f) != OX_NONE;
 }

@@ -4,7 +4,7 @@
 // A region is whole where neither mesh has a valley in it, told by an edge or by a face that part
 // of the region is past, or where it is all of a part that is inside: then it parts by the least
 // plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
-// the deepest first, then what is far from those, and each plane clears what it can.
+// the deepest first, then what is far from that, and each plane clears what it can.
 //
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
@@ -14,6 +14,7 @@
 // may overflow: none; a region makes two candidates for each feature at most
 #include "contacts/own_faces.h"
 #include "contacts/sheet.h"
+#include "contacts/unit_order.h"
 
 // A unit that needs no plane any more.
 static void ox_mark_cleared(const ox_region_view* r, uint k) {
@@ -99,7 +100,7 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
   for (uint i = 0u; i < before->count; ++i)
     again = again || ox_is_same_plane(before->chosen + i, &choice->plane);
   if (!again) return;
-  const uint deepest = ox_find_deepest(r, waiting, &choice->plane);
+  const uint deepest = ox_deepest_below_plane(r, waiting, &choice->plane);
   if (deepest == OX_NONE || deepest == *unit) return;
   ox_joint_choice all;
   const ox_plane_choice other = ox_choose_for(r, deepest, before, &all);
@@ -152,9 +153,6 @@ static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves
 }
 
 // Clears units, the first of the members, of which ever fewer wait; returns how many moves it took.
-// The first half of the planes are for the deepest unit that is left, those after them for what is
-// far from the units that have one: facets all round a seat are as deep, and the first of them lie
-// side by side.
 static uint ox_clear_units(ox_manifold* m, uint waiting) {
   const ox_region_view* r = m->region;
   ox_moves moves;
@@ -162,8 +160,7 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   uint more = 0u;
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
-    const uint next = moves.count < OX_MOST_PLANES / 2u ? ox_deepest_unit(r, waiting)
-                                                        : ox_farthest_unit(r, waiting, &moves);
+    const uint next = ox_next_unit(r, waiting, &moves);
     const uint taken = ox_take_out(m, next, waiting, &moves, &more);
     if (ox_is_first_item()) ox_mark_cleared(r, taken);
     ox_settle();

@@ -56,16 +56,18 @@ static inline bool ox_edge_comes_back(const ox_region_view* r, uint side,
   return ox_stays_inside(r, side, asked, plane, depth);
 }
 
-// What of mesh `side` is around a vertex at such a face. Where it lands is behind that in the
-// vertex's own mesh, which has its middle against the normal there.
+// What of mesh `side` is around a vertex at such a face: where the vertex stays inside, as a tip in
+// a floor that is moved along one of its flanks, that is around it still. Else what lands is behind
+// the face in the vertex's own mesh, which has its middle against the normal there.
 static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
                                         __global const ox_feature* f, float3 back,
                                         const ox_plane* plane, float depth) {
+  const float3 p = vload3(0, f->position);
+  if (ox_stays_inside(r, 1u - side, p, plane, depth)) return true;
   const float3 direction = ox_way_of(side, plane->normal);
   const float3 normal = -ox_inward_at(r, f);
   const float cosine = ox_max(ox_dot(normal, back), -OX_LOOKS_BACK);
-  const float3 asked =
-      vload3(0, f->position) - ox_way_back(back, direction, depth) / cosine * normal;
+  const float3 asked = p - ox_way_back(back, direction, depth) / cosine * normal;
   return ox_stays_inside(r, 1u - side, asked, plane, depth);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planes by which a region in units is cleared one after the other, what one more costs beside
-// them, and what is far from all. Device only.
+// The planes by which a region in units is cleared one after the other, and what one more costs
+// beside them. Device only.
 #ifndef ODE_EXT_KERNELS_CONTACTS_UNIT_MOVES_H
 #define ODE_EXT_KERNELS_CONTACTS_UNIT_MOVES_H
 
@@ -62,54 +62,6 @@ static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* c
   moves->far[last] = moves->along[last] = far;
   for (uint i = 0u; i < last; ++i)
     moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
-}
-
-// How far each unit of a block that is so deep is from the nearest of those that planes were chosen
-// for, squared; less than nothing of the others.
-static inline void ox_find_distances2(const ox_region_view* r, uint block, const ox_moves* moves,
-                                      float least_depth, ox_floats* distances2) {
-  ox_unit_block units;
-  ox_load_units(r, block, &units);
-  *distances2 = (ox_floats)(INFINITY);
-  for (uint i = 0u; i < moves->count; ++i) {
-    const ox_floats x = 0.5f * (units.position[0] + units.end[0]) - moves->at[i].x;
-    const ox_floats y = 0.5f * (units.position[1] + units.end[1]) - moves->at[i].y;
-    const ox_floats z = 0.5f * (units.position[2] + units.end[2]) - moves->at[i].z;
-    const ox_floats off2 = x * x + y * y + z * z;
-    *distances2 = OX_LESSER(off2, *distances2);
-  }
-  const ox_floats depth = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
-  *distances2 = depth >= least_depth ? *distances2 : (ox_floats)(-1.0f);
-}
-
-// Of the waiting units that are at least half as deep as the deepest the one that is farthest from
-// those that planes were chosen for. Of several that are as far, to within the clearance, the
-// first.
-static inline uint ox_farthest_unit(const ox_region_view* r, uint waiting, const ox_moves* moves) {
-  const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
-  const float deepest = ox_floats_of(&r->members, OX_MEMBER_LEAST)[ox_deepest_unit(r, waiting)];
-  const float least_depth = ox_min(deepest, deepest / OX_WORTH);
-  ox_floats most = (ox_floats)(0.0f);
-  for (uint block = 0u; block < blocks; ++block) {
-    ox_floats distances2;
-    ox_find_distances2(r, block, moves, least_depth, &distances2);
-    const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-    most = left > 0 && distances2 > most ? distances2 : most;
-  }
-  const float clearance = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  const float greatest2 = ox_greatest_of(&most);
-  const float farthest = ox_max(sqrt(greatest2) - clearance, 0.0f);
-  const float farthest2 = ox_min(farthest * farthest, greatest2);
-  uint best = OX_NONE;
-  for (uint block = 0u; block < blocks; ++block) {
-    ox_floats distances2;
-    ox_find_distances2(r, block, moves, least_depth, &distances2);
-    const ox_ints is_farthest = distances2 >= farthest2;
-    const uint lanes = ox_mask_of(&is_farthest) & ox_present_lanes(waiting, block);
-    best = ox_first_of(r, block, lanes, best);
-  }
-  if ((ox_flags_of(r, best) & OX_MEMBER_NEAREST) == 0u) ox_propose_nearest(r, best);
-  return best;
 }
 
 // The plane of the face that lies on that of a move; OX_PLANE_NONE: there is none.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The units of a region that is not whole: the planes that they propose, and which is the deepest.
-// Device only.
+// The units of a region that is not whole, and the planes that they propose. Device only.
 #ifndef ODE_EXT_KERNELS_CONTACTS_UNITS_H
 #define ODE_EXT_KERNELS_CONTACTS_UNITS_H
 
@@ -213,63 +212,6 @@ static inline ox_ints ox_ends_below(const ox_unit_block* units, const ox_plane* 
   *one = plane->level[side] + (side == 0u ? -p : p);
   *other = plane->level[side] + (side == 0u ? -q : q);
   return (*one + *other >= past + past) & (side == 0u ? ~units->is_b : units->is_b);
-}
-
-// Of a block of waiting units how deep each is below a plane, where that clears it and it proposes
-// none that is less deep, by more than is not known, else -INFINITY; of no plane how deep below
-// what it has proposed so far.
-static inline void ox_find_depths(const ox_region_view* r, uint block, const ox_plane* plane,
-                                  ox_floats* depths) {
-  const ox_floats least = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
-  *depths = plane == 0 ? least : (ox_floats)(-INFINITY);
-  if (plane == 0) return;
-  const float above = -OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  ox_unit_block units;
-  ox_load_units(r, block, &units);
-  for (uint side = 0u; side < 2u; ++side) {
-    if (!ox_clears_side(plane, side)) continue;
-    ox_floats one, other;
-    const ox_ints clears = ox_ends_below(&units, plane, side, above, &one, &other);
-    const ox_floats depth = OX_GREATER(one, other);
-    const ox_ints is_less = clears & (depth + above <= least);
-    *depths = is_less != 0 ? depth : *depths;
-  }
-}
-
-// Of the waiting units the deepest, by ox_find_depths; OX_NONE: there is none. Of several that are
-// as deep, to within the clearance, the first: it is not for rounding to say which that is.
-static inline uint ox_find_deepest(const ox_region_view* r, uint waiting, const ox_plane* plane) {
-  const uint blocks = (waiting + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
-  ox_floats most = (ox_floats)(-INFINITY);
-  for (uint block = 0u; block < blocks; ++block) {
-    ox_floats depths;
-    ox_find_depths(r, block, plane, &depths);
-    const ox_ints left = (int)(waiting - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-    most = left > 0 && depths > most ? depths : most;
-  }
-  const float greatest = ox_greatest_of(&most);
-  if (greatest == -INFINITY) return OX_NONE;
-  const float deepest = greatest - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  uint best = OX_NONE;
-  for (uint block = 0u; block < blocks; ++block) {
-    ox_floats depths;
-    ox_find_depths(r, block, plane, &depths);
-    const ox_ints is_deepest = depths >= deepest;
-    const uint lanes = ox_mask_of(&is_deepest) & ox_present_lanes(waiting, block);
-    best = ox_first_of(r, block, lanes, best);
-  }
-  return best;
-}
-
-// The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper,
-// but for the tie, so only those need it that are the deepest without.
-static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
-  uint k = ox_find_deepest(r, waiting, 0);
-  while ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) == 0u) {
-    ox_propose_nearest(r, k);
-    k = ox_find_deepest(r, waiting, 0);
-  }
-  return k;
 }
 
 #endif

@@ -57,9 +57,10 @@ static inline void ox_vertices_from(__global const ox_meshlet* m, float3 base, f
 }
 
 // From a point to the triangles of a block of a meshlet, and to their planes, squared; infinite
-// where one is of no area, and where the point is farther in front of one than `before2`, squared.
+// where one is of no area, where the point is farther in front of one than `before2`, squared, and
+// where it is farther from the plane than `near2`: no triangle is nearer than its plane.
 static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_vertices* seen,
-                                 uint block, float before2, ox_floats* distance2,
+                                 uint block, float before2, float near2, ox_floats* distance2,
                                  ox_floats* height2) {
   ox_points corner[3];
   for (uint k = 0u; k < 3u; ++k) ox_corners_of(m, seen, block, k, corner + k);
@@ -72,13 +73,16 @@ static inline void ox_distances2(__global const ox_meshlet* m, const ox_moved_ve
   ox_floats area2, height;
   ox_dot_lanes(&normal, &normal, &area2);
   ox_dot_lanes(&normal, corner, &height);
+  *height2 = height * height / area2;
   *distance2 = (ox_floats)(INFINITY);
-  ox_ints within = area2 > 0.0f;
+  const ox_ints counts =
+      (area2 > 0.0f) & ((height > 0.0f) | (*height2 <= before2)) & (*height2 <= near2);
+  if (ox_mask_of(&counts) == 0u) return;
+  ox_ints within = counts;
   for (uint k = 0u; k < 3u; ++k)
     ox_note_side(corner + k, corner + (k + 1u) % 3u, &normal, distance2, &within);
-  *height2 = height * height / area2;
-  *distance2 = within ? *height2 : *distance2;
-  const ox_ints counts = (area2 > 0.0f) & ((height > 0.0f) | (*height2 <= before2));
+  // Rounding may say otherwise of a needle; and the order in which they are met is not to matter.
+  *distance2 = within ? *height2 : OX_GREATER(*distance2, *height2);
   *distance2 = counts ? *distance2 : (ox_floats)(INFINITY);
 }
 
@@ -130,7 +134,7 @@ static inline void ox_walk_near(const ox_surfaces* surfaces, __global const ox_m
       ox_vertices_from(m, base, p, scale, &seen);
       for (uint block = 0u; block < OX_BLOCKS; ++block) {
         ox_floats distance2, height2;
-        ox_distances2(m, &seen, block, closest->before2, &distance2, &height2);
+        ox_distances2(m, &seen, block, closest->before2, closest->near2, &distance2, &height2);
         const ox_ints is_near = distance2 <= closest->near2;
         uint near = ox_mask_of(&is_near) & ox_lanes_with_area(m, block);
         if (near == 0u) continue;

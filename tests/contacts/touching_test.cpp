@@ -163,5 +163,28 @@ TEST(Touching, BoxesInAGrooveAreNotHeldBackWhereItIsCut) {
   EXPECT_GT(contacts, 300u);
 }
 
+// A body of 0.4 to 5 mm on a block of 100 m, of which coordinates are known to 0.2 mm: where all of
+// it was near the surface, and rounding took its first vertex for one inside, the block's top was
+// no plane for what was farther above it than a plane clears, and an edge of the block many metres
+// away was: of 1800 bodies of 1.2 mm 32 had a contact that was deeper than 1 mm, up to 37 m.
+TEST(Touching, BodiesOfMillimetresOnABlockOf100MetresAreNoDeeperThanTheyAreLarge) {
+  const TestMesh block = make_cube(100);
+  Random random(100);
+  for (const double size : {0.4e-3, 0.8e-3, 1.2e-3, 2e-3, 3.2e-3, 4.8e-3})
+    for (const TestMesh& body :
+         {make_torus(0.36 * size, 0.12 * size, 16, 8), make_box({size, 0.7 * size, 0.4 * size})})
+      for (int i = 0; i < 300; ++i) {
+        TestPose pose = random.pose(0);
+        double lowest = 0;
+        for (int k = 0; k < body.vertex_count(); ++k)
+          lowest = std::min(lowest, rotate(pose, body.vertex(static_cast<std::size_t>(k)))[2]);
+        pose.position = {random.uniform(-40, 40), random.uniform(-40, 40),
+                         random.uniform(-0.1e-3, 0.4e-3) - lowest};
+        for (const Placed& placed :
+             {Placed{body, block, pose, at(0, 0, -50)}, Placed{block, body, at(0, 0, -50), pose}})
+          EXPECT_LT(deepest(placed.contacts(TestPose{})), 1e-3) << size << ", pose " << i;
+      }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
