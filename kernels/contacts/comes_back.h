@@ -103,7 +103,7 @@ static inline bool ox_is_doubted(float of_body, float depth, float limit) {
 // whether they come back.
 static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
                                     float limit) {
-  const bool is_asked = plane->kind != OX_PLANE_EDGES && r->count <= OX_MANY;
+  const bool is_asked = r->count <= OX_MANY;
   float beyond = 0.0f;
   for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
     if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;

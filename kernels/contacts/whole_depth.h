@@ -143,8 +143,10 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   if (beyond + tie > best->judged) return false;
   choice.judged = ox_max(choice.depth, beyond) + tie;
   choice.of_body = beyond > choice.depth;
-  // A pair of edges holds where it is; its contact says how far all of the body has to go.
-  if (plane->kind == OX_PLANE_EDGES) choice.depth = ox_max(choice.depth, beyond - ox_body_tie(r));
+  // A pair of edges holds where it is; its contact says how far all of the body has to go, if it
+  // does.
+  if (plane->kind == OX_PLANE_EDGES && beyond != ox_doubted(choice.depth))
+    choice.depth = ox_max(choice.depth, beyond - ox_body_tie(r));
   if (ox_is_better_choice(&choice, best)) *best = choice;
   return false;
 }

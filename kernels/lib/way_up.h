@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep vertices of a solid are behind an open mesh, along the mean normal of the faces that its
-// edges cross. Device only.
+// The way out from behind an open mesh: along the mean normal of the faces that edges of a solid
+// cross. Device only.
 #ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
 #define ODE_EXT_KERNELS_LIB_WAY_UP_H
 
@@ -42,13 +42,12 @@ static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
   return way;
 }
 
-// [m] how deep a vertex is below the highest crossing, and how far up its ray goes in its own mesh.
-static inline float ox_depth_below(const ox_scene* scene, uint index, const ox_way_up* way) {
-  return way->height - ox_dot(vload3(0, scene->vertices[index].position), way->up);
-}
-static inline float ox_rise_of(const ox_scene* scene, uint index, const ox_way_up* way) {
+// Whether the ray of a vertex, which goes as far as its own mesh is thick, gets above the highest
+// crossing. Of one that never leaves, as parts of a mesh overlap, it is not known.
+static inline bool ox_ray_gets_above(const ox_scene* scene, uint index, const ox_way_up* way) {
   __global const ox_vertex* vertex = scene->vertices + index;
-  return vertex->exit * ox_dot(vload3(0, vertex->direction), way->up);
+  const float rise = vertex->exit * ox_dot(vload3(0, vertex->direction), way->up);
+  return rise < INFINITY && rise >= way->height - ox_dot(vload3(0, vertex->position), way->up);
 }
 
 #endif

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "contacts/placed.h"
@@ -48,6 +49,70 @@ TEST(OpenGround, HoldsPlanksThatWentInByTheirEndsAsDeepAsTheyAre) {
               << cells << " cells, " << angle << " radians";
           for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.99);
         }
+}
+
+// The rays of the vertices round the end of a post are as long as the post is wide. That in the
+// middle of the end, which bounds nothing and has no contact, has a ray as long as the post; it
+// said how deep rays tell of all. So from where the post was in by its width it had contacts of no
+// depth, or sideways.
+TEST(OpenGround, HoldsPostsAsDeepAsTheyAreWhateverTheirEndsAreCutInto) {
+  Random random(34);
+  const TestMesh ground = make_sheet(4, 40);
+  for (const TestMesh& post : {make_box({0.02, 0.02, 0.2}), make_box({0.02, 0.02, 0.2}, 2, 2, 1),
+                               make_cylinder(0.01, 0.2, 6), make_cylinder(0.01, 0.2, 24)})
+    for (const double depth : {0.005, 0.015, 0.019, 0.03, 0.06})
+      for (int i = 0; i < 8; ++i) {
+        const TestPose pose = sunk_by(depth, post, leaning(random, random.uniform(0, 0.3)));
+        const Placed placed{post, ground, pose, TestPose{}};
+        const TestPose frame = i % 2 == 0 ? TestPose{} : random.pose(2);
+        const std::vector<Contact> found = placed.contacts(frame);
+        EXPECT_NEAR(deepest(found), depth, 1e-3 * depth + placed.tolerance(frame))
+            << post.triangle_count() << " triangles";
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.99);
+      }
+}
+
+// A pyramid on a block of four sides that begins behind 0, along a direction.
+TestMesh arm_of_caltrop(const Point& direction) {
+  const Point along = unit(direction);
+  const Point up = std::abs(along[2]) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0};
+  const Point a = unit(cross(up, along)), b = cross(along, a);
+  TestMesh arm;
+  const auto add = [&](double x, double y, double z) {
+    const Point p = x * a + y * b + z * along;
+    for (const double v : p) arm.vertices.push_back(static_cast<float>(v));
+  };
+  add(0, 0, -0.02);
+  add(0, 0, 0.15);
+  for (const double z : {-0.02, 0.01})
+    for (const auto& [x, y] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}})
+      add(0.046 * x, 0.046 * y, z);
+  for (unsigned i = 0; i < 4; ++i) {
+    const unsigned j = (i + 1) % 4, low = 2, high = 6;
+    arm.indices.insert(arm.indices.end(), {0, low + j, low + i, low + i, low + j, high + j, low + i,
+                                           high + j, high + i, high + i, high + j, 1});
+  }
+  return arm;
+}
+
+// Where parts of a body overlap, it may be that the ray of a vertex is not known to leave: three
+// arms or four of a caltrop were 0 mm deep on open ground.
+TEST(OpenGround, HoldsCaltropsByTheirTips) {
+  TestMesh caltrop = arm_of_caltrop({0, 0, -1});
+  Random random(35);
+  for (const Point& arm :
+       {Point{0.943, 0, 0.333}, {-0.4714, 0.8165, 0.333}, {-0.4714, -0.8165, 0.333}}) {
+    caltrop = merged(caltrop, arm_of_caltrop(arm));
+    for (const double depth : {0.0005, 0.005, 0.02})
+      for (int i = 0; i < 8; ++i) {
+        const TestPose pose = sunk_by(depth, caltrop, leaning(random, i < 2 ? 0 : 0.05));
+        const Placed placed{caltrop, make_sheet(4, 40), pose, TestPose{}};
+        const std::vector<Contact> found = placed.contacts(TestPose{});
+        EXPECT_NEAR(deepest(found), depth, 1e-3 * depth + placed.tolerance(TestPose{}))
+            << caltrop.triangle_count() << " triangles";
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.99);
+      }
+  }
 }
 
 // The shortest way to where nothing crosses is down.

@@ -56,6 +56,38 @@ TEST(Sharp, TipsInAFloorGoBackUpHoweverAcuteTheyAre) {
     }
 }
 
+// What goes on beyond a pair of edges is all of the body, unless that is not seen to come back: of
+// two pyramids in one mesh, an edge of which lay 0.6 mm deep on the ridge of a blade, the pair of
+// edges said 97 mm.
+TEST(Sharp, EdgesOfTwoPyramidsOnABladeAreAsDeepAsTheyAreInIt) {
+  const double height = 0.2;
+  const TestPose down = turned({1, 0, 0}, std::numbers::pi);
+  TestMesh pyramid = make_cone(height * std::tan(0.25), height, 4);
+  for (std::size_t k = 0; k < pyramid.vertices.size(); k += 3) {
+    const Point p = rotate(down, pyramid.vertex(k / 3));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      pyramid.vertices[k + axis] = static_cast<float>(p[axis]);
+  }
+  const TestMesh both =
+      merged(moved(pyramid, {-0.1, 0, 0.5 * height}), moved(pyramid, {0.1, 0, 0.5 * height}));
+  const double wide = 0.2 * std::tan(0.26);
+  const TestMesh blade = extruded({{0, 0}, {-wide, -0.2}, {wide, -0.2}}, 0.6);
+  Random random(8);
+  for (int i = 0; i < 40; ++i) {
+    const double lower = random.uniform(-0.3e-3, 0.3e-3);
+    const TestPose pose{
+        {-0.0449749632, 0.100808265 + random.uniform(-0.1, 0.1), 0.127321666 + lower},
+        {-0.86004562, -0.153748641, 0.486500655, -0.482721167, 0.553993316, -0.678285841,
+         -0.165232585, -0.81820093, -0.550677248}};
+    const Placed placed{both, blade, pose, turned({1, 0, 0}, std::numbers::pi / 2)};
+    const std::vector<Contact> found = placed.contacts(TestPose{});
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(deepest(found), 1e-3);
+    const Contact& first = found.front();
+    EXPECT_FALSE(placed.intersect_after(first, first.depth + placed.tolerance(TestPose{})));
+  }
+}
+
 // Along a cylinder that lies below, tip over tip of the blade's ends.
 TEST(Sharp, BladesOnACylinderArePartedFromItByTheirDeepestContact) {
   const double deep = 0.004, radius = 0.1;
