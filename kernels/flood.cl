@@ -126,21 +126,30 @@ static bool ox_is_chunk_queued(const ox_flood_state* s, uint i) {
   return i < s->table.queued && (ox_queue(s->scene, &s->table)[i] & OX_QUEUE_CHUNK) != 0u;
 }
 
-// Whether what of a solid is behind an open target is so however deep it is. The rays of its
-// vertices go as far as it is thick; of a plank or a post that went in by its end they do not get
-// back to the target. Not so of what no crossing tells, nor of a finely cut solid that came from
-// behind, all of which would be as deep as it is large: each vertex takes a walk.
+// How deep what of a solid is behind an open target is by the rays of its vertices, which go as far
+// as it is thick [m]. What is deeper, as of a plank or a post that went in by its end, is behind it
+// all the same. What bounds nothing, as a vertex in the midst of a flat end, tells nothing of the
+// rest. Not so of what no crossing tells, nor of a finely cut solid that came from behind, all of
+// which would be as deep as it is large: each vertex takes a walk.
 #define OX_MANY_BEHIND 64u
-static bool ox_tells_however_deep(const ox_flood_state* s, const ox_way_up* way) {
+static float ox_depth_of_rays(const ox_flood_state* s, const ox_way_up* way) {
   const bool is_from_behind = 2u * s->crossed > OX_CHUNK_VERTICES * s->source->chunk_count;
-  return way->height != -INFINITY && !(s->crossed > OX_MANY_BEHIND && is_from_behind);
+  if (way->height == -INFINITY || (s->crossed > OX_MANY_BEHIND && is_from_behind)) return INFINITY;
+  float deepest = 0.0f;
+  for (uint i = OX_ITEM; i < s->crossed; i += OX_ITEMS) {
+    const uint vertex = ox_queued(s, i);
+    if (ox_ray_gets_above(s->scene, vertex, way) &&
+        !ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex))
+      deepest = ox_max(deepest, ox_depth_below(s->scene, vertex, way));
+  }
+  return -ox_least_of_items(-deepest);
 }
 
 // What hangs together lies in the queue one after the other; all of it names the first of it that
 // bounds anything.
 static void ox_cast_queue(const ox_flood_state* s) {
   const ox_way_up way = ox_find_way_up(s->scene, s->pair_side);
-  const bool tells = ox_tells_however_deep(s, &way);
+  const float known = ox_depth_of_rays(s, &way);
   uint last = OX_NONE;  // the first of what the block before ended in
   for (uint begin = 0u; begin < s->table.queued; begin += OX_ITEMS) {
     const uint i = begin + OX_ITEM;
@@ -148,8 +157,7 @@ static void ox_cast_queue(const ox_flood_state* s) {
     const uint vertex = is_queued ? ox_queued(s, i) : OX_NONE;
     if (ox_is_open(s)) {
       const bool lies = i >= s->crossed;
-      const bool is_deep =
-          is_queued && !lies && tells && !ox_ray_gets_above(s->scene, vertex, &way);
+      const bool is_deep = is_queued && !lies && ox_depth_below(s->scene, vertex, &way) > known;
       const bool casts =
           is_queued && (lies || is_deep ? ox_casts_ray(s->scene->vertices + vertex)
                                         : ox_may_cast(s->scene, s->pair_side, vertex));

@@ -42,12 +42,17 @@ static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
   return way;
 }
 
+// [m] how deep a vertex is below the highest crossing.
+static inline float ox_depth_below(const ox_scene* scene, uint index, const ox_way_up* way) {
+  return way->height - ox_dot(vload3(0, scene->vertices[index].position), way->up);
+}
+
 // Whether the ray of a vertex, which goes as far as its own mesh is thick, gets above the highest
 // crossing. Of one that never leaves, as parts of a mesh overlap, it is not known.
 static inline bool ox_ray_gets_above(const ox_scene* scene, uint index, const ox_way_up* way) {
   __global const ox_vertex* vertex = scene->vertices + index;
   const float rise = vertex->exit * ox_dot(vload3(0, vertex->direction), way->up);
-  return rise < INFINITY && rise >= way->height - ox_dot(vload3(0, vertex->position), way->up);
+  return rise < INFINITY && rise >= ox_depth_below(scene, index, way);
 }
 
 #endif
