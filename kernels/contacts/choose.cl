@@ -4,7 +4,7 @@
 // A region is whole where neither mesh has a valley in it, told by an edge or by a face that part
 // of the region is past, or where it is all of a part that is inside: then it parts by the least
 // plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
-// the deepest first, then what is far from that, and each plane clears what it can.
+// the deepest first, then what is far from those, and each plane clears what it can.
 //
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number

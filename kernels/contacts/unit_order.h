@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which of the units that wait comes next: the deepest, and then what is far from those that have a
-// plane. Device only.
+// Which of the units that wait comes next: the deepest ones, then what is far from those that have
+// a plane. Device only.
 #ifndef ODE_EXT_KERNELS_CONTACTS_UNIT_ORDER_H
 #define ODE_EXT_KERNELS_CONTACTS_UNIT_ORDER_H
 

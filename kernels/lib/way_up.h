@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The way out from behind an open mesh: along the mean normal of the faces that edges of a solid
-// cross. Device only.
+// How deep vertices of a solid are behind an open mesh, along the mean normal of the faces that its
+// edges cross, and whether their rays tell. Device only.
 #ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
 #define ODE_EXT_KERNELS_LIB_WAY_UP_H
 
