@@ -71,19 +71,53 @@ static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
   return ox_stays_inside(r, 1u - side, asked, plane, depth);
 }
 
-// Whether mesh `side` comes back through any of the faces that it goes through.
+// The normal of the face at an edge of mesh `side` that faces back from a direction the most.
+static inline float3 ox_back_of_edge(const ox_region_view* r, uint side, uint edge,
+                                     float3 direction) {
+  float3 back = direction;
+  for (uint k = 0u; k < 2u; ++k) {
+    const uint triangle = r->scene->edges[edge].triangle[k];
+    if (triangle == OX_NONE) continue;
+    const float3 normal = ox_normal_of(r->scene, r->pair, side, triangle);
+    if (ox_dot(direction, normal) < ox_dot(direction, back)) back = normal;
+  }
+  return back;
+}
+
+// Whether an edge of mesh `side` is still in the other where a plane takes it: it meets a face, or
+// is all inside.
+static inline bool ox_edge_stays(const ox_region_view* r, uint side, uint edge,
+                                 const ox_plane* plane, float depth) {
+  __global const uint* ends = r->scene->edges[edge].vertex;
+  const float3 away = ox_way_of(side, plane->normal);
+  const float3 moved = ox_way_past(r, depth) * away;
+  const float3 from = ox_vertex_of(r->scene, r->pair, side, ends[0]) + moved;
+  const float3 along = ox_vertex_of(r->scene, r->pair, side, ends[1]) + moved - from;
+  const float length = sqrt(ox_dot(along, along));
+  const ox_nearest nearest = ox_cast_into(r, side, from, along / length);
+  return ox_min(nearest.front_t, nearest.back_t) <= length ||
+         ox_is_still_inside(r, side, from, away);
+}
+
+// Whether mesh `side` comes back through any of the faces that it goes through: its edges cross
+// them, or the other mesh has a vertex or an edge there that is in it, as a rod has that goes
+// through a plate and out on the other side.
 static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* plane, uint side,
                                       float depth) {
   const float3 direction = ox_way_of(side, plane->normal);
   for (uint k = 0u; k < r->count; ++k) {
+    const uint flags = ox_flags_of(r, k);
+    const bool is_own = ox_side_of(flags) == side;
+    if (ox_is_vertex(flags) ? is_own : !is_own && (flags & OX_MEMBER_BEGINS) == 0u) continue;
     __global const ox_feature* f = ox_feature_of(r, k);
-    const bool is_own = ox_side_of(f->flags) == side;
-    if (ox_is_vertex(f->flags) == is_own) continue;
     const float3 back = is_own ? ox_normal_of(r->scene, r->pair, 1u - side, f->triangle)
-                               : ox_back_of_vertex(r, 1u - side, f->source, direction);
+                        : ox_is_vertex(flags)
+                            ? ox_back_of_vertex(r, 1u - side, f->source, direction)
+                            : ox_back_of_edge(r, 1u - side, f->source, direction);
     if (!ox_looks_back(back, direction)) continue;
-    if (is_own ? ox_edge_comes_back(r, side, f, back, plane, depth)
-               : ox_comes_back_around(r, side, f, back, plane, depth))
+    if (is_own                ? ox_edge_comes_back(r, side, f, back, plane, depth)
+        : ox_is_vertex(flags) ? ox_comes_back_around(r, side, f, back, plane, depth)
+                              : ox_edge_stays(r, 1u - side, f->source, plane, depth))
       return true;
   }
   return false;
@@ -98,20 +132,28 @@ static inline bool ox_is_doubted(float of_body, float depth, float limit) {
   return of_body > ox_doubted(depth) && ox_doubted(depth) <= limit;
 }
 
-// How deep the bodies are that go on beyond the region, past a plane that the region is so deep
-// below; 0 if neither does. Of a region of many members, each of which takes a ray, it is not asked
-// whether they come back.
-static inline float ox_depth_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
-                                    float limit) {
+// What the bodies that go on beyond a region make of a plane; 0 where neither does.
+typedef struct {
+  float price;  // [m] what it costs
+  float depth;  // [m] how far they have to go, but for one that is not seen to come back
+} ox_beyond;
+
+// Of a plane that the region is so deep below. Of a region of many members, each of which takes a
+// ray, it is not asked whether they come back.
+static inline ox_beyond ox_go_on_beyond(const ox_region_view* r, const ox_plane* plane, float depth,
+                                        float limit) {
   const bool is_asked = r->count <= OX_MANY;
-  float beyond = 0.0f;
-  for (uint side = 0u; side < 2u && !(beyond > limit); ++side) {
+  ox_beyond beyond = {0.0f, 0.0f};
+  for (uint side = 0u; side < 2u && !(beyond.price > limit); ++side) {
     if (!ox_clears_side(plane, side) || !ox_goes_through(r, plane, side)) continue;
-    float of_body = ox_depth_of_body(r, plane, side, limit);
+    const float of_body = ox_depth_of_body(r, plane, side, limit);
     if (is_asked && ox_is_doubted(of_body, depth, limit) &&
-        !ox_body_comes_back(r, plane, side, depth))
-      of_body = ox_doubted(depth);
-    beyond = ox_max(beyond, of_body);
+        !ox_body_comes_back(r, plane, side, depth)) {
+      beyond.price = ox_max(beyond.price, ox_doubted(depth));
+    } else {
+      beyond.price = ox_max(beyond.price, of_body);
+      beyond.depth = ox_max(beyond.depth, of_body);
+    }
   }
   return beyond;
 }

@@ -72,10 +72,9 @@ static inline bool ox_stays_inside(const ox_region_view* r, uint side, float3 p,
   return ox_is_still_inside(r, side, p + ox_way_past(r, depth) * away, away);
 }
 
-// The face of the other mesh by which a direction leaves it from a point of mesh `side`;
-// OX_PLANE_NONE: the point is not inside.
-static inline ox_plane ox_face_along(const ox_region_view* r, uint side, float3 p,
-                                     float3 direction) {
+// What a ray from a point of mesh `side` meets of the other mesh.
+static inline ox_nearest ox_cast_into(const ox_region_view* r, uint side, float3 p,
+                                      float3 direction) {
   __global const ox_pair* pair = r->scene->pairs + r->pair;
   uint work = 0u;
   ox_query query;
@@ -86,8 +85,14 @@ static inline ox_plane ox_face_along(const ox_region_view* r, uint side, float3 
   query.behind = query.entry = 0.0f;
   query.two_sided = false;
   query.known = false;
-  const ox_nearest nearest =
-      ox_trace(false, &query, ox_target_of(r, side), &r->scene->surfaces, OX_NONE, &work);
+  return ox_trace(false, &query, ox_target_of(r, side), &r->scene->surfaces, OX_NONE, &work);
+}
+
+// The face of the other mesh by which a direction leaves it from a point of mesh `side`;
+// OX_PLANE_NONE: the point is not inside.
+static inline ox_plane ox_face_along(const ox_region_view* r, uint side, float3 p,
+                                     float3 direction) {
+  const ox_nearest nearest = ox_cast_into(r, side, p, direction);
   return nearest.back_t < nearest.front_t
              ? ox_plane_of_face(r->scene, r->pair, 1u - side, nearest.back)
              : ox_no_plane();

@@ -139,14 +139,14 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   choice.depth = ox_whole_depth(r, &limits, kept, &extent);
   if (choice.depth == INFINITY) return extent.past > limits.past;
   const float tie = ox_edge_tie(r, plane);
-  const float beyond = ox_depth_beyond(r, plane, choice.depth, best->judged - tie);
-  if (beyond + tie > best->judged) return false;
-  choice.judged = ox_max(choice.depth, beyond) + tie;
-  choice.of_body = beyond > choice.depth;
+  const ox_beyond beyond = ox_go_on_beyond(r, plane, choice.depth, best->judged - tie);
+  if (beyond.price + tie > best->judged) return false;
+  choice.judged = ox_max(choice.depth, beyond.price) + tie;
+  choice.of_body = beyond.price > choice.depth;
   // A pair of edges holds where it is; its contact says how far all of the body has to go, if it
   // does.
-  if (plane->kind == OX_PLANE_EDGES && beyond != ox_doubted(choice.depth))
-    choice.depth = ox_max(choice.depth, beyond - ox_body_tie(r));
+  if (plane->kind == OX_PLANE_EDGES)
+    choice.depth = ox_max(choice.depth, beyond.depth - ox_body_tie(r));
   if (ox_is_better_choice(&choice, best)) *best = choice;
   return false;
 }

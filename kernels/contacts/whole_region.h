@@ -215,7 +215,8 @@ static inline uint ox_find_farthest(const ox_region_view* r, uint side, float3 n
 }
 
 // Where a body goes on beyond its region the faces at features may be far from the nearest: of
-// those that vertices inside and the middles of chords are behind the nearest are tried too.
+// those that vertices inside and the middles of chords are behind the nearest are tried too, and
+// where that does not separate, the one on the other side of the body.
 static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
                                   ox_plane_choice* best) {
   if (!best->of_body) return;
@@ -226,8 +227,14 @@ static inline void ox_try_nearest(const ox_region_view* r, ox_search* search,
     if ((flags & OX_MEMBER_BEGINS) == 0u ||
         !ox_parts_by_faces_of(r->scene, r->pair, r->flags, 1u - side))
       continue;
-    const ox_plane plane = ox_nearest_behind(r, side, ox_middle_of(r, k), bound);
-    ox_try_whole(r, &plane, search, best);
+    const float3 middle = ox_middle_of(r, k);
+    const ox_plane nearest = ox_nearest_behind(r, side, middle, bound);
+    ox_try_whole(r, &nearest, search, best);
+    for (uint i = 0u; i < search->refused.count; ++i) {
+      const ox_plane opposite =
+          ox_face_along(r, side, middle, -ox_way_of(side, search->refused.normal[i]));
+      ox_try_whole(r, &opposite, search, best);
+    }
   }
 }
 
@@ -304,7 +311,7 @@ static inline bool ox_has_valley(const ox_region_view* r, ox_search* search,
       if (ox_least_depth(r, &limits, kept, &extent) == INFINITY) continue;
       const float depth = ox_whole_depth(r, &limits, kept, &extent);
       if (depth != INFINITY && extent.past > ox_flat_of(r, &plane, size) &&
-          ox_depth_beyond(r, &plane, depth, least->judged) <= least->judged)
+          ox_go_on_beyond(r, &plane, depth, least->judged).price <= least->judged)
         return true;
     }
   }

@@ -127,7 +127,8 @@ TEST(SeparatingPlanes, DoNotTakeABodyForInsideByACornerOnTheSurface) {
   }
 }
 
-// Through the near side of its part the rod is out by half the way, and in the other part.
+// Through the near side of its part the rod is out by half the way, and in the other part. By as
+// much as the rod is wide it is in its own part still.
 TEST(SeparatingPlanes, DoNotLeadARodFromOnePartIntoAnother) {
   const TestMesh parts =
       merged(moved(make_box({1, 2, 4}), {0.5, 0, 2}), moved(make_box({1.8, 2, 4}), {2.1, 0, 2}));
@@ -136,11 +137,14 @@ TEST(SeparatingPlanes, DoNotLeadARodFromOnePartIntoAnother) {
     for (const double lean : {-0.01, 0.0, 0.01}) {
       TestPose pose = composed(turned({0, 1, 0}, lean), turned({0, 0, 1}, roll));
       pose.position = {0.7, 0.03, 2};
+      const double across = 0.125 * std::fabs(std::cos(roll)) + 0.1 * std::fabs(std::sin(roll));
+      const double way = pose.position[0] + across + 2 * std::fabs(std::sin(lean));
       for (const bool is_first : {true, false}) {
         const auto contacts = plane_contacts_of(is_first ? one_pair(rod, pose, parts, at(0, 0, 0))
                                                          : one_pair(parts, at(0, 0, 0), rod, pose));
         ASSERT_FALSE(contacts.empty()) << roll << " " << lean;
         EXPECT_LT((is_first ? 1 : -1) * contacts[0].normal.x, 0.5) << roll << " " << lean;
+        EXPECT_NEAR(contacts[0].depth, way, 0.001) << roll << " " << lean;
       }
     }
 }

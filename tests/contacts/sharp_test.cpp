@@ -8,30 +8,12 @@
 #include <vector>
 
 #include "contacts/placed.h"
+#include "contacts/upright.h"
 #include "support/convex_makers.h"
 #include "support/extruded.h"
 
 namespace ode_ext::test {
 namespace {
-
-double degrees(double angle) { return angle * std::numbers::pi / 180; }
-
-// The lowest vertex of a mesh that is turned.
-Point lowest_of(const TestMesh& mesh, const TestPose& turned) {
-  Point lowest{0, 0, 1e9};
-  for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const Point p = rotate(turned, mesh.vertex(static_cast<std::size_t>(i)));
-    if (p[2] < lowest[2]) lowest = p;
-  }
-  return lowest;
-}
-
-// Up to `most` off upright, turned by anything about z first.
-TestPose tilted(Random& random, double most, const TestPose& upright) {
-  const double around = random.uniform(0, 2 * std::numbers::pi);
-  return composed(turned({std::cos(around), std::sin(around), 0}, random.uniform(0, most)),
-                  composed(turned({0, 0, 1}, random.uniform(0, 2 * std::numbers::pi)), upright));
-}
 
 // A floor that is moved along a flank of the tip goes sideways, and hardly down: the tip is in it
 // as before. It was asked of one place beyond the other flank whether the floor comes back there,
@@ -42,7 +24,7 @@ TEST(Sharp, TipsInAFloorGoBackUpHoweverAcuteTheyAre) {
   Random random(5);
   for (const double half : {2., 4., 6., 8., 10., 12., 14., 16., 18., 20., 24., 30.})
     for (const int sides : {3, 4, 6, 12, 24}) {
-      const TestMesh cone = make_cone(height * std::tan(degrees(half)), height, sides);
+      const TestMesh cone = make_cone(height * std::tan(radians(half)), height, sides);
       for (const double tilt : {0.0, 0.1, 0.4})
         for (int i = 0; i < 4; ++i) {
           TestPose pose = tilted(random, tilt, turned({1, 0, 0}, std::numbers::pi));
@@ -93,7 +75,7 @@ TEST(Sharp, BladesOnACylinderArePartedFromItByTheirDeepestContact) {
   const double deep = 0.004, radius = 0.1;
   Random random(6);
   for (const double half : {4., 6., 8., 10., 12., 14., 16., 20., 30.}) {
-    const double wide = 0.13 * std::tan(degrees(half));
+    const double wide = 0.13 * std::tan(radians(half));
     const TestMesh blade =
         extruded({{0, 0}, {wide, 0.13}, {wide, 0.2}, {-wide, 0.2}, {-wide, 0.13}}, 0.6);
     const TestMesh cylinder = make_cylinder(radius, 1, 24);
