@@ -15,7 +15,6 @@ typedef struct {
   float share[OX_FEW];  // [m] of the way along each
   float3 way;           // the sum of these: the shortest past all
   uint count;
-  bool is_corner;  // one faces another way than the first
 } ox_joint_choice;
 
 static inline ox_joint_choice ox_begin_joint(void) {
@@ -23,7 +22,6 @@ static inline ox_joint_choice ox_begin_joint(void) {
   joint.first = ox_no_choice();
   joint.way = (float3)(0.0f);
   joint.count = 0u;
-  joint.is_corner = false;
   return joint;
 }
 
@@ -35,7 +33,6 @@ static inline ox_joint_choice ox_begin_joint(void) {
 static inline void ox_add_to_joint(const ox_region_view* r, const ox_plane* plane, float depth,
                                    ox_joint_choice* joint) {
   const uint last = joint->count++;
-  joint->is_corner |= last != 0u && ox_dot(joint->plane[0].normal, plane->normal) <= OX_SAME_WAY;
   joint->plane[last] = *plane;
   joint->depth[last] = depth;
   joint->far[last] = ox_way_past(r, depth);

@@ -159,9 +159,8 @@ static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane)
 
 // The least of the planes that do not separate it, where all together do; else OX_PLANE_NONE. Where
 // it is still inside past all, the nearest face that it is behind there is one more: of a corner
-// the region need not meet all. Planes that face one way, as those of a surface that bends inwards
-// do, do so only if it goes hardly farther than past the least. A plane that separates it alone is
-// better up to twice the price of all: it clears more. *together: all of them.
+// the region need not meet all. A plane that separates it alone is better up to twice the price of
+// all: it clears more. *together: all of them.
 static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox_seed* seed,
                                                const ox_joint_choice* planes,
                                                const ox_plane_choice* known,
@@ -178,9 +177,7 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
     if (!ox_is_better_choice(&choice, known)) return ox_no_choice();
     const float3 way = ox_way_of(seed->side, longer * joint.way);
     const float3 p = 0.5f * (one + other) + way;
-    const float first = joint.far[0] / OX_SAME_WAY;
-    const bool counts = joint.is_corner || (joint.count > 1u && ox_dot(way, way) <= first * first);
-    if (counts && !ox_is_still_inside(r, seed->side, p, way)) {
+    if (!ox_is_still_inside(r, seed->side, p, way)) {
       *together = joint;
       // A way that is much longer than to the surface is not that of a corner.
       const float nearer = sqrt(ox_dot(way, way)) / OX_WORTH;

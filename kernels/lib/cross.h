@@ -69,6 +69,15 @@ static inline void ox_add_crossing(ox_new_crossings* fresh, uint side, uint edge
   if (fresh->count == OX_MOST_AT_ONCE) ox_store_crossings(fresh);
 }
 
+// What rounding may have moved a determinant by is so much of the sum of what its six terms are
+// without their signs: five roundings of each, of which 8 are taken.
+#define OX_TERMS_ROUNDING 0x1p-21f
+static inline float ox_terms_of(float3 u, float3 v, float3 p) {
+  const float3 a = fabs(u);
+  const float3 b = fabs(v);
+  return ox_dot(a.yzx * b.zxy + a.zxy * b.yzx, fabs(p));
+}
+
 // How far along an edge triangle k crosses it [m]. By its corners from the first on, in order of
 // their places: the same bits for each triangle that has these corners. *blur [m]: what rounding
 // may have moved it; where the edge runs along the plane that is far.
@@ -92,9 +101,7 @@ static inline float ox_place_of_crossing(float3 from, float3 to, const ox_genera
   const float3 q = to - a;
   const float above = ox_dot(n, p);
   const float along = above - ox_dot(n, q);
-  const float far = ox_max(OX_LARGEST_OF(p.x, p.y, p.z), OX_LARGEST_OF(q.x, q.y, q.z));
-  const float doubt =
-      OX_DETERMINANT_ROUNDING * OX_LARGEST_OF(u.x, u.y, u.z) * OX_LARGEST_OF(v.x, v.y, v.z) * far;
+  const float doubt = OX_TERMS_ROUNDING * ox_max(ox_terms_of(u, v, p), ox_terms_of(u, v, q));
   // Both heights are off by as much. Where they are 0 the edge lies in the plane: anywhere on it.
   *blur = fabs(along) > 2.0f * doubt ? ox_min(2.0f * doubt / fabs(along), 1.0f) * length : length;
   const float part = along != 0.0f ? ox_min(ox_max(above / along, 0.0f), 1.0f) : 0.5f;
