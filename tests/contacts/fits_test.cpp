@@ -202,6 +202,36 @@ TEST(Fits, AConicalRingInItsLikeIsPushedInwardsAloneAndHardlyAtAll) {
   }
 }
 
+// Each of its corners lies on an end of the step and would leave by that, one this way and one the
+// other: the edge between them goes neither, and has to leave the wall. In every third pose or more
+// there was no contact with that, and boxes slid into walls.
+TEST(Fits, ABoxAsLongAsAStepIsWideIsHeldByItsWall) {
+  const double wide = 0.2, high = 0.1;
+  for (const double length : {0.4, 0.1}) {
+    const TestMesh step =
+        extruded({{-0.5, -0.3}, {2, -0.3}, {2, 0}, {0, 0}, {0, 0.3}, {-0.5, 0.3}}, length);
+    const TestMesh box = make_box({wide, high, length});
+    for (const double in_wall : {0.002, 0.01, 0.02})
+      for (const double in_floor : {0.0, 1e-6, 1e-4, 1e-3})
+        for (int k = -5; k <= 5; ++k) {
+          const double turn = 0.002 * k;
+          TestPose pose = turned({0, 0, 1}, turn);
+          pose.position =
+              Point{-in_wall, -in_floor, 0} + rotate(pose, Point{wide / 2, high / 2, 0});
+          // Where the lower edge leaves by the floor, that tells of the upper one alone.
+          const double least = in_wall - high * std::max(0.0, -turn);
+          for (const bool is_first : {true, false}) {
+            const Placed placed = is_first ? Placed{box, step, pose, TestPose{}}
+                                           : Placed{step, box, TestPose{}, pose};
+            double deep = 0;
+            for (const Contact& c : placed.contacts(TestPose{}))
+              if ((is_first ? c.normal.x : -c.normal.x) > 0.9) deep = std::max(deep, c.depth);
+            EXPECT_GT(deep, 0.99 * least) << in_wall << ", " << in_floor << ", turned " << turn;
+          }
+        }
+  }
+}
+
 // A block of which four walls and a floor are left; the floor's top is z = 0.
 TestMesh crate(const Point& room, double wall) {
   TestMesh mesh;
