@@ -6,7 +6,7 @@
 // plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
 // the deepest first, then what is far from those, and each plane clears what it can.
 //
-// in    regions, features, slots, faces, edge_planes; pairs, and of meshes all but chunks
+// in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
 //       planes: which of them part of the region is past, and those of a sheet no more; members:
 //       units, in another order
@@ -15,7 +15,6 @@
 #include "contacts/own_faces.h"
 #include "contacts/sheet.h"
 #include "contacts/unit_order.h"
-#include "contacts/whole_edge.h"
 
 // A unit that needs no plane any more.
 static void ox_mark_cleared(const ox_region_view* r, uint k) {
@@ -125,7 +124,6 @@ static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves
   ox_joint_choice together;
   ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
-  if (ox_take_whole_edge(r, unit, &choice)) choice = ox_choose_for(r, unit, moves, &together);
   ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
   const uint side = ox_side_of(flags);

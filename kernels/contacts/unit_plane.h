@@ -12,9 +12,32 @@ typedef struct {
   uint side;
   uint through[2];  // crossings by which it goes through the other mesh
   uint count;       // of those
+  float3 inward;    // into its own mesh
   const ox_moves* before;
   ox_refused refused;
 } ox_seed;
+
+// The way into its own mesh at a feature; of an edge of any length.
+static inline float3 ox_inward_of(const ox_region_view* r, __global const ox_feature* f) {
+  if (ox_is_vertex(f->flags)) return ox_inward_at(r, f);
+  const uint side = ox_side_of(f->flags);
+  float3 inward = (float3)(0.0f);
+  for (uint k = 0u; k < 2u; ++k)
+    if (f->at[k] != OX_NONE) inward -= ox_normal_of(r->scene, r->pair, side, f->at[k]);
+  return inward;
+}
+
+// How deep what of its mesh is in the region is below a plane that a unit is next to, where its
+// mesh goes on behind that, as where sides of both are flush; else 0.
+static inline float ox_depth_behind(const ox_region_view* r, const ox_seed* seed,
+                                    const ox_plane* plane, float depth) {
+  const float3 direction = ox_way_of(seed->side, plane->normal);
+  if ((ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CLOSED) == 0u ||
+      !ox_looks_back(seed->inward, direction))
+    return 0.0f;
+  const float behind = plane->level[seed->side] + ox_farthest_along(r, seed->side, -direction);
+  return depth < OX_MERGE * behind ? behind : 0.0f;
+}
 
 static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_moves* before) {
   ox_seed seed;
@@ -23,6 +46,7 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
   seed.side = ox_side_of(ox_flags_of(r, unit));
   seed.count = 0u;
   seed.refused.count = 0u;
+  seed.inward = ox_inward_of(r, ox_feature_of(r, unit));
   uint feature = ox_words_of(&r->members, OX_MEMBER_FEATURE)[unit];
   while (feature != OX_NONE && seed.count < 2u) {
     __global const ox_feature* f = r->scene->features + feature;
@@ -41,6 +65,10 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   choice.depth = ox_unit_depth(r, seed->unit, plane);
   if (choice.depth == INFINITY) return;
   choice.judged = ox_cost_of(r, seed->before, plane, choice.depth);
+  if (!ox_is_better_choice(&choice, best)) return;
+  // All of that has to pass.
+  const float behind = ox_depth_behind(r, seed, plane, choice.depth);
+  choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, behind));
   if (!ox_is_better_choice(&choice, best)) return;
   // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
   // a whole region.
@@ -251,7 +279,9 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   const float far = ox_min(known.depth, known.judged) / OX_WORTH;
   const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
-  if (!ox_take_better(r, unit, &nearest, far, &near)) return known;
+  if (!ox_take_better(r, unit, &nearest, far, &near) ||
+      ox_depth_behind(r, &seed, &nearest, near.depth) > far)
+    return known;
   // What of a body is more than halfway through a thin part goes back by the face that it came in
   // by, as what is beside it does, which is not so deep.
   const bool is_past_middle = ox_looks_back(nearest.normal, known.plane.normal) &&
