@@ -28,15 +28,22 @@ static inline float3 ox_inward_of(const ox_region_view* r, __global const ox_fea
 }
 
 // How deep what of its mesh is in the region is below a plane that a unit is next to, where its
-// mesh goes on behind that, as where sides of both are flush; else 0.
+// mesh goes on behind that, as where sides of both are flush, or something beyond `limit`; else 0.
 static inline float ox_depth_behind(const ox_region_view* r, const ox_seed* seed,
-                                    const ox_plane* plane, float depth) {
+                                    const ox_plane* plane, float depth, float limit) {
   const float3 direction = ox_way_of(seed->side, plane->normal);
   if ((ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CLOSED) == 0u ||
       !ox_looks_back(seed->inward, direction))
     return 0.0f;
-  const float behind = plane->level[seed->side] + ox_farthest_along(r, seed->side, -direction);
-  return depth < OX_MERGE * behind ? behind : 0.0f;
+  const float next = depth / OX_MERGE;
+  float behind = 0.0f;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count && behind <= ox_max(next, limit);
+       ++block) {
+    float least, most;
+    ox_extent_of_block(r, block, seed->side, -direction, &least, &most);
+    behind = ox_max(behind, plane->level[seed->side] + most);
+  }
+  return behind > next ? behind : 0.0f;
 }
 
 static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_moves* before) {
@@ -67,7 +74,8 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   choice.judged = ox_cost_of(r, seed->before, plane, choice.depth);
   if (!ox_is_better_choice(&choice, best)) return;
   // All of that has to pass.
-  const float behind = ox_depth_behind(r, seed, plane, choice.depth);
+  const float limit = best->judged + ox_gone_along(seed->before, plane->normal);
+  const float behind = ox_depth_behind(r, seed, plane, choice.depth, limit);
   choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, behind));
   if (!ox_is_better_choice(&choice, best)) return;
   // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
@@ -77,7 +85,6 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
     __global const ox_feature* f = r->scene->features + seed->through[i];
     const float3 back = ox_normal_of(r->scene, r->pair, 1u - seed->side, f->triangle);
     if (!ox_looks_back(back, direction)) continue;
-    const float limit = best->judged + ox_gone_along(seed->before, plane->normal);
     float of_body = ox_depth_of_body(r, plane, seed->side, limit);
     if (ox_is_doubted(of_body, choice.depth, limit) &&
         !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
@@ -205,7 +212,8 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
     if (!ox_is_better_choice(&choice, known)) return ox_no_choice();
     const float3 way = ox_way_of(seed->side, longer * joint.way);
     const float3 p = 0.5f * (one + other) + way;
-    if (!ox_is_still_inside(r, seed->side, p, way)) {
+    // Past one plane alone it is known to be inside.
+    if (joint.count > 1u && !ox_is_still_inside(r, seed->side, p, way)) {
       *together = joint;
       // A way that is much longer than to the surface is not that of a corner.
       const float nearer = sqrt(ox_dot(way, way)) / OX_WORTH;
@@ -280,7 +288,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
   if (!ox_take_better(r, unit, &nearest, far, &near) ||
-      ox_depth_behind(r, &seed, &nearest, near.depth) > far)
+      ox_depth_behind(r, &seed, &nearest, near.depth, far) > far)
     return known;
   // What of a body is more than halfway through a thin part goes back by the face that it came in
   // by, as what is beside it does, which is not so deep.
