@@ -71,19 +71,6 @@ static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
   return ox_stays_inside(r, 1u - side, asked, plane, depth);
 }
 
-// The normal of the face at an edge of mesh `side` that faces back from a direction the most.
-static inline float3 ox_back_of_edge(const ox_region_view* r, uint side, uint edge,
-                                     float3 direction) {
-  float3 back = direction;
-  for (uint k = 0u; k < 2u; ++k) {
-    const uint triangle = r->scene->edges[edge].triangle[k];
-    if (triangle == OX_NONE) continue;
-    const float3 normal = ox_normal_of(r->scene, r->pair, side, triangle);
-    if (ox_dot(direction, normal) < ox_dot(direction, back)) back = normal;
-  }
-  return back;
-}
-
 // Whether an edge of mesh `side` is still in the other where a plane takes it: it meets a face, or
 // is all inside.
 static inline bool ox_edge_stays(const ox_region_view* r, uint side, uint edge,
@@ -108,17 +95,21 @@ static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* p
   for (uint k = 0u; k < r->count; ++k) {
     const uint flags = ox_flags_of(r, k);
     const bool is_own = ox_side_of(flags) == side;
-    if (ox_is_vertex(flags) ? is_own : !is_own && (flags & OX_MEMBER_BEGINS) == 0u) continue;
     __global const ox_feature* f = ox_feature_of(r, k);
-    const float3 back = is_own ? ox_normal_of(r->scene, r->pair, 1u - side, f->triangle)
-                        : ox_is_vertex(flags)
-                            ? ox_back_of_vertex(r, 1u - side, f->source, direction)
-                            : ox_back_of_edge(r, 1u - side, f->source, direction);
-    if (!ox_looks_back(back, direction)) continue;
-    if (is_own                ? ox_edge_comes_back(r, side, f, back, plane, depth)
-        : ox_is_vertex(flags) ? ox_comes_back_around(r, side, f, back, plane, depth)
-                              : ox_edge_stays(r, 1u - side, f->source, plane, depth))
-      return true;
+    if (ox_is_vertex(flags)) {
+      if (is_own) continue;
+      const float3 back = ox_back_of_vertex(r, 1u - side, f->source, direction);
+      if (ox_looks_back(back, direction) && ox_comes_back_around(r, side, f, back, plane, depth))
+        return true;
+    } else if (is_own) {
+      const float3 back = ox_normal_of(r->scene, r->pair, 1u - side, f->triangle);
+      if (ox_looks_back(back, direction) && ox_edge_comes_back(r, side, f, back, plane, depth))
+        return true;
+    } else if ((flags & OX_MEMBER_BEGINS) != 0u) {  // each edge once for a chord
+      const float3 back = ox_back_of_edge(r, 1u - side, f->source, direction, direction);
+      if (ox_looks_back(back, direction) && ox_edge_stays(r, 1u - side, f->source, plane, depth))
+        return true;
+    }
   }
   return false;
 }

@@ -19,7 +19,8 @@
 // A direction of which the best plane costs so many times the least is not looked around.
 #define OX_WORTH 2.0f
 // Contacts that face the same way, and are nearer to one another, hold a body no better than one;
-// of the smaller radius, unless a body is thinner than that (contacts/reduce.cl).
+// of the smaller radius, unless a body is thinner than that (contacts/reduce.cl). And what is less
+// deep than so much of what goes on behind it is next to a plane (contacts/unit_plane.h).
 #define OX_MERGE 0.02f
 // Limits: of what there is mostly one of; of the planes of a region in units; of what is looked at
 // one by one.

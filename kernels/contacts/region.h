@@ -58,19 +58,26 @@ static inline float3 ox_inward_at(const ox_region_view* r, __global const ox_fea
   return ox_side_of(f->flags) == 1u ? inward : ox_rotate(r->scene->pairs + r->pair, 0u, inward);
 }
 
-// The normal of the face at a vertex of mesh `side` that faces back from a direction the most.
+// Of a normal and those of the faces at an edge of mesh `side` the one that faces back from a
+// direction the most.
+static inline float3 ox_back_of_edge(const ox_region_view* r, uint side, uint edge,
+                                     float3 direction, float3 back) {
+  for (uint k = 0u; k < 2u; ++k) {
+    const uint triangle = r->scene->edges[edge].triangle[k];
+    if (triangle == OX_NONE) continue;
+    const float3 normal = ox_normal_of(r->scene, r->pair, side, triangle);
+    if (ox_dot(direction, normal) < ox_dot(direction, back)) back = normal;
+  }
+  return back;
+}
+
+// The same of the faces at a vertex.
 static inline float3 ox_back_of_vertex(const ox_region_view* r, uint side, uint vertex,
                                        float3 direction) {
   const ox_scene* scene = r->scene;
   float3 back = direction;
-  for (uint i = scene->ring_starts[vertex]; i < scene->ring_starts[vertex + 1u]; ++i) {
-    __global const ox_edge* edge = scene->edges + scene->rings[i].edge;
-    for (uint k = 0u; k < 2u; ++k) {
-      if (edge->triangle[k] == OX_NONE) continue;
-      const float3 normal = ox_normal_of(scene, r->pair, side, edge->triangle[k]);
-      if (ox_dot(direction, normal) < ox_dot(direction, back)) back = normal;
-    }
-  }
+  for (uint i = scene->ring_starts[vertex]; i < scene->ring_starts[vertex + 1u]; ++i)
+    back = ox_back_of_edge(r, side, scene->rings[i].edge, direction, back);
   return back;
 }
 

@@ -28,20 +28,20 @@ static inline float3 ox_inward_of(const ox_region_view* r, __global const ox_fea
 }
 
 // How deep what of its mesh is in the region is below a plane that a unit is next to, where its
-// mesh goes on behind that, as where sides of both are flush, or something beyond `limit`; else 0.
+// mesh goes on behind that, as where sides of both are flush; else 0. Infinite beyond `limit`: not
+// all members are gone through then, in whatever order they lie.
 static inline float ox_depth_behind(const ox_region_view* r, const ox_seed* seed,
                                     const ox_plane* plane, float depth, float limit) {
   const float3 direction = ox_way_of(seed->side, plane->normal);
-  if ((ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CLOSED) == 0u ||
-      !ox_looks_back(seed->inward, direction))
-    return 0.0f;
+  if (ox_is_on_open(r) || !ox_looks_back(seed->inward, direction)) return 0.0f;
   const float next = depth / OX_MERGE;
+  const float enough = ox_max(next, limit);
   float behind = 0.0f;
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count && behind <= ox_max(next, limit);
-       ++block) {
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block) {
     float least, most;
     ox_extent_of_block(r, block, seed->side, -direction, &least, &most);
     behind = ox_max(behind, plane->level[seed->side] + most);
+    if (behind > enough) return INFINITY;
   }
   return behind > next ? behind : 0.0f;
 }
