@@ -73,13 +73,15 @@ static void ox_place_children(__global const ox_pair* pair, uint side,
 
 // A bit for each of the children whose box there meets another.
 static uint ox_children_meeting(const ox_children_there* there, float3 lo, float3 hi) {
-  ox_floats first[3], last[3];
-  for (uint axis = 0u; axis < 3u; ++axis) {
-    ox_kept_lanes(there->lo + axis, first + axis);
-    ox_kept_lanes(there->hi + axis, last + axis);
-  }
-  const ox_ints met = (first[0] <= hi.x) & (last[0] >= lo.x) & (first[1] <= hi.y) &
-                      (last[1] >= lo.y) & (first[2] <= hi.z) & (last[2] >= lo.z);
+  ox_floats lo_x, lo_y, lo_z, hi_x, hi_y, hi_z;
+  ox_kept_lanes(there->lo, &lo_x);
+  ox_kept_lanes(there->lo + 1, &lo_y);
+  ox_kept_lanes(there->lo + 2, &lo_z);
+  ox_kept_lanes(there->hi, &hi_x);
+  ox_kept_lanes(there->hi + 1, &hi_y);
+  ox_kept_lanes(there->hi + 2, &hi_z);
+  const ox_ints met = (lo_x <= hi.x) & (hi_x >= lo.x) & (lo_y <= hi.y) & (hi_y >= lo.y) &
+                      (lo_z <= hi.z) & (hi_z >= lo.z);
   return ox_mask_of(&met);
 }
 

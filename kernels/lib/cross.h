@@ -115,16 +115,23 @@ typedef struct {
   uint ends;
 } ox_near_edges;
 
+// The vertices at either end of a block of the edges with even numbers, or of those with odd ones.
+static inline void ox_load_ends(__global const ox_meshlet* meshlet, uint block, uint odd,
+                                ox_ints* p, ox_ints* q) {
+  const ox_ints ends = ox_load_ints(block, meshlet->ends);
+  *p = ends >> (int)OX_END_SHIFT(odd, 0u) & 255;
+  *q = ends >> (int)OX_END_SHIFT(odd, 1u) & 255;
+}
+
 static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source,
                                                const ox_general_points* points) {
   ox_near_edges near = {{0u, 0u}, 0u};
   const ox_ints one = 1;
   const ox_ints none = 0;
   for (uint block = 0u; block < OX_BLOCKS; ++block) {
-    const ox_ints ends = ox_load_ints(block, source->ends);
     for (uint odd = 0u; odd < 2u; ++odd) {
-      const ox_ints p = ends >> (int)OX_END_SHIFT(odd, 0u) & 255;
-      const ox_ints q = ends >> (int)OX_END_SHIFT(odd, 1u) & 255;
+      ox_ints p, q;
+      ox_load_ends(source, block, odd, &p, &q);
       ox_ints beyond_p, beyond_q;
       ox_pick_ints(points->beyond, &p, &beyond_p);
       ox_pick_ints(points->beyond, &q, &beyond_q);
@@ -136,6 +143,43 @@ static inline ox_near_edges ox_find_near_edges(__global const ox_meshlet* source
     }
   }
   return near;
+}
+
+// Of the vertices of a meshlet, a bit for each triangle of the other one: ox_heights.
+typedef struct {
+  int above[OX_LANES], doubt[OX_LANES];
+} ox_end_heights;
+
+static inline void ox_clear_heights(ox_end_heights* heights) {
+  const ox_ints none = 0;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    ox_store_ints(none, block, heights->above);
+    ox_store_ints(none, block, heights->doubt);
+  }
+}
+
+// Of the edges of a meshlet that are near those whose ends are, perhaps, on either side of one of
+// some triangles: a bit for each with an even number, and for each with an odd one.
+static inline void ox_edges_through(__global const ox_meshlet* source, const ox_near_edges* near,
+                                    const ox_end_heights* heights, uint triangles,
+                                    uint through[2]) {
+  through[0] = through[1] = 0u;
+  for (uint block = 0u; block < OX_BLOCKS; ++block) {
+    for (uint odd = 0u; odd < 2u; ++odd) {
+      ox_ints p, q;
+      ox_load_ends(source, block, odd, &p, &q);
+      ox_ints above_p, above_q, doubt_p, doubt_q;
+      ox_pick_ints(heights->above, &p, &above_p);
+      ox_pick_ints(heights->above, &q, &above_q);
+      ox_pick_ints(heights->doubt, &p, &doubt_p);
+      ox_pick_ints(heights->doubt, &q, &doubt_q);
+      const ox_ints asked = ((above_p ^ above_q) | doubt_p | doubt_q) & as_int(triangles);
+      const ox_ints is_through = asked != 0;
+      through[odd] |= ox_mask_of(&is_through) << (OX_VECTOR_WIDTH * block);
+    }
+  }
+  through[0] &= near->edges[0];
+  through[1] &= near->edges[1];
 }
 
 // The triangles of a meshlet that may cross the other one, of some blocks of its lanes.
@@ -244,27 +288,31 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
       ((mesh->flags & OX_MESH_CLOSED) == 0u ? OX_NEW_OPEN : 0u);
   ox_place_triangles(target, blocks, faces);
   const ox_general_triangles* t = &faces->triangles;
-  ox_heights heights[OX_LANES];
+  ox_end_heights heights;
+  ox_clear_heights(&heights);
   for (uint asked = near.ends; asked != 0u; asked &= asked - 1u) {
     const uint v = ox_lowest(asked);
-    heights[v] = ox_heights_over(t, &faces->planes, blocks, reach, ox_general_point(points, v));
+    const ox_heights over =
+        ox_heights_over(t, &faces->planes, blocks, reach, ox_general_point(points, v));
+    heights.above[v] = as_int(over.above);
+    heights.doubt[v] = as_int(over.doubt);
   }
-  uint left[2] = {near.edges[0], near.edges[1]};
+  uint left[2];
+  ox_edges_through(source, &near, &heights, near_triangles, left);
   while ((left[0] | left[1]) != 0u) {
     const uint odd = left[0] == 0u ? 1u : 0u;
     const uint e = 2u * ox_lowest(left[odd]) + odd;
     left[odd] &= left[odd] - 1u;
     const uint p = OX_END(source->ends, e, 0u);
     const uint q = OX_END(source->ends, e, 1u);
-    const uint doubt = heights[p].doubt | heights[q].doubt;
-    uint asked_of = ((heights[p].above ^ heights[q].above) | doubt) & near_triangles;
-    if (asked_of == 0u) continue;
+    const uint doubt = as_uint(heights.doubt[p] | heights.doubt[q]);
+    uint asked_of = (as_uint(heights.above[p] ^ heights.above[q]) | doubt) & near_triangles;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);
     asked_of &= ox_boxes_met(&faces->boxes, blocks, from, to);
     if (asked_of == 0u) continue;
     const ox_passes passes = ox_passes_of(t, blocks, reach, from, to - from);
-    const uint out = heights[q].above;  // where that is sure
+    const uint out = as_uint(heights.above[q]);  // where that is sure
     const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));
     uint met = asked_of &
                (((out | doubt) & passes.perhaps_left) | ((~out | doubt) & passes.perhaps_right));
