@@ -211,7 +211,6 @@ typedef struct {
   bool has_triangles;
   ox_general_triangles triangles;
   ox_general_planes planes;
-  ox_general_boxes boxes;
 } ox_placed_meshlet;
 
 // Two of a pair. Of the pairs of meshlets that come one after the other most have one in common,
@@ -265,7 +264,6 @@ static inline void ox_place_triangles(__global const ox_meshlet* meshlet, ox_blo
   placed->has_triangles = true;
   ox_gather_triangles(meshlet, &placed->points, blocks, &placed->triangles);
   ox_make_planes(&placed->triangles, blocks, &placed->planes);
-  ox_make_boxes(&placed->triangles, blocks, &placed->boxes);
 }
 
 // Where the edges of the meshlet of one side cross the triangles of the other, those of some blocks
@@ -306,16 +304,15 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
     const uint p = OX_END(source->ends, e, 0u);
     const uint q = OX_END(source->ends, e, 1u);
     const uint doubt = as_uint(heights.doubt[p] | heights.doubt[q]);
-    uint asked_of = (as_uint(heights.above[p] ^ heights.above[q]) | doubt) & near_triangles;
+    const uint asked_of = (as_uint(heights.above[p] ^ heights.above[q]) | doubt) & near_triangles;
     const float3 from = ox_general_point(points, p);
     const float3 to = ox_general_point(points, q);
-    asked_of &= ox_boxes_met(&faces->boxes, blocks, from, to);
-    if (asked_of == 0u) continue;
     const ox_passes passes = ox_passes_of(t, blocks, reach, from, to - from);
     const uint out = as_uint(heights.above[q]);  // where that is sure
     const uint sure = asked_of & ~doubt & ((out & passes.left) | (~out & passes.right));
     uint met = asked_of &
                (((out | doubt) & passes.perhaps_left) | ((~out | doubt) & passes.perhaps_right));
+    if ((met & ~sure) != 0u) met &= ox_boxes_met(t, blocks, from, to);
     for (; met != 0u; met &= met - 1u) {
       const uint k = ox_lowest(met);
       const float3 a = ox_general_corner(t, 0u, k);

@@ -119,35 +119,23 @@ static inline float3 ox_general_corner(const ox_general_triangles* t, uint corne
   return (float3)(t->corner[corner][0][k], t->corner[corner][1][k], t->corner[corner][2][k]);
 }
 
-// The boxes of the triangles. What lies apart from one by coordinates on the grid, be it by one of
-// its steps, does not meet the triangle, whatever decides of what touches (lib/exact_sign.h).
-typedef struct {
-  float lo[3][OX_LANES], hi[3][OX_LANES];
-} ox_general_boxes;
-
-static inline void ox_make_boxes(const ox_general_triangles* t, ox_block_range blocks,
-                                 ox_general_boxes* boxes) {
-  for (uint block = blocks.first; block < blocks.end; ++block)
-    for (uint axis = 0u; axis < 3u; ++axis) {
-      const ox_floats a = ox_load_own(block, t->corner[0][axis]);
-      const ox_floats b = ox_load_own(block, t->corner[1][axis]);
-      const ox_floats c = ox_load_own(block, t->corner[2][axis]);
-      ox_store(OX_LESSER(OX_LESSER(a, b), c), block, boxes->lo[axis]);
-      ox_store(OX_GREATER(OX_GREATER(a, b), c), block, boxes->hi[axis]);
-    }
-}
-
-// A bit for each triangle of the blocks whose box that of an edge meets.
-static inline uint ox_boxes_met(const ox_general_boxes* boxes, ox_block_range blocks, float3 p,
+// A bit for each triangle of the blocks whose box that of an edge meets. What lies apart from one
+// by coordinates on the grid, be it by one of its steps, does not meet the triangle, whatever
+// decides of what touches (lib/exact_sign.h).
+static inline uint ox_boxes_met(const ox_general_triangles* t, ox_block_range blocks, float3 p,
                                 float3 q) {
   const float lo[3] = {ox_min(p.x, q.x), ox_min(p.y, q.y), ox_min(p.z, q.z)};
   const float hi[3] = {ox_max(p.x, q.x), ox_max(p.y, q.y), ox_max(p.z, q.z)};
   uint met = 0u;
   for (uint block = blocks.first; block < blocks.end; ++block) {
     ox_ints meets = -1;
-    for (uint axis = 0u; axis < 3u; ++axis)
-      meets &= (ox_load_own(block, boxes->lo[axis]) <= hi[axis]) &
-               (ox_load_own(block, boxes->hi[axis]) >= lo[axis]);
+    for (uint axis = 0u; axis < 3u; ++axis) {
+      const ox_floats a = ox_load_own(block, t->corner[0][axis]);
+      const ox_floats b = ox_load_own(block, t->corner[1][axis]);
+      const ox_floats c = ox_load_own(block, t->corner[2][axis]);
+      meets &= (OX_LESSER(OX_LESSER(a, b), c) <= hi[axis]) &
+               (OX_GREATER(OX_GREATER(a, b), c) >= lo[axis]);
+    }
     met |= ox_mask_of(&meets) << (OX_VECTOR_WIDTH * block);
   }
   return met;
