@@ -207,8 +207,7 @@ static void ox_look_at_all(const ox_flood_state* s) {
 
 static bool ox_mark_chunk(ox_flood_state* s, uint vertex) {
   const uint key = OX_KEY(ox_chunk_of(s, vertex), OX_KEY_CHUNK);
-  return ox_has_key(s->scene, &s->table, key) ||
-         ox_add_key(s->scene, &s->table, key, OX_CHUNK_CROSSED);
+  return ox_find_or_add_key(s->scene, &s->table, key, OX_CHUNK_CROSSED) != OX_NONE;
 }
 
 // Strings the crossings of an edge together, from the last to come on, before any vertex is looked
@@ -216,18 +215,16 @@ static bool ox_mark_chunk(ox_flood_state* s, uint vertex) {
 static bool ox_string_crossing(ox_flood_state* s, uint crossing) {
   __global ox_edge_crossing* c = s->scene->crossings + crossing;
   const uint key = OX_KEY(c->edge, OX_KEY_EDGE);
-  __global const ox_edge* edge = s->scene->edges + c->edge;
-  if (!ox_has_key(s->scene, &s->table, key) &&
-      !(ox_add_key(s->scene, &s->table, key, OX_NONE) && ox_mark_chunk(s, edge->vertex[0]) &&
-        ox_mark_chunk(s, edge->vertex[1])))
-    return false;
-  const uint word = ox_find_key(s->scene, &s->table, key);
+  const uint word = ox_find_or_add_key(s->scene, &s->table, key, OX_NONE);
+  if (word == OX_NONE) return false;
   const uint last = s->scene->flood_words[word + 1u];
   ox_settle();
   c->of_edge = last;
   s->scene->flood_words[word + 1u] = crossing;
   ox_settle();
-  return true;
+  if (last != OX_NONE) return true;
+  __global const ox_edge* edge = s->scene->edges + c->edge;
+  return ox_mark_chunk(s, edge->vertex[0]) && ox_mark_chunk(s, edge->vertex[1]);
 }
 
 static bool ox_is_parted(const ox_flood_state* s, uint edge) {
@@ -250,8 +247,7 @@ static bool ox_mark_ends(ox_flood_state* s, uint edge) {
   for (uint end = 0u; end < 2u; ++end) {
     const uint outside = OX_KEY(s->scene->edges[edge].vertex[end], OX_KEY_OUTSIDE);
     if (ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, end) == OX_END_OUTSIDE &&
-        !ox_has_key(s->scene, &s->table, outside) &&
-        !ox_add_key(s->scene, &s->table, outside, OX_OUTSIDE_SO_FAR))
+        ox_find_or_add_key(s->scene, &s->table, outside, OX_OUTSIDE_SO_FAR) == OX_NONE)
       return false;
   }
   return true;
@@ -383,11 +379,9 @@ static bool ox_flood_other_ends(ox_flood_state* s, uint edge, uint* next) {
     if (ox_side_of_end(s->scene, &s->table, s->pair->epsilon, edge, end) != OX_END_OUTSIDE ||
         ox_is_looked_at(s, vertex))
       continue;
-    const uint key = OX_KEY(vertex, OX_KEY_OUTSIDE);
-    if (!ox_has_key(s->scene, &s->table, key) &&
-        !ox_add_key(s->scene, &s->table, key, OX_OUTSIDE_SO_FAR))
-      return false;
-    const uint word = ox_find_key(s->scene, &s->table, key);
+    const uint word =
+        ox_find_or_add_key(s->scene, &s->table, OX_KEY(vertex, OX_KEY_OUTSIDE), OX_OUTSIDE_SO_FAR);
+    if (word == OX_NONE) return false;
     if (s->scene->flood_words[word + 1u] == OX_OUTSIDE_ASKED) continue;
     ox_settle();
     s->scene->flood_words[word + 1u] = OX_OUTSIDE_ASKED;

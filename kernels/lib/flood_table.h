@@ -107,16 +107,20 @@ static inline bool ox_has_key(const ox_scene* scene, const ox_flood_table* table
   return table->places != 0u && scene->flood_words[ox_find_key(scene, table, key)] != 0u;
 }
 
-// Of a key that is not there. False: there is no room.
-static inline bool ox_add_key(const ox_scene* scene, ox_flood_table* table, uint key, uint value) {
-  if (!ox_grow_table(scene, table)) return false;
-  const uint word = ox_find_key(scene, table, key);
+// The word of a key, which is added with a value where it is not there. OX_NONE: there is no room.
+static inline uint ox_find_or_add_key(const ox_scene* scene, ox_flood_table* table, uint key,
+                                      uint value) {
+  const uint places = table->places;
+  uint word = places != 0u ? ox_find_key(scene, table, key) : OX_NONE;
+  if (word != OX_NONE && scene->flood_words[word] != 0u) return word;
+  if (!ox_grow_table(scene, table)) return OX_NONE;
+  if (table->places != places) word = ox_find_key(scene, table, key);
   ox_settle();
   scene->flood_words[word] = key;
   scene->flood_words[word + 1u] = value;
   ox_settle();
   ++table->used;
-  return true;
+  return word;
 }
 
 #endif
