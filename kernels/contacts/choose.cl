@@ -110,19 +110,33 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
   *together = all;
 }
 
-// Moves past the planes that are chosen for a unit, or for one that is deeper below the first of
-// them; returns which. *more: candidates so far beyond one for each feature, for which there is
-// room (OX_CANDIDATES_PER_FEATURE).
-static uint ox_take_out(ox_manifold* m, uint unit, uint waiting, ox_moves* moves, uint* more) {
+// The unit that comes next, and its planes. What is found for a unit, if it is less deep below that
+// than below what it proposed, it proposes; and it waits, if another is deeper then. Few such are
+// looked at.
+static uint ox_choose_next(const ox_region_view* r, uint waiting, const ox_moves* before,
+                           ox_plane_choice* choice, ox_joint_choice* together) {
+  for (uint i = 0u;; ++i) {
+    const uint unit = ox_next_unit(r, waiting, before);
+    if (ox_is_outside(r, unit)) return unit;
+    *choice = ox_choose_for(r, unit, before, together);
+    if (i == OX_FEW || !ox_seek(r, unit, choice, together)) return unit;
+  }
+}
+
+// Moves past the planes that are chosen for the next unit, or for one that is deeper below the
+// first of them; returns which. *more: candidates so far beyond one for each feature, for which
+// there is room (OX_CANDIDATES_PER_FEATURE).
+static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
+  ox_joint_choice together;
+  ox_plane_choice choice;
+  uint unit = ox_choose_next(r, waiting, moves, &choice, &together);
   if (ox_is_outside(r, unit)) {
     if (moves->count != 0u) return unit;  // of a contact where the region has no other
     const ox_plane_choice nearest = ox_choose_nearest(r, unit);
     if (nearest.plane.kind != OX_PLANE_NONE) ox_move_past(m, &nearest, unit, waiting, moves);
     return unit;
   }
-  ox_joint_choice together;
-  ox_plane_choice choice = ox_choose_for(r, unit, moves, &together);
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
   ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
@@ -160,8 +174,7 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   uint more = 0u;
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
-    const uint next = ox_next_unit(r, waiting, &moves);
-    const uint taken = ox_take_out(m, next, waiting, &moves, &more);
+    const uint taken = ox_take_out(m, waiting, &moves, &more);
     if (ox_is_first_item()) ox_mark_cleared(r, taken);
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);

@@ -297,4 +297,24 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   return is_past_middle ? known : near;
 }
 
+// Has a unit propose the face that was found for it, where that is nearer than what it proposed.
+static inline bool ox_seek(const ox_region_view* r, uint unit, const ox_plane_choice* choice,
+                           const ox_joint_choice* together) {
+  const uint flags = ox_flags_of(r, unit);
+  const float depth = ox_max(choice->depth, choice->judged);
+  const float proposed = ox_floats_of(&r->members, OX_MEMBER_LEAST)[unit];
+  if ((flags & OX_MEMBER_SOUGHT) != 0u || together->count != 0u ||
+      choice->plane.kind == OX_PLANE_NONE || choice->plane.kind == OX_PLANE_EDGES ||
+      !(depth < proposed - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon))
+    return false;
+  ox_plane_choice own = *choice;
+  own.depth = depth;
+  ox_settle();
+  ox_words_of(&r->members, OX_MEMBER_FLAGS)[unit] = flags | OX_MEMBER_SOUGHT;
+  ox_words_of(&r->members, OX_MEMBER_PLANE)[unit] = choice->plane.id[0] | OX_OWN_NEAREST;
+  ox_set_own(r, unit, &own);
+  ox_settle();
+  return true;
+}
+
 #endif

@@ -353,5 +353,28 @@ TEST(Concave, APlateThatALegJustTouchesIsHeldByTheSeatOnIt) {
   }
 }
 
+double ring_top(const TestMesh& ring) {
+  double top = 0;
+  for (int k = 0; k < ring.vertex_count(); ++k)
+    top = std::max(top, ring.vertex(static_cast<std::size_t>(k))[2]);
+  return top;
+}
+
+// A box that is lowered by d on a ring that lies is clear again after d. At the box's side what is
+// on top of the ring is nearer to that than to the lower side, and what is beside it goes up.
+TEST(Concave, ABoxWithItsSideOverARingGoesUpByAsMuchAsItIsInIt) {
+  const TestMesh ring = make_torus(0.03, 0.0122, 24, 12);
+  const double top = ring_top(ring);
+  const TestPose turned_a_little = turned({0, 0, 1}, 0.05);
+  for (const double d : {0.004, 0.006, 0.008})
+    for (const double side : {-0.026, -0.022}) {
+      const Placed placed{make_box({0.3, 0.6, 0.3}), ring, at(side + 0.15, 0, top - d + 0.15),
+                          turned_a_little};
+      const std::vector<Contact> found = placed.contacts(TestPose{});
+      ASSERT_FALSE(found.empty());
+      EXPECT_LT(deepest(found), 1.1 * d) << d << " with its side at " << side;
+    }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
