@@ -119,7 +119,7 @@ static uint ox_choose_next(const ox_region_view* r, uint waiting, const ox_moves
     const uint unit = ox_next_unit(r, waiting, before);
     if (ox_is_outside(r, unit)) return unit;
     *choice = ox_choose_for(r, unit, before, together);
-    if (i == OX_FEW || !ox_seek(r, unit, choice, together)) return unit;
+    if (i == OX_FEW || !ox_propose_found(r, unit, choice, together)) return unit;
   }
 }
 

@@ -297,23 +297,22 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   return is_past_middle ? known : near;
 }
 
-// Has a unit propose the face that was found for it, where that is nearer than what it proposed.
-static inline bool ox_seek(const ox_region_view* r, uint unit, const ox_plane_choice* choice,
-                           const ox_joint_choice* together) {
+// Has a unit propose the face that was found for it, once, where that costs less than what it
+// proposed; returns whether it does.
+static inline bool ox_propose_found(const ox_region_view* r, uint unit,
+                                    const ox_plane_choice* choice,
+                                    const ox_joint_choice* together) {
   const uint flags = ox_flags_of(r, unit);
-  const float depth = ox_max(choice->depth, choice->judged);
   const float proposed = ox_floats_of(&r->members, OX_MEMBER_LEAST)[unit];
-  if ((flags & OX_MEMBER_SOUGHT) != 0u || together->count != 0u ||
-      choice->plane.kind == OX_PLANE_NONE || choice->plane.kind == OX_PLANE_EDGES ||
-      !(depth < proposed - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon))
-    return false;
   ox_plane_choice own = *choice;
-  own.depth = depth;
+  own.depth = ox_max(own.depth, own.judged);
+  if ((flags & OX_MEMBER_FOUND) != 0u || together->count != 0u || own.plane.kind == OX_PLANE_NONE ||
+      own.plane.kind == OX_PLANE_EDGES ||
+      !(own.depth < proposed - OX_CLEARANCE * r->scene->pairs[r->pair].epsilon))
+    return false;
   ox_settle();
-  ox_words_of(&r->members, OX_MEMBER_FLAGS)[unit] = flags | OX_MEMBER_SOUGHT;
-  ox_words_of(&r->members, OX_MEMBER_PLANE)[unit] = choice->plane.id[0] | OX_OWN_NEAREST;
-  ox_set_own(r, unit, &own);
-  ox_settle();
+  ox_words_of(&r->members, OX_MEMBER_FLAGS)[unit] = flags | OX_MEMBER_FOUND;
+  ox_propose_face(r, unit, &own);
   return true;
 }
 

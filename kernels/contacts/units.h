@@ -60,6 +60,14 @@ static inline void ox_set_own(const ox_region_view* r, uint k, const ox_plane_ch
   ox_floats_of(&r->members, OX_MEMBER_LEAST)[k] = own->depth;
 }
 
+// Has a unit propose a face of the other mesh, whether or not the region meets it.
+static inline void ox_propose_face(const ox_region_view* r, uint k, const ox_plane_choice* own) {
+  ox_settle();
+  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = own->plane.id[0] | OX_OWN_NEAREST;
+  ox_set_own(r, k, own);
+  ox_settle();
+}
+
 // Has a chord propose the nearest of the faces that its middle is behind too: it may go along below
 // a face that nothing of the region meets. A vertex has the face that its ray leaves by (GRAPP),
 // which serves as well: to ask for the nearest of vertices too made no nut on a bolt less deep, and
@@ -93,10 +101,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
     ox_settle();
     return;
   }
-  ox_settle();
-  ox_words_of(&r->members, OX_MEMBER_PLANE)[k] = nearest.id[0] | OX_OWN_NEAREST;
-  ox_set_own(r, k, &own);
-  ox_settle();
+  ox_propose_face(r, k, &own);
 }
 
 // Whether a unit that has been asked for the nearest face is outside: where an edge leaves a solid
