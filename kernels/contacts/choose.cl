@@ -112,15 +112,19 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
 
 // The unit that comes next, and its planes. What is found for a unit, if it is less deep below that
 // than below what it proposed, it proposes; and it waits, if another is deeper then. Few such are
-// looked at.
+// looked at, and only before the first move, which others follow, since what it goes costs nothing.
 static uint ox_choose_next(const ox_region_view* r, uint waiting, const ox_moves* before,
                            ox_plane_choice* choice, ox_joint_choice* together) {
-  for (uint i = 0u;; ++i) {
-    const uint unit = ox_next_unit(r, waiting, before);
-    if (ox_is_outside(r, unit)) return unit;
+  const uint most = before->count == 0u ? OX_FEW : 0u;
+  uint unit = ox_next_unit(r, waiting, before);
+  for (uint i = 0u; !ox_is_outside(r, unit); ++i) {
     *choice = ox_choose_for(r, unit, before, together);
-    if (i == OX_FEW || !ox_propose_found(r, unit, choice, together)) return unit;
+    if (i == most || !ox_propose_found(r, unit, choice, together)) break;
+    const uint next = ox_next_unit(r, waiting, before);
+    if (next == unit) break;
+    unit = next;
   }
+  return unit;
 }
 
 // Moves past the planes that are chosen for the next unit, or for one that is deeper below the

@@ -14,6 +14,7 @@ typedef struct {
   uint face[OX_MOST_PLANES];
   float far[OX_MOST_PLANES];    // [m] how far each goes
   float along[OX_MOST_PLANES];  // [m] how far the last goes along each
+  float lent[OX_MOST_PLANES];   // [m] as much of it as its unit proposed to go itself
   float3 at[OX_MOST_PLANES];    // the middle of the unit that each was chosen for
 } ox_moves;
 
@@ -60,6 +61,7 @@ static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* c
   moves->face[last] = ox_face_on(r, unit, &choice->plane);
   moves->at[last] = ox_middle_of(r, unit);
   moves->far[last] = moves->along[last] = far;
+  moves->lent[last] = ox_min(far, ox_floats_of(&r->members, OX_MEMBER_LEAST)[unit]);
   for (uint i = 0u; i < last; ++i)
     moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
 }
@@ -80,11 +82,13 @@ static inline float ox_taken_back(const ox_moves* moves, float3 normal, float de
   return most;
 }
 
-// How far the moves before take what a plane clears along it, at most [m].
+// How far the moves before take what a plane clears along it, at most [m]. None lends more than its
+// unit proposed to go itself: of a ring on a plate, across its edge, one vertex would lead the next
+// out past the plate's side else, each a little farther.
 static inline float ox_gone_along(const ox_moves* moves, float3 normal) {
   float most = 0.0f;
   for (uint i = 0u; i < moves->count; ++i)
-    most = ox_max(most, moves->far[i] * ox_dot(moves->chosen[i].normal, normal));
+    most = ox_max(most, moves->lent[i] * ox_dot(moves->chosen[i].normal, normal));
   return most;
 }
 

@@ -122,7 +122,7 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const
   for (uint i = 0u; i < before->count; ++i) {
     ox_floats along;
     ox_dot_fields(&r->planes, OX_PLANE_NORMAL, block, before->chosen[i].normal, &along);
-    along *= before->far[i];
+    along *= before->lent[i];
     gone = OX_GREATER(gone, along);
   }
   // Those of other kinds clear the other mesh alone.

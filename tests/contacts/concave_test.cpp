@@ -376,5 +376,21 @@ TEST(Concave, ABoxWithItsSideOverARingGoesUpByAsMuchAsItIsInIt) {
     }
 }
 
+// The same, deeper: what is on top of the ring may leave by the box's side where that is nearer.
+// What follows it goes no farther than twice the way up: a move lends what its own unit proposed,
+// and what is left is less than what the follower proposes; neither proposes more than the way up.
+TEST(Concave, ABoxWithItsSideOverARingSendsNoneOfItFarPastTheSide) {
+  const TestMesh ring = make_torus(0.03, 0.0122, 24, 12);
+  const double top = ring_top(ring);
+  for (const double d : {0.009, 0.01, 0.011, 0.012})
+    for (const double side : {-0.03, -0.028, -0.026}) {
+      const Placed placed{make_box({0.3, 0.6, 0.3}), ring, at(side + 0.15, 0, top - d + 0.15),
+                          TestPose{}};
+      const std::vector<Contact> found = placed.contacts(TestPose{});
+      ASSERT_FALSE(found.empty());
+      EXPECT_LT(deepest(found), 2 * d) << d << " with its side at " << side;
+    }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
