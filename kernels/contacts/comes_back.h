@@ -6,11 +6,9 @@
 
 #include "contacts/ways.h"
 
-// Whether mesh `side`, which the plane clears, goes through a face of the other that looks back:
-// one that crosses it, or at a vertex inside it. (The plane of a face of A has the face's normal
-// turned.)
-static inline bool ox_goes_through(const ox_region_view* r, const ox_plane* plane, uint side) {
-  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
+// Whether mesh `side`, which the plane clears, crosses a face of the other that looks back. (The
+// plane of a face of A has the face's normal turned.)
+static inline bool ox_crosses_back(const ox_region_view* r, const ox_plane* plane, uint side) {
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     const uint through =
         ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
@@ -21,6 +19,14 @@ static inline bool ox_goes_through(const ox_region_view* r, const ox_plane* plan
     if ((ox_mask_of(&looks_back) & through & ox_present_lanes(r->plane_count, block)) != 0u)
       return true;
   }
+  return false;
+}
+
+// Whether mesh `side`, which the plane clears, goes through a face of the other that looks back:
+// one that it crosses, or at a vertex inside it.
+static inline bool ox_goes_through(const ox_region_view* r, const ox_plane* plane, uint side) {
+  if ((r->flags & OX_REGION_CROSSED) == 0u) return false;  // one is inside the other
+  if (ox_crosses_back(r, plane, side)) return true;
   const float3 direction = ox_way_of(side, plane->normal);
   for (uint first = 0u; first < r->count; first += OX_ITEMS) {
     const uint k = first + OX_ITEM;

@@ -64,8 +64,28 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
   return seed;
 }
 
+// Whether the curve in which the surfaces meet runs over the facet of a plane; two edges cross.
+// `index`: which of the region's it is; OX_NONE: that is not known. Of a facet there is one.
+static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane, uint index) {
+  if (plane->kind == OX_PLANE_EDGES) return true;
+  if (index != OX_NONE)
+    return (ox_words_of(&r->planes, OX_PLANE_FLAGS)[index] & OX_PLANE_CROSSED) != 0u;
+  const uint facet = ox_facet_of(r->scene, plane->id[0]);
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
+    uint crossed = ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
+                              plane->kind | OX_PLANE_CROSSED) &
+                   ox_present_lanes(r->plane_count, block);
+    for (; crossed != 0u; crossed &= crossed - 1u) {
+      const uint other = OX_VECTOR_WIDTH * block + ox_lowest(crossed);
+      if (ox_facet_of(r->scene, ox_words_of(&r->planes, OX_PLANE_ID)[other]) == facet) return true;
+    }
+  }
+  return false;
+}
+
+// Takes a plane for a unit if it is better; `index`: which of the region's it is, or OX_NONE.
 static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
-                               ox_plane_choice* best) {
+                               uint index, ox_plane_choice* best) {
   if (ox_is_refused(&seed->refused, plane, OX_WAY_OF_UNIT)) return;
   ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
@@ -79,7 +99,8 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
   choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, behind));
   if (!ox_is_better_choice(&choice, best)) return;
   // Where it goes on through a face that looks back, all of the body has to pass the plane, as of
-  // a whole region.
+  // a whole region. A chord tells that by its crossings, a vertex by those of the region: what is
+  // in a board by more than half of it is not to leave by the side that nothing of it has met.
   const float3 direction = ox_way_of(seed->side, plane->normal);
   for (uint i = 0u; i < seed->count; ++i) {
     __global const ox_feature* f = r->scene->features + seed->through[i];
@@ -89,6 +110,12 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
     if (ox_is_doubted(of_body, choice.depth, limit) &&
         !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
       of_body = ox_doubted(choice.depth);
+    choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
+  }
+  if (!ox_is_better_choice(&choice, best)) return;
+  if (seed->count == 0u && !ox_is_crossed(r, plane, index) &&
+      ox_crosses_back(r, plane, seed->side)) {
+    const float of_body = ox_depth_of_body(r, plane, seed->side, limit);
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
   }
   if (ox_is_better_choice(&choice, best)) *best = choice;
@@ -138,10 +165,10 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const
 static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed) {
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
-  ox_try_unit(r, seed, &own, &best);
+  ox_try_unit(r, seed, &own, ox_own_index(r, seed->unit), &best);
   for (uint i = 0u; i < seed->before->count; ++i) {
     const ox_plane on = ox_plane_on(r, seed->before, i);
-    ox_try_unit(r, seed, &on, &best);
+    ox_try_unit(r, seed, &on, OX_NONE, &best);
   }
   const ox_ends ends = ox_ends_of(r, seed->unit);
   const uint blocks = (r->plane_count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
@@ -154,7 +181,7 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
       for (; clears[i] != 0u; clears[i] &= clears[i] - 1u) {
         const uint k = OX_VECTOR_WIDTH * (first + i) + ox_lowest(clears[i]);
         const ox_plane plane = ox_load_plane(&r->planes, k);
-        ox_try_unit(r, seed, &plane, &best);
+        ox_try_unit(r, seed, &plane, k, &best);
       }
   }
   return best;
@@ -173,23 +200,6 @@ static inline ox_plane ox_surface_near(const ox_region_view* r, uint side, float
       !ox_stays_inside(r, side, p, &nearest, ox_plane_depth(&nearest, side, p)))
     return nearest;
   return ox_no_plane();
-}
-
-// Whether the curve in which the surfaces meet runs over the facet of a plane; two edges cross.
-static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane) {
-  if (plane->kind == OX_PLANE_EDGES) return true;
-  const uint facet = ox_facet_of(r->scene, plane->id[0]);
-  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
-    uint crossed = ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
-                              plane->kind | OX_PLANE_CROSSED) &
-                   ox_present_lanes(r->plane_count, block);
-    for (; crossed != 0u; crossed &= crossed - 1u) {
-      const ox_plane other =
-          ox_load_plane(&r->planes, OX_VECTOR_WIDTH * block + ox_lowest(crossed));
-      if (ox_facet_of(r->scene, other.id[0]) == facet) return true;
-    }
-  }
-  return false;
 }
 
 // The least of the planes that do not separate it, where all together do; else OX_PLANE_NONE. Where
@@ -271,7 +281,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   if (seed.refused.count == OX_FEW) {
     ox_plane_choice own = known;
     const ox_plane plane = ox_own_plane(r, unit);
-    ox_try_unit(r, &seed, &plane, &own);
+    ox_try_unit(r, &seed, &plane, OX_NONE, &own);
     const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
                           OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
     if (ox_is_better_choice(&own, &known) &&
@@ -293,7 +303,8 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   // What of a body is more than halfway through a thin part goes back by the face that it came in
   // by, as what is beside it does, which is not so deep.
   const bool is_past_middle = ox_looks_back(nearest.normal, known.plane.normal) &&
-                              ox_is_crossed(r, &known.plane) && !ox_unit_stays(r, &seed, &known);
+                              ox_is_crossed(r, &known.plane, OX_NONE) &&
+                              !ox_unit_stays(r, &seed, &known);
   return is_past_middle ? known : near;
 }
 

@@ -111,5 +111,34 @@ TEST(Thin, BodiesMoreThanHalfwayThroughABentPlateGoBackByTheSideTheyCameIn) {
       }
 }
 
+// Of a body that is not convex each vertex was asked alone by which face it leaves, and that is the
+// lower side of a board for what is past its middle, which nothing of the body has met. Up it is
+// as far as the body is in the board.
+TEST(Thin, ConcaveBodiesMoreThanHalfwayThroughABoardGoBackByTheSideTheyCameIn) {
+  const double thickness = 0.03;
+  const TestMesh board = make_box({0.6, 0.6, thickness});
+  Random random(11);
+  for (const TestMesh& body :
+       {make_l(0.2), make_torus(0.06, 0.02, 16, 8), make_torus(0.08, 0.02, 8, 6),
+        hub(polygon(24, 0.03), 0.06, 0.03), make_comb(3, 0.03, 0.08, 0.05)})
+    for (const double deep : {0.55, 0.7, 0.9})
+      for (int i = 0; i < 20; ++i) {
+        const double around = random.uniform(0, 2 * std::numbers::pi);
+        TestPose pose =
+            composed(turned({std::cos(around), std::sin(around), 0}, random.uniform(0.04, 0.6)),
+                     turned({1, 0, 0}, i % 2 == 0 ? 0 : 0.5 * std::numbers::pi));
+        double lowest = 1;
+        for (int k = 0; k < body.vertex_count(); ++k)
+          lowest = std::min(lowest, rotate(pose, body.vertex(static_cast<std::size_t>(k)))[2]);
+        const double in = deep * thickness;
+        pose.position = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
+                         0.5 * thickness - lowest - in};
+        const std::vector<Contact> found =
+            Placed{body, board, pose, TestPose{}}.contacts(TestPose{});
+        EXPECT_NEAR(deepest(found), in, 0.01 * in) << deep << ", pose " << i;
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.9) << deep << ", pose " << i;
+      }
+}
+
 }  // namespace
 }  // namespace ode_ext::test
