@@ -161,11 +161,15 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const
 }
 
 // Of all planes of the region, and a unit's own, the best for it. Its own is tried first: what
-// costs more need not be looked at.
+// costs more need not be looked at. But last where all of its body may have to pass it: how far
+// that is need not be known beyond what others cost.
 static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed) {
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
-  ox_try_unit(r, seed, &own, ox_own_index(r, seed->unit), &best);
+  const uint own_index = ox_own_index(r, seed->unit);
+  const bool is_last =
+      seed->count == 0u && own_index != OX_NONE && !ox_is_crossed(r, &own, own_index);
+  if (!is_last) ox_try_unit(r, seed, &own, own_index, &best);
   for (uint i = 0u; i < seed->before->count; ++i) {
     const ox_plane on = ox_plane_on(r, seed->before, i);
     ox_try_unit(r, seed, &on, OX_NONE, &best);
@@ -184,6 +188,7 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
         ox_try_unit(r, seed, &plane, k, &best);
       }
   }
+  if (is_last) ox_try_unit(r, seed, &own, own_index, &best);
   return best;
 }
 
