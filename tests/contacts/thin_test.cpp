@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contacts/placed.h"
+#include "contacts/upright.h"
 #include "support/extruded.h"
 #include "support/rig.h"
 
@@ -69,14 +70,10 @@ TEST(Thin, PartsThatAreDeeperThanThickHaveContactsAsDeepAsTheyAre) {
     for (const double deep : {1.0, 1.5, 2.0})
       for (int i = 0; i < 10; ++i) {
         const double around = random.uniform(0, 2 * std::numbers::pi);
-        const TestPose tilted =
+        const TestPose leaning =
             turned({std::cos(around), std::sin(around), 0}, random.uniform(0.05, 0.2));
-        double lowest = 0;
-        const std::vector<float>& v = part.mesh.vertices;
-        for (std::size_t k = 0; k < v.size(); k += 3)
-          lowest = std::min(lowest, rotate(tilted, {v[k], v[k + 1], v[k + 2]})[2]);
-        TestPose pose = tilted;
-        pose.position[2] = -lowest - deep * part.thickness;
+        TestPose pose = leaning;
+        pose.position[2] = -lowest_of(part.mesh, leaning)[2] - deep * part.thickness;
         const Placed placed{part.mesh, make_box({20, 20, 2}), pose, at(0, 0, -1)};
         const std::vector<Contact> found = placed.contacts(TestPose{});
         EXPECT_NEAR(deepest(found), deep * part.thickness, 1e-4) << part.name << ", pose " << i;
@@ -127,10 +124,7 @@ TEST(Thin, ConcaveBodiesMoreThanHalfwayThroughABoardGoBackByTheSideTheyCameIn) {
         TestPose pose =
             composed(turned({std::cos(around), std::sin(around), 0}, random.uniform(0.04, 0.6)),
                      turned({1, 0, 0}, i % 2 == 0 ? 0 : 0.5 * std::numbers::pi));
-        double lowest = 1;
-        for (int k = 0; k < body.vertex_count(); ++k)
-          lowest = std::min(lowest, rotate(pose, body.vertex(static_cast<std::size_t>(k)))[2]);
-        const double in = deep * thickness;
+        const double in = deep * thickness, lowest = lowest_of(body, pose)[2];
         pose.position = {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
                          0.5 * thickness - lowest - in};
         const std::vector<Contact> found =
