@@ -79,11 +79,12 @@ OX_STATIC_ASSERT(sizeof(ox_face) == 16, ox_face_is_16_bytes);
 // The separating planes that a region may part by, in the frame of B: faces of either mesh, and
 // common normals of two edges. Each field lies for itself, so that many planes are looked at at a
 // time (contacts/fields.h): of a region with m members there is room for OX_PLANES_PER_FEATURE * m.
-#define OX_PLANE_NORMAL 0u  // three: unit, the way A is moved
-#define OX_PLANE_LEVEL 3u   // two, of A and B: to where it has to go the way it is moved [m]
-#define OX_PLANE_FLAGS 5u   // OX_PLANE_..., a kind, with OX_PLANE_CROSSED, OX_PLANE_PASSED
-#define OX_PLANE_ID 6u      // two: of a face its triangle, 0; else the edges, of A and of B
-#define OX_PLANE_WORDS 8u
+#define OX_PLANE_NORMAL 0u   // three: unit, the way A is moved
+#define OX_PLANE_LEVEL 3u    // two, of A and B: to where it has to go the way it is moved [m]
+#define OX_PLANE_FLAGS 5u    // OX_PLANE_..., a kind, with CROSSED, PASSED, MEASURED
+#define OX_PLANE_ID 6u       // two: of a face its triangle, 0; else the edges, of A and of B
+#define OX_PLANE_OF_BODY 8u  // [m] of a face: so deep below it the body that it clears is at least
+#define OX_PLANE_WORDS 9u
 
 // What may become a contact, in the frame of B, each field for itself: a feature makes one, and for
 // units that it takes several planes to separate there is room for as many more.

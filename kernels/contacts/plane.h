@@ -14,14 +14,16 @@
 #define OX_PLANE_EDGES 3u
 #define OX_PLANE_CLEARS(side) (2u >> (side))
 #define OX_PLANE_KIND 3u
-#define OX_PLANE_CROSSED 4u  // the curve in which the surfaces meet runs over the face
-#define OX_PLANE_PASSED 8u   // part of its region is on the other side of it
+#define OX_PLANE_CROSSED 4u    // the curve in which the surfaces meet runs over the face
+#define OX_PLANE_PASSED 8u     // part of its region is on the other side of it
+#define OX_PLANE_MEASURED 16u  // OX_PLANE_OF_BODY is all of how deep that is
 
 typedef struct {
   uint kind;       // OX_PLANE_...
   uint id[2];      // of a face: its triangle, 0; else the edges, of A and of B
   float3 normal;   // unit, the way A is moved
   float level[2];  // of A and B: to where it has to go the way it is moved [m]
+  uint index;      // which of the planes of its region it is; OX_NONE: none of those
 } ox_plane;
 
 // The way that a plane with this normal moves mesh `side`.
@@ -33,6 +35,7 @@ static inline ox_plane ox_no_plane(void) {
   plane.id[0] = plane.id[1] = OX_NONE;
   plane.normal = (float3)(0.0f);
   plane.level[0] = plane.level[1] = 0.0f;
+  plane.index = OX_NONE;
   return plane;
 }
 
@@ -55,6 +58,7 @@ static inline ox_plane ox_plane_of_face(const ox_scene* scene, uint pair, uint s
   plane.kind = side == 0u ? OX_PLANE_FACE_OF_A : OX_PLANE_FACE_OF_B;
   plane.id[0] = triangle;
   plane.id[1] = 0u;
+  plane.index = OX_NONE;
   plane.normal = ox_way_of(side, -normal);
   // The highest of its corners, whichever comes first.
   __global const ox_triangle* t = scene->surfaces.triangles + triangle;

@@ -91,12 +91,30 @@ static inline float ox_body_tie(const ox_region_view* r) {
 }
 
 // How deep all of mesh `side` is below a plane, and the tie [m]; or something beyond `limit`.
-static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* plane, uint side,
-                                     float limit) {
+static inline float ox_measure_body(const ox_region_view* r, const ox_plane* plane, uint side,
+                                    float limit) {
   const float3 down = -ox_way_of(side, plane->normal);
   const float level = plane->level[side];
   // Where the walk ends early, the tie is more than rounding and takes the sum past the limit.
   return level + ox_reach_along(r->scene, r->pair, side, down, limit - level) + ox_body_tie(r);
+}
+
+// The same. What is found of a face of the region is kept, since many units ask; of a pair of edges
+// it would be of either side.
+static inline float ox_depth_of_body(const ox_region_view* r, const ox_plane* plane, uint side,
+                                     float limit) {
+  if (plane->index == OX_NONE || plane->kind == OX_PLANE_EDGES)
+    return ox_measure_body(r, plane, side, limit);
+  __global float* kept = ox_floats_of(&r->planes, OX_PLANE_OF_BODY) + plane->index;
+  __global uint* flags = ox_words_of(&r->planes, OX_PLANE_FLAGS) + plane->index;
+  const float known = *kept;
+  if (known > limit || (*flags & OX_PLANE_MEASURED) != 0u) return known;
+  const float depth = ox_measure_body(r, plane, side, limit);
+  ox_settle();
+  *kept = depth;  // each of a group the same
+  if (depth <= limit) *flags |= OX_PLANE_MEASURED;
+  ox_settle();
+  return depth;
 }
 
 // How far A has to go along a direction to be past all of B [m].

@@ -32,6 +32,7 @@ static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane*
                                   uint flags) {
   ox_set_vector(list, OX_PLANE_NORMAL, i, plane->normal);
   ox_words_of(list, OX_PLANE_FLAGS)[i] = plane->kind | flags;
+  ox_floats_of(list, OX_PLANE_OF_BODY)[i] = -INFINITY;  // not asked
   for (uint k = 0u; k < 2u; ++k) {
     ox_floats_of(list, OX_PLANE_LEVEL + k)[i] = plane->level[k];
     ox_words_of(list, OX_PLANE_ID + k)[i] = plane->id[k];
@@ -40,6 +41,7 @@ static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane*
 
 static inline ox_plane ox_load_plane(const ox_fields* list, uint i) {
   ox_plane plane;
+  plane.index = i;
   plane.normal = ox_vector_of(list, OX_PLANE_NORMAL, i);
   plane.kind = ox_words_of(list, OX_PLANE_FLAGS)[i] & OX_PLANE_KIND;
   for (uint k = 0u; k < 2u; ++k) {

@@ -65,11 +65,11 @@ static inline ox_seed ox_seed_of(const ox_region_view* r, uint unit, const ox_mo
 }
 
 // Whether the curve in which the surfaces meet runs over the facet of a plane; two edges cross.
-// `index`: which of the region's it is; OX_NONE: that is not known. Of a facet there is one.
-static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane, uint index) {
+// A region has one plane of a facet; that of another triangle of it may be asked for too.
+static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane) {
   if (plane->kind == OX_PLANE_EDGES) return true;
-  if (index != OX_NONE)
-    return (ox_words_of(&r->planes, OX_PLANE_FLAGS)[index] & OX_PLANE_CROSSED) != 0u;
+  if (plane->index != OX_NONE)
+    return (ox_words_of(&r->planes, OX_PLANE_FLAGS)[plane->index] & OX_PLANE_CROSSED) != 0u;
   const uint facet = ox_facet_of(r->scene, plane->id[0]);
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->plane_count; ++block) {
     uint crossed = ox_of_kind(&r->planes, block, OX_PLANE_KIND | OX_PLANE_CROSSED,
@@ -83,9 +83,9 @@ static inline bool ox_is_crossed(const ox_region_view* r, const ox_plane* plane,
   return false;
 }
 
-// Takes a plane for a unit if it is better; `index`: which of the region's it is, or OX_NONE.
+// Takes a plane for a unit if it is better.
 static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, const ox_plane* plane,
-                               uint index, ox_plane_choice* best) {
+                               ox_plane_choice* best) {
   if (ox_is_refused(&seed->refused, plane, OX_WAY_OF_UNIT)) return;
   ox_plane_choice choice = ox_no_choice();
   choice.plane = *plane;
@@ -113,8 +113,7 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
   }
   if (!ox_is_better_choice(&choice, best)) return;
-  if (seed->count == 0u && !ox_is_crossed(r, plane, index) &&
-      ox_crosses_back(r, plane, seed->side)) {
+  if (seed->count == 0u && !ox_is_crossed(r, plane) && ox_crosses_back(r, plane, seed->side)) {
     const float of_body = ox_depth_of_body(r, plane, seed->side, limit);
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
   }
@@ -166,13 +165,11 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const
 static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_seed* seed) {
   ox_plane_choice best = ox_no_choice();
   const ox_plane own = ox_own_plane(r, seed->unit);
-  const uint own_index = ox_own_index(r, seed->unit);
-  const bool is_last =
-      seed->count == 0u && own_index != OX_NONE && !ox_is_crossed(r, &own, own_index);
-  if (!is_last) ox_try_unit(r, seed, &own, own_index, &best);
+  const bool is_last = seed->count == 0u && own.index != OX_NONE && !ox_is_crossed(r, &own);
+  if (!is_last) ox_try_unit(r, seed, &own, &best);
   for (uint i = 0u; i < seed->before->count; ++i) {
     const ox_plane on = ox_plane_on(r, seed->before, i);
-    ox_try_unit(r, seed, &on, OX_NONE, &best);
+    ox_try_unit(r, seed, &on, &best);
   }
   const ox_ends ends = ox_ends_of(r, seed->unit);
   const uint blocks = (r->plane_count + OX_VECTOR_WIDTH - 1u) / OX_VECTOR_WIDTH;
@@ -185,10 +182,10 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
       for (; clears[i] != 0u; clears[i] &= clears[i] - 1u) {
         const uint k = OX_VECTOR_WIDTH * (first + i) + ox_lowest(clears[i]);
         const ox_plane plane = ox_load_plane(&r->planes, k);
-        ox_try_unit(r, seed, &plane, k, &best);
+        ox_try_unit(r, seed, &plane, &best);
       }
   }
-  if (is_last) ox_try_unit(r, seed, &own, own_index, &best);
+  if (is_last) ox_try_unit(r, seed, &own, &best);
   return best;
 }
 
@@ -286,7 +283,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   if (seed.refused.count == OX_FEW) {
     ox_plane_choice own = known;
     const ox_plane plane = ox_own_plane(r, unit);
-    ox_try_unit(r, &seed, &plane, OX_NONE, &own);
+    ox_try_unit(r, &seed, &plane, &own);
     const float allowed = ox_taken_back(before, known.plane.normal, known.depth) +
                           OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
     if (ox_is_better_choice(&own, &known) &&
@@ -308,8 +305,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   // What of a body is more than halfway through a thin part goes back by the face that it came in
   // by, as what is beside it does, which is not so deep.
   const bool is_past_middle = ox_looks_back(nearest.normal, known.plane.normal) &&
-                              ox_is_crossed(r, &known.plane, OX_NONE) &&
-                              !ox_unit_stays(r, &seed, &known);
+                              ox_is_crossed(r, &known.plane) && !ox_unit_stays(r, &seed, &known);
   return is_past_middle ? known : near;
 }
 

@@ -46,12 +46,6 @@ static inline void ox_propose_for(const ox_region_view* r, uint k, uint index,
 // OX_MEMBER_PLANE is its triangle with this bit.
 #define OX_OWN_NEAREST 0x80000000u
 
-// Which of the planes of the region a unit proposes; OX_NONE: none of these.
-static inline uint ox_own_index(const ox_region_view* r, uint k) {
-  const uint index = ox_words_of(&r->members, OX_MEMBER_PLANE)[k];
-  return (index & OX_OWN_NEAREST) == 0u ? index : OX_NONE;
-}
-
 // The best of the planes that a unit proposes; OX_PLANE_NONE: there is none.
 static inline ox_plane ox_own_plane(const ox_region_view* r, uint k) {
   const uint index = ox_words_of(&r->members, OX_MEMBER_PLANE)[k];
