@@ -42,6 +42,7 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
     ox_add_edge_contact(m, choice);
   else if (ox_is_first_item() && ox_add_cleared(m, choice, of_seed) == 0u)  // all on the rim
     ox_add_feature_contact(m, choice, of_seed);
+  ox_settle();
   for (uint first = 0u; OX_VECTOR_WIDTH * first < waiting; first += OX_BLOCKS_AT_ONCE) {
     uint cleared[OX_BLOCKS_AT_ONCE];
     ox_find_cleared(r, first, waiting, moves, cleared);
@@ -179,6 +180,7 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
   ox_measure_units(r, waiting);
   while (waiting != 0u && moves.count < OX_MOST_PLANES) {
     const uint taken = ox_take_out(m, waiting, &moves, &more);
+    ox_settle();
     if (ox_is_first_item()) ox_mark_cleared(r, taken);
     ox_settle();
     waiting = ox_bring_first(r, waiting, OX_MEMBER_CLEARED, 0u);

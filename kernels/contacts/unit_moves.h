@@ -101,7 +101,9 @@ static inline float ox_other_way_tie(const ox_region_view* r, const ox_moves* mo
   float cosine = 0.0f;
   for (uint i = 0u; i < moves->count; ++i)
     cosine = ox_max(cosine, ox_dot(moves->chosen[i].normal, normal));
-  return (1.0f - cosine) * OX_MARGIN * r->scene->pairs[r->pair].epsilon;
+  // Rounding takes the cosine past 1. What a plane costs must be no less than what it is looked for
+  // by (ox_clearing_planes): of two of one plane the first to be looked at would be taken.
+  return ox_max(1.0f - cosine, 0.0f) * OX_MARGIN * r->scene->pairs[r->pair].epsilon;
 }
 
 // What a plane costs a unit that has to go so far: what is left of that after the moves before.

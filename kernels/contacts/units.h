@@ -181,15 +181,16 @@ static inline uint ox_bring_first(const ox_region_view* r, uint count, uint mask
     for (; coming == 0u; ++to)
       coming = ox_members_of_kind(r, to, count, mask, flags) & ~ox_present_lanes(kept, to);
     const uint swaps = min(popcount(leaving), popcount(coming));
+    ox_settle();
     for (uint i = OX_ITEM; i < swaps; i += OX_ITEMS)
       ox_swap_members(r, OX_VECTOR_WIDTH * (from - 1u) + ox_nth_bit(leaving, i),
                       OX_VECTOR_WIDTH * (to - 1u) + ox_nth_bit(coming, i));
+    ox_settle();
     for (uint i = 0u; i < swaps; ++i) {
       leaving &= leaving - 1u;
       coming &= coming - 1u;
     }
   }
-  ox_settle();
   return kept;
 }
 

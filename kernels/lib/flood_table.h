@@ -63,7 +63,8 @@ static inline uint ox_find_key(const ox_scene* scene, const ox_flood_table* tabl
   uint place = mul_hi(key * 0x9e3779b1u, table->places);  // multiplicative (Knuth)
   for (;; ++place) {
     const uint word = table->first + 2u * (place & (table->places - 1u));
-    if (scene->flood_words[word] == key || scene->flood_words[word] == 0u) return word;
+    const uint there = scene->flood_words[word];  // others of a group may be adding the same
+    if (there == key || there == 0u) return word;
   }
 }
 
