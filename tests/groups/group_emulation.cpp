@@ -156,6 +156,7 @@ std::uint32_t ox_emulated_bits(std::uint32_t holds) {
 }
 
 using Float3 = float __attribute__((vector_size(16)));  // as OpenCL passes it
+using Int3 = std::int32_t __attribute__((vector_size(16)));
 using Word = std::uint32_t;
 #define OF_OPENCL(type, name, mangled, parameters) \
   extern type name parameters __asm__(mangled);    \
@@ -193,6 +194,13 @@ OF_OPENCL(float, cl_sqrt, "_Z4sqrtf", (float v)) { return std::sqrt(v); }
 OF_OPENCL(float, cl_fabs, "_Z4fabsf", (float v)) { return std::fabs(v); }
 OF_OPENCL(Float3, cl_fabs3, "_Z4fabsDv3_f", (Float3 v)) {
   return Float3{std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])};
+}
+OF_OPENCL(Int3, cl_to_int3, "_Z16convert_int3_rteDv3_f", (Float3 v)) {
+  const auto nearest = [](float of) { return static_cast<std::int32_t>(std::nearbyint(of)); };
+  return Int3{nearest(v[0]), nearest(v[1]), nearest(v[2])};
+}
+OF_OPENCL(Float3, cl_to_float3, "_Z14convert_float3Dv3_i", (Int3 v)) {
+  return Float3{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 OF_OPENCL(float, cl_clamp, "_Z5clampfff", (float v, float lo, float hi)) {
   return std::fmin(std::fmax(v, lo), hi);
