@@ -58,25 +58,48 @@ static inline bool ox_is_on_rim(const ox_region_view* r, __global const ox_featu
          (f->at[1] != OX_NONE && ox_facet_of(r->scene, f->at[1]) == facet);
 }
 
-// By one work-item.
+// [m] how deep a crossing of mesh `side` is below a plane. Where it lies depends on how much larger
+// A was made.
+static inline float ox_crossing_depth(const ox_manifold* m, const ox_plane* plane, uint side,
+                                      float3 position) {
+  const float grown = OX_INFLATION * m->region->scene->pairs[m->region->pair].epsilon;
+  return ox_max(ox_plane_depth(plane, side, position) - grown, 0.0f);
+}
+
+// By one work-item. A crossing that a pair of edges clears; the triangles are of these, which have
+// the normal.
+static inline void ox_add_crossing_at_edges(const ox_manifold* m, const ox_plane_choice* choice,
+                                            __global const ox_feature* f) {
+  __global const ox_edge* edges = m->region->scene->edges;
+  const uint side = ox_side_of(f->flags);
+  const float3 position = vload3(0, f->position);
+  ox_add_candidate(m, choice, side, position, ox_crossing_depth(m, &choice->plane, side, position),
+                   OX_HIT_POINT, edges[choice->plane.id[side]].triangle[0],
+                   edges[choice->plane.id[1u - side]].triangle[0], ox_touch_of(f, f->triangle));
+}
+
+// By one work-item; of a vertex past the plane of a face alone.
 static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_choice* choice,
                                           __global const ox_feature* f) {
+  if (choice->plane.kind == OX_PLANE_EDGES) {
+    ox_add_crossing_at_edges(m, choice, f);
+    return;
+  }
   const uint of = choice->plane.kind == OX_PLANE_FACE_OF_A ? 0u : 1u;
   const uint side = 1u - of;  // that moves past the plane
   const float3 position = vload3(0, f->position);
-  const float depth = ox_plane_depth(&choice->plane, side, position);
-  // Where a crossing lies depends on how much larger A was made.
-  const float grown = OX_INFLATION * m->region->scene->pairs[m->region->pair].epsilon;
   const ox_scene* scene = m->region->scene;
   // Of the triangles of a facet the one that it met.
   const bool met = f->triangle != OX_NONE && ox_side_of(f->flags) == side &&
                    ox_facet_of(scene, f->triangle) == ox_facet_of(scene, choice->plane.id[0]);
   const uint target = met ? f->triangle : choice->plane.id[0];
   if (ox_is_vertex(f->flags))
-    ox_add_candidate(m, choice, side, position, ox_max(depth, 0.0f), 0u, f->source, target,
-                     ox_touch_of(f, target));
+    ox_add_candidate(m, choice, side, position,
+                     ox_max(ox_plane_depth(&choice->plane, side, position), 0.0f), 0u, f->source,
+                     target, ox_touch_of(f, target));
   else  // of the face that it crosses, which no other crossing of the edge does
-    ox_add_candidate(m, choice, side, position, ox_max(depth - grown, 0.0f), OX_HIT_POINT,
+    ox_add_candidate(m, choice, side, position,
+                     ox_crossing_depth(m, &choice->plane, side, position), OX_HIT_POINT,
                      ox_side_of(f->flags) == side ? f->at[0] : f->triangle, target,
                      ox_touch_of(f, f->triangle));
 }

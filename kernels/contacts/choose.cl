@@ -28,7 +28,9 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
   if (k == seed || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
   const ox_plane_choice by = ox_clearing_plane(r, k, moves);
   if (by.plane.kind == OX_PLANE_NONE) return;
-  if (by.plane.kind != OX_PLANE_EDGES) ox_add_cleared(m, &by, ox_feature_of(r, k));
+  // A contact of a vertex is on a facet.
+  if (by.plane.kind != OX_PLANE_EDGES || !ox_is_vertex(ox_flags_of(r, k)))
+    ox_add_cleared(m, &by, ox_feature_of(r, k));
   ox_mark_cleared(r, k);
 }
 

@@ -254,6 +254,26 @@ TEST(Concave, ContactsOfLinksOfAChainAreAsDeepAsTheyOverlapHoweverTheyAreCut) {
   }
 }
 
+// Rings that hang in each other, as a link on a hook does, meet over several faces of each; where
+// edges of theirs part them, one point where these pass would let a ring turn about it.
+TEST(Concave, ARingThatHangsInARingIsHeldAtMoreThanTwoPoints) {
+  const TestMesh upper = make_torus(0.12, 0.04, 24, 12), lower = make_torus(0.12, 0.03, 24, 12);
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    const TestPose tilted = turned(random.direction(), random.uniform(0, 0.5));
+    TestPose crossed = composed(tilted, turned({1, 0, 0}, std::numbers::pi / 2));
+    double apart = 0.15, together = 0.25;
+    while (together - apart > 1e-5) {
+      const double middle = 0.5 * (apart + together);
+      crossed.position = {middle, 0, 0};
+      (surfaces_intersect(lower, at(0, 0, 0), upper, crossed) ? together : apart) = middle;
+    }
+    crossed.position = {together + 0.004, 0, 0};
+    const Placed placed{lower, upper, at(0, 0, 0), crossed};
+    EXPECT_GT(placed.contacts(TestPose{}).size(), 2u) << "pose " << i;
+  }
+}
+
 // Closed, about z from -1 to 1; its waist is at 0.
 TestMesh make_spool(int sides, int rings) {
   TestMesh mesh;
