@@ -194,7 +194,8 @@ TEST(ApiLaunches, SoftRingsInOneAnotherAreTheSameInOneGoAndStepByStep) {
   for (int i = 0; i < 200; ++i) {
     const TestPose pose = turned({0, 1, 0}, std::numbers::pi / 2,
                                  {0.05 * random.below(9), 0.05 * random.below(9), 0});
-    set_pose(b, composed(turned(random.direction(), random.uniform(0, 1e-4)), pose));
+    const Point axis = random.direction();
+    set_pose(b, composed(turned(axis, random.uniform(0, 1e-4)), pose));
     EXPECT_EQ(difference(answer_of(in_one_go, a, b, 1000), answer_of(step_by_step, a, b, 1000)), "")
         << i;
   }
