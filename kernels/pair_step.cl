@@ -87,6 +87,7 @@ static void ox_relate_pairs(const ox_scene* scene) {
     ox_begin_found(scene->found + p);
     scene->pair_ranges[p].first = 0u;
     scene->pair_ranges[p].count = 0u;
+    scene->pair_ranges[p].features = 0u;
     scene->pairs[p].near = 0u;
 
     __global const ox_object* a = scene->objects + scene->pair_objects[2u * p];

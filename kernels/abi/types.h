@@ -370,7 +370,8 @@ OX_STATIC_ASSERT(sizeof(ox_contact) == 52, ox_contact_is_52_bytes);
 typedef struct {
   ox_u32 first;
   ox_u32 count;
+  ox_u32 features;  // that the pair has: how long it takes goes by them
 } ox_range;
-OX_STATIC_ASSERT(sizeof(ox_range) == 8, ox_range_is_8_bytes);
+OX_STATIC_ASSERT(sizeof(ox_range) == 12, ox_range_is_12_bytes);
 
 #endif

@@ -199,6 +199,7 @@ static void ox_reduce_candidates(const ox_scene* scene) {
   for (uint p = first + ox_next_item(scene, OX_QUEUE_REDUCE); p < scene->pair_end;
        p = first + ox_next_item(scene, OX_QUEUE_REDUCE)) {
     const uint count = scene->found[p].candidates;
+    if (ox_is_first_item()) scene->pair_ranges[p].features = scene->found[p].features;
     if (count == 0u) continue;
     __global const ox_mesh* a = scene->meshes + scene->pairs[p].mesh[0];
     __global const ox_mesh* b = scene->meshes + scene->pairs[p].mesh[1];

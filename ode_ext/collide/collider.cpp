@@ -65,7 +65,7 @@ void Collider::collide_tile(Batch& batch) {
 void Collider::attempt(Batch& batch) {
   Workload& workload = batch.workload;
   workload.begin_attempt();
-  data_.pairs.upload_pairs(batch.scene, workload.tile());
+  data_.pairs.upload_pairs(batch.scene, workload.tile(), whole_step_.has_value());
   if (paper_) paper_->begin_attempt(data_, batch);
   read_back_.reserve(data_);
 
@@ -109,8 +109,9 @@ void Collider::deliver(Batch& batch) {
   given_up_in_a_row_ = 0;
   batch.workload.report_tile();
   if (report_.backtracked) return result_.clear();
-  append_contacts(batch.scene, data_.meshes, batch.workload.tile().first, read_back_.ranges(data_),
-                  read_back_.contacts(data_), options_.max_contacts_deformable == 0, result_);
+  append_contacts(batch.scene, data_.meshes, batch.workload.tile().first,
+                  data_.pairs.in_order(read_back_.ranges(data_)), read_back_.contacts(data_),
+                  options_.max_contacts_deformable == 0, result_);
 }
 
 // A pair that the device has no room for, of a scene of others. Where several in a row have none,

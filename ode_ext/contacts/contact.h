@@ -29,6 +29,7 @@ struct PairContacts {
   struct Range {
     std::size_t first;
     std::uint32_t count;
+    std::uint32_t features = 0;  // that were found of the pair, by which it took its time
   };
   std::vector<Range> ranges;  // one per pair
   std::vector<Contact> contacts;

@@ -125,7 +125,7 @@ void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto& pair = scene.pairs[first_pair + i];
     const std::size_t first = result.contacts.size();
-    result.ranges.push_back({first, ranges[i].count});
+    result.ranges.push_back({first, ranges[i].count, ranges[i].features});
     if (ranges[i].count == 0) continue;
     for (const ox_contact& contact : contacts.subspan(ranges[i].first, ranges[i].count))
       result.contacts.push_back(to_named_contact(scene, meshes, pair, contact));

@@ -29,6 +29,7 @@ struct Answer {
   std::array<std::uint64_t, 2> stamps{};  // as they were then
   std::vector<Contact> contacts;
   bool valid = false;
+  std::uint32_t features = 0;        // that were found the last time (Scene::features)
   std::uint64_t gathering = 0;       // the last gathering that met it; nested passes count
   std::uint64_t gathered_pass = 0;   // the last outermost pass that gathered it
   std::uint64_t last_round = 0;      // the last one that gathered it or in which it was asked for

@@ -11,6 +11,7 @@ namespace ode_ext {
 void PairScene::begin() {
   scene_.objects.clear();
   scene_.pairs.clear();
+  scene_.features.clear();
   members_.clear();
   ++number_;
   colliding_ = 0;
@@ -31,6 +32,7 @@ void PairScene::add(Answer& answer, PairMember& a, PairMember& b, bool can_colli
   answer.valid = false;
   if (can_collide) {
     scene_.pairs.push_back({object_of(first), object_of(second)});
+    scene_.features.push_back(answer.features);
     pending_.push_back(&answer);
     answer.given_up = 0;
   }
@@ -95,6 +97,8 @@ void PairScene::store(const PairContacts& found) {
     if (i + kAhead < pending_.size() && found.ranges[i + kAhead].count != 0)
       pending_[i + kAhead]->prefetch();
     const PairContacts::Range range = found.ranges[i];
+    // Most have none, as before, and are not touched.
+    if (range.features != scene_.features[i]) pending_[i]->features = range.features;
     if (range.count == 0) continue;
     const auto first = found.contacts.begin() + static_cast<std::ptrdiff_t>(range.first);
     pending_[i]->contacts.assign(first, first + range.count);

@@ -41,6 +41,8 @@ struct Scene {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Object> objects;
   std::vector<std::array<std::uint32_t, 2>> pairs;  // of objects
+  // Of each pair: as many features as were found of it the last time; 0: not known. Or empty.
+  std::vector<std::uint32_t> features;
 };
 
 // Pairs of a scene that are collided together.

@@ -3,6 +3,8 @@
 // steps launched one by one give.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "collide/collider.h"
 #include "support/moving_scene.h"
 
@@ -70,6 +72,31 @@ TEST_F(WholeStep, GivesTheSameBytesWhereNoMemoryIsShared) {
 
 TEST_F(WholeStep, GivesTheBytesOfItsStepsForFourPairs) {
   EXPECT_GT(compare(random_scene(120, 12).scene, 4), 300u);
+}
+
+TEST_F(WholeStep, GivesTheSameBytesInWhateverOrderPairsAreTaken) {
+  Scene scene = random_scene(120, 12).scene;
+  const auto expected = bits_of(whole_.collide(scene, nullptr));
+  Random random(3);
+  for (int order = 0; order < 3; ++order) {
+    scene.features.clear();
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+      scene.features.push_back(static_cast<std::uint32_t>(random.below(1000)));
+    EXPECT_EQ(bits_of(whole_.collide(scene, nullptr)), expected);
+  }
+}
+
+TEST_F(WholeStep, SaysHowManyFeaturesAPairHas) {
+  const Scene scene = random_scene(120, 12).scene;
+  const PairContacts found = whole_.collide(scene, nullptr);
+  const PairContacts& stepwise = stepwise_.collide(scene, nullptr);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    EXPECT_EQ(found.ranges[i].features, stepwise.ranges[i].features);
+    EXPECT_GE(found.ranges[i].features, found.ranges[i].count > 0 ? 1u : 0u);
+  }
+  EXPECT_GT(std::count_if(found.ranges.begin(), found.ranges.end(),
+                          [](const auto& range) { return range.features > 8; }),
+            20);
 }
 
 TEST_F(WholeStep, GivesTheBytesOfItsStepsForSmoothMeshes) {

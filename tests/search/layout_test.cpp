@@ -227,6 +227,7 @@ const std::vector<Member> kMembers = {
     SIZE_OF(ox_range),
     OFFSET_OF(ox_range, first),
     OFFSET_OF(ox_range, count),
+    OFFSET_OF(ox_range, features),
 };
 
 // OpenCL C has no offsetof, but addresses.
