@@ -3,10 +3,11 @@
 // that which has more of them, so that there is work for many; each of them searches its subtrees
 // (match.cl).
 //
-// in    pairs, meshes, meshlet_nodes
+// in    pairs, meshes, meshlet_nodes; of coarse meshes triangles and meshlets
 // out   meshlet_tasks
 // item  1 pair (grid-stride); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_MESHLETS
+#include "lib/coarse_slabs.h"
 #include "lib/meshlet.h"
 
 typedef struct {
@@ -207,6 +208,8 @@ static void ox_cull(const ox_scene* scene) {
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
     if (!ox_has_tree(target)) continue;
     const ox_box box = ox_target_box(pair, side, target);
+    ox_coarse_slabs slabs;
+    ox_find_coarse_slabs(scene, pair, side, &slabs);
     ox_kept_meshlets kept;
     kept.pair_side = p << 1 | side;
     kept.count = 0u;
@@ -217,7 +220,8 @@ static void ox_cull(const ox_scene* scene) {
           scene->surfaces.nodes + source->meshlet_node_first + (child >> 1);
       for (uint first = 0u; first < node->count; first += OX_VECTOR_WIDTH) {
         const uint block = first / OX_VECTOR_WIDTH;
-        const uint in_box = ox_children_in_box(&box, node, block);
+        uint in_box = ox_children_in_box(&box, node, block);
+        if (in_box != 0u) in_box = ox_children_in_slabs(&slabs, node, block, in_box);
         if (in_box == 0u) continue;
         ox_children_there there;
         ox_place_children(pair, side, source, target, node, block, in_box, &there);

@@ -34,12 +34,13 @@ typedef struct {
   __global const ox_mesh* target;
   uint vertex_first;  // of the source
   ox_flood_table table;
-  bool leaks;    // the flood got round the border of an open target
-  bool told;     // a crossing tells of an end of its edge
-  bool asks;     // it goes on from vertices of which none tells
-  bool refuted;  // and got to one that is outside by a crossing
-  bool lies;     // it goes to vertices alone that lie on an open target
-  uint crossed;  // so many of the queue are of parts that have crossings
+  bool leaks;         // the flood got round the border of an open target
+  bool told;          // a crossing tells of an end of its edge
+  bool asks;          // it goes on from vertices of which none tells
+  bool refuted;       // and got to one that is outside by a crossing
+  bool lies;          // it goes to vertices alone that lie on an open target
+  bool is_near_only;  // and to those alone that can reach it
+  uint crossed;       // so many of the queue are of parts that have crossings
 } ox_flood_state;
 
 static bool ox_is_open(const ox_flood_state* s) {
@@ -105,6 +106,16 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
     return false;
   }
   const bool is_whole = is_new && !s->lies && chunk->is_joined != 0u;
+  // Of an open source nothing but what can reach an open target gets a ray: a floor goes on beyond
+  // the body on it, and all of that is behind the body's wall.
+  if (is_new && s->is_near_only && !ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, chunk)) {
+    ox_settle();
+    s->scene->flood_words[word] = key;
+    s->scene->flood_words[word + 1u] = (1u << chunk->count) - 1u;
+    ox_settle();
+    ++s->table.used;
+    return true;
+  }
   ox_settle();
   s->scene->flood_words[word] = key;
   s->scene->flood_words[word + 1u] =
@@ -460,6 +471,7 @@ static void ox_flood_sides(const ox_scene* scene) {
     state.vertex_first = scene->chunks[state.source->chunk_first].first;
     state.told = state.asks = state.refuted = state.lies = false;
     state.crossed = 0u;
+    state.is_near_only = ((state.source->flags | state.target->flags) & OX_MESH_CLOSED) == 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
     if (state.leaks)

@@ -159,7 +159,9 @@ std::vector<Case> cases_of(const Options& options) {
     const test::TestMesh rock = bench::make_rock(triangles);
     add_shape("rocks", rock, rock, cases);
     add_shape("hills", rock, bench::make_hills(triangles), cases);
-    add_shape("ground", rock, bench::make_ground(triangles), cases, bench::make_case_from_above);
+    const test::TestMesh ground = bench::make_ground(triangles);
+    add_shape("ground", rock, ground, cases, bench::make_case_from_above);
+    add_shape("debris", test::make_tetrahedron(1), ground, cases, bench::make_case_from_above);
   }
   for (const test::WorstPair& worst : test::worst_pairs())
     cases.push_back({"worst: " + worst.name, "", worst.a.triangle_count(), worst.b.triangle_count(),
@@ -221,8 +223,10 @@ int main(int argc, char** argv) {
   CLI::App app{
       "What a pair of meshes costs: this library in a batch and alone, ODE's own collider, FCL "
       "(every contact, and yes or no) and Bullet's GImpact. At four depths two tori, two rocks, a "
-      "rock on hills, met from anywhere, and a rock on ground, from above; and pairs that are hard "
-      "on a collider ('worst'). One thread of the device's with POCL_MAX_PTHREAD_COUNT=1.",
+      "rock on hills, met from anywhere, a rock and debris of four triangles on ground, from "
+      "above; "
+      "and pairs that are hard on a collider ('worst'). One thread of the device's with "
+      "POCL_MAX_PTHREAD_COUNT=1.",
       "pair_times"};
   Options options;
   app.add_option("--pairs", options.pairs, "pairs a batch, fewer of large meshes")

@@ -384,6 +384,25 @@ TEST_F(Flood, FindsWhatIsBehindOpenGroundFromVerticesThatLieOnIt) {
   EXPECT_GT(hits_, 20u);
 }
 
+// Half a ball without its lid, whose wall faces inwards: behind it is all of the floor about
+// it, of which nothing farther than it reaches can be in contact with it.
+TEST_F(Flood, GoesNoFartherOverAnOpenFloorThanAnOpenBodyReaches) {
+  TestMesh bowl = inverted(make_icosphere(0.4, 3));
+  std::vector<unsigned> lower;
+  for (std::size_t t = 0; t < static_cast<std::size_t>(bowl.triangle_count()); ++t)
+    if (bowl.corner(t, 0)[2] + bowl.corner(t, 1)[2] + bowl.corner(t, 2)[2] < 0)
+      lower.insert(lower.end(),
+                   {bowl.indices[3 * t], bowl.indices[3 * t + 1], bowl.indices[3 * t + 2]});
+  bowl.indices = lower;
+  const auto words = [&](double size, int n) {
+    const TestScene scene = one_pair(bowl, at(0.003, 0.002, 0.35), make_sheet(size, n), TestPose{});
+    flood_.collide(scene.scene, nullptr);
+    EXPECT_GT(flood_.report().actual[OX_LIST_CROSSINGS], 20u);
+    return flood_.report().actual[OX_LIST_FLOOD_WORDS];
+  };
+  EXPECT_LT(words(20, 200), 2 * words(2, 20));
+}
+
 // In a valley, within the box of the hills and 12 cm above them.
 TEST_F(Flood, CastsNoRayFromABodyJustAboveHills) {
   for (const bool closed : {true, false}) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -170,6 +172,53 @@ TEST(Search, ListsNoMeshletOfABallInTheHoleOfARing) {
   const std::size_t all = Rig::shared().run_with_edges(scene.scene, kBoth[0]).meshlets.size();
   EXPECT_GT(listed(0.6), 10u);
   EXPECT_LT(listed(0.6), all / 2);
+}
+
+TestMesh turned_mesh(TestMesh mesh, const TestPose& pose) {
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
+    const Point p = to_world(pose, mesh.vertex(i / 3));
+    for (std::size_t k = 0; k < 3; ++k) mesh.vertices[i + k] = static_cast<float>(p[k]);
+  }
+  return mesh;
+}
+
+// A crate that stands on a corner in its own frame: its box is mostly empty, and all of the floor
+// below is in it, of which the corner meets next to nothing.
+TEST(Search, ListsOfAFineFloorWhatIsNearACrateNotWhatIsInItsBox) {
+  TestScene scene;
+  const std::uint32_t crate = scene.add_mesh(
+      turned_mesh(make_cube(0.4), turned({1, -1, 0}, std::acos(1 / std::sqrt(3.0)))));
+  const std::uint32_t floor = scene.add_mesh(make_box({2, 2, 0.2}, 40, 40, 1));
+  scene.add_pair(crate, at(0.013, 0.007, 0.1 + 0.2 * std::sqrt(3.0) - 0.001), floor, at(0, 0, 0));
+  const StepRecords records = Rig::shared().run_with_edges(scene.scene, kBoth[0]);
+  EXPECT_GT(compare_crossings(scene, kBoth[0]).certain, 2u);
+  EXPECT_LT(records.meshlet_pairs.size(), 12u);
+  EXPECT_LT(records.meshlet_tasks.size(), 12u);
+}
+
+TEST(Search, FindsTheCrossingsOfCoarseMeshesWithFineOnes) {
+  TestScene scene;
+  const std::array coarse{scene.add_mesh(make_cube(0.6)),
+                          scene.add_mesh(make_tetrahedron(0.9)),
+                          scene.add_mesh(make_l(0.7)),
+                          scene.add_mesh(make_icosphere(0.4, 0)),
+                          scene.add_mesh(make_comb(3, 0.2, 0.3, 0.4)),
+                          scene.add_mesh(make_triangle(0.8)),
+                          scene.add_mesh(inverted(make_cube(0.5)))};
+  const std::array fine{scene.add_mesh(make_icosphere(0.6, 4)), scene.add_mesh(make_waves(3, 40)),
+                        scene.add_mesh(make_torus(0.6, 0.2, 60, 20))};
+  Random random(82);
+  for (std::size_t i = 0; i < 126; ++i) {
+    const TestPose one = random.pose(0.6);
+    const TestPose other = random.pose(0.2);
+    const std::uint32_t few = coarse[i % coarse.size()];
+    const std::uint32_t many = fine[i % fine.size()];
+    if (i % 2 == 0)
+      scene.add_pair(few, one, many, other);
+    else
+      scene.add_pair(many, one, few, other);
+  }
+  EXPECT_GT(compare_crossings(scene, kBoth[0]).certain, 3000u);
 }
 
 // The meshlets of a task's subtree, over all meshes: from the first up to the second.
