@@ -39,6 +39,7 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
                          ox_moves* moves) {
   const ox_region_view* r = m->region;
   ox_add_move(r, choice, seed, moves);
+  m->manifold = ox_first_past(moves, &choice->plane);
   __global const ox_feature* of_seed = ox_feature_of(r, seed);
   if (choice->plane.kind == OX_PLANE_EDGES)
     ox_add_edge_contact(m, choice);
@@ -53,7 +54,6 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
         ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed);
   }
   ox_settle();
-  ++m->manifold;
 }
 
 // Whether a unit is a chord of an edge at which its mesh bends inwards a little, so that the faces

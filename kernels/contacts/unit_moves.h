@@ -66,6 +66,14 @@ static inline void ox_add_move(const ox_region_view* r, const ox_plane_choice* c
     moves->along[i] = far * ox_dot(choice->plane.normal, moves->chosen[i].normal);
 }
 
+// The first of the moves past a plane, which is one of theirs: what all of them clear is of one
+// manifold.
+static inline uint ox_first_past(const ox_moves* moves, const ox_plane* plane) {
+  uint i = 0u;
+  while (!ox_is_same_plane(moves->chosen + i, plane)) ++i;
+  return i;
+}
+
 // The plane of the face that lies on that of a move; OX_PLANE_NONE: there is none.
 static inline ox_plane ox_plane_on(const ox_region_view* r, const ox_moves* moves, uint i) {
   if (moves->face[i] == OX_NONE) return ox_no_plane();
