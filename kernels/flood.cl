@@ -161,6 +161,10 @@ static float ox_depth_of_rays(const ox_flood_state* s, const ox_way_up* way) {
 static void ox_cast_queue(const ox_flood_state* s) {
   const ox_way_up way = ox_find_way_up(s->scene, s->pair_side);
   const float known = ox_depth_of_rays(s, &way);
+  // Of a fine mesh other vertices are as near the border as matters.
+  const bool has_no_border =
+      known < INFINITY && s->crossed <= OX_MANY_BEHIND &&
+      s->scene->found[s->pair_side >> 1].at_border[1u - (s->pair_side & 1u)] == 0u;
   uint last = OX_NONE;  // the first of what the block before ended in
   for (uint begin = 0u; begin < s->table.queued; begin += OX_ITEMS) {
     const uint i = begin + OX_ITEM;
@@ -169,15 +173,17 @@ static void ox_cast_queue(const ox_flood_state* s) {
     if (ox_is_open(s)) {
       const bool lies = i >= s->crossed;
       const bool is_deep = is_queued && !lies && ox_depth_below(s->scene, vertex, &way) > known;
-      const bool casts =
-          is_queued && (lies || is_deep ? ox_casts_ray(s->scene->vertices + vertex)
-                                        : ox_may_cast(s->scene, s->pair_side, vertex));
+      const bool is_reached = is_queued && !lies && !is_deep && has_no_border;
+      const bool casts = is_queued && (lies || is_deep || is_reached
+                                           ? ox_casts_ray(s->scene->vertices + vertex)
+                                           : ox_may_cast(s->scene, s->pair_side, vertex));
       const uint index = ox_append_each(s->scene, OX_LIST_RAYS, casts);
       if (casts)
         ox_store_ray(s->scene, index, s->pair_side, vertex,
-                     lies      ? OX_RAY_CONTAINED
-                     : is_deep ? OX_RAY_BEHIND
-                               : OX_RAY_ASKING,
+                     lies         ? OX_RAY_CONTAINED
+                     : is_deep    ? OX_RAY_BEHIND
+                     : is_reached ? OX_RAY_REACHED
+                                  : OX_RAY_ASKING,
                      OX_NONE);
       continue;
     }

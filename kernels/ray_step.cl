@@ -5,9 +5,28 @@
 // out   hits: of vertices that are inside
 // item  1 ray (grid-stride)
 // may overflow: OX_LIST_HITS
+#include "lib/below_border.h"
 #include "lib/border.h"
 #include "lib/closest.h"
 #include "lib/vertex_ray.h"
+
+// A vertex beyond the border of an open target that it is behind, if an edge of it comes from below
+// that.
+static void ox_append_below_border(const ox_scene* scene, const ox_ray* ray) {
+  const ox_below_border below = ox_find_below_border(scene, ray->pair_side, ray->vertex);
+  if (below.edge == OX_NONE) return;
+  const uint index = ox_append(scene, OX_LIST_HITS);
+  if (index == OX_NONE) return;
+  __global ox_hit* hit = scene->hits + index;
+  hit->pair_side = ray->pair_side;
+  hit->vertex = ray->vertex;
+  hit->triangle = below.triangle;
+  hit->kind = OX_HIT_INSIDE;
+  hit->depth = below.depth;
+  hit->t = below.t;
+  hit->from = OX_NONE;
+  hit->edge = below.edge;
+}
 
 static void ox_cast_rays(const ox_scene* scene) {
   const uint first = scene->lists[OX_LIST_RAYS].first;
@@ -42,8 +61,11 @@ static void ox_cast_rays(const ox_scene* scene) {
     if (told && outcome.triangle == OX_NONE) {
       const float3 p = ox_place(pair, side, vload3(0, scene->vertices[ray.vertex].position));
       outcome.triangle = ox_closest_in_front(scene, ray.pair_side, p);
-      if (outcome.triangle == OX_NONE) continue;
-      outcome.kind = OX_HIT_INSIDE;
+      if (outcome.triangle != OX_NONE) outcome.kind = OX_HIT_INSIDE;
+    }
+    if ((told || ray.memory == OX_RAY_REACHED) && outcome.triangle == OX_NONE) {
+      ox_append_below_border(scene, &ray);
+      continue;
     }
     const bool may_be_behind = !vertex_ray.known &&
                                (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&

@@ -14,6 +14,7 @@
 #define OX_FEATURE_FLAT 8u       // within a facet: of no contact, and no member of a region
 #define OX_FEATURE_REVERSED 16u  // of a vertex: it is behind the face whose normal is turned
 #define OX_FEATURE_NESTED 32u    // of a crossing: within a longer chord of the edge
+#define OX_FEATURE_MOVED 2048u   // of a vertex: a place on an edge stands for it (ox_hit)
 
 typedef struct ox_feature {
   ox_f32 position[3];  // in the frame of B
@@ -25,7 +26,9 @@ typedef struct ox_feature {
   ox_u32 face;      // that is crossed, or left by, among those of the region (ox_face); or OX_NONE
   ox_u32 next;      // another crossing of the edge; of a vertex `from` of ox_hit; or OX_NONE
   ox_u32 partner;   // of a crossing: the feature at the other end of its chord; OX_NONE: none
-  ox_u32 at[2];     // the triangles at the edge; the second is OX_NONE at a border
+  // The triangles at the edge, the second OX_NONE at a border; of a vertex that is moved the first
+  // is one at the edge that it is moved along.
+  ox_u32 at[2];
   // Of a crossing, for each facet at its edge: the next that has the pair of facets in common, and
   // so on round about, feature << 1 | which of the facets at its edge; OX_NONE at a border.
   ox_u32 mate[2];

@@ -298,11 +298,13 @@ OX_STATIC_ASSERT(sizeof(ox_ray) == 16, ox_ray_is_16_bytes);
 
 // `memory` of a ray of the product. Its vertex is inside where the ray says so; or it is, whatever
 // the ray meets; or it is, of a part of its mesh that no crossing tells of, so that nothing but its
-// vertices says where the surface is; or it is behind an open mesh, as far as that goes on.
+// vertices says where the surface is; or it is behind an open mesh, as far as that goes on; or it
+// is behind one no deeper than the rays of others reach, or beyond its border.
 #define OX_RAY_ASKING 0u
 #define OX_RAY_INSIDE 1u
 #define OX_RAY_CONTAINED 2u
 #define OX_RAY_BEHIND 3u
+#define OX_RAY_REACHED 4u
 
 #define OX_HIT_INSIDE 0u    // met within the source's own exit
 #define OX_HIT_FALLBACK 1u  // inside a closed target, but beyond the source's own exit
@@ -321,11 +323,13 @@ typedef struct {
   ox_u32 triangle;  // index into all triangles; OX_NONE: none is known
   ox_u32 kind;      // OX_HIT_..., with OX_HIT_REVERSED
   ox_f32 depth;     // [m] to the plane of the triangle
-  ox_f32 t;         // [m] along the ray
+  ox_f32 t;         // [m] along the ray, or along `edge`
   // A vertex that it hangs together with inside, one for all that do, perhaps itself; OX_NONE: no
   // flood tells.
   ox_u32 from;
-  ox_u32 padding;
+  // Of a vertex beyond the border of an open mesh: along which of its edges there is a place below
+  // that, `t` from the vertex, which stands for it; else OX_NONE.
+  ox_u32 edge;
 } ox_hit;
 OX_STATIC_ASSERT(sizeof(ox_hit) == 32, ox_hit_is_32_bytes);
 

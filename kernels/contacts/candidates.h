@@ -93,10 +93,12 @@ static inline void ox_add_feature_contact(const ox_manifold* m, const ox_plane_c
   const bool met = f->triangle != OX_NONE && ox_side_of(f->flags) == side &&
                    ox_facet_of(scene, f->triangle) == ox_facet_of(scene, choice->plane.id[0]);
   const uint target = met ? f->triangle : choice->plane.id[0];
+  const bool is_moved = (f->flags & OX_FEATURE_MOVED) != 0u;
   if (ox_is_vertex(f->flags))
     ox_add_candidate(m, choice, side, position,
-                     ox_max(ox_plane_depth(&choice->plane, side, position), 0.0f), 0u, f->source,
-                     target, ox_touch_of(f, target));
+                     ox_max(ox_plane_depth(&choice->plane, side, position), 0.0f),
+                     is_moved ? OX_HIT_POINT : 0u, is_moved ? f->at[0] : f->source, target,
+                     ox_touch_of(f, target));
   else  // of the face that it crosses, which no other crossing of the edge does
     ox_add_candidate(m, choice, side, position,
                      ox_crossing_depth(m, &choice->plane, side, position), OX_HIT_POINT,

@@ -57,6 +57,14 @@ static void ox_gather_features(const ox_scene* scene) {
       f.t = 0.0f;
       f.next = hit->from;
       position = ox_vertex_of(scene, f.pair, side, hit->vertex);
+      if (hit->edge != OX_NONE) {
+        f.flags |= OX_FEATURE_MOVED;
+        f.at[0] = scene->edges[hit->edge].triangle[0];
+        __global const uint* ends = scene->edges[hit->edge].vertex;
+        const uint other = ends[0] == hit->vertex ? ends[1] : ends[0];
+        const float3 d = ox_vertex_of(scene, f.pair, side, other) - position;
+        position += hit->t / sqrt(ox_dot(d, d)) * d;
+      }
     }
     vstore3(position, 0, f.position);
     scene->features[i] = f;

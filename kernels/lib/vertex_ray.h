@@ -52,6 +52,7 @@ static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool 
   hit->depth = outcome->depth;
   hit->t = outcome->t;
   hit->from = from;
+  hit->edge = OX_NONE;
 }
 
 #endif

@@ -105,6 +105,45 @@ TEST(Border, HoldsATiltedBodyAsTheEdgeOfASolidDoes) {
     }
 }
 
+// Rods and planks that lean over it from above: their lower end is beyond it, and all of them is
+// below it there, so that nothing of it is in them. They had contacts of no depth, and fell through
+// between the tiles of a floor.
+TEST(Border, HoldsWhatPassesBelowItAsTheEdgeOfASolidDoes) {
+  Random random(11);
+  const TestMesh solid = moved(make_box({4, 4, 3}), {0, 0, -1.5});
+  const TestMesh rods[] = {make_cylinder(0.024, 1.2, 8), make_cylinder(0.024, 1.2, 5),
+                           make_box({0.05, 0.05, 1.2}), make_box({0.05, 0.05, 1.2}, 1, 1, 7),
+                           make_box({0.012, 0.5, 1.2})};
+  for (const TestMesh& rod : rods)
+    for (const int cells : {1, 20})
+      for (const double degrees : {5.0, 10.0, 20.0, 40.0}) {
+        // So deep where it passes the border, all of it below.
+        const double angle = degrees * std::numbers::pi / 180;
+        const double below = 0.06 / std::cos(angle);
+        const double beyond = random.uniform(0.02, 0.3);
+        const double yaw = random.uniform(-0.2, 0.2);
+        const double across = random.uniform(-1, 1);
+        const TestPose lean = turned({0, 1, 0}, std::numbers::pi / 2 + angle);
+        TestPose pose = composed(turned({0, 0, 1}, yaw), lean);
+        const Point axis = rotate(pose, {0, 0, 1});
+        const double along = beyond / axis[0];
+        pose.position = Point{2, across, -below} + (along - 0.6) * axis;
+        const TestPose frame = random.pose(2);
+        const Placed on_sheet{rod, make_sheet(4, cells), pose, TestPose{}};
+        const Placed on_solid{rod, solid, pose, TestPose{}};
+        const std::vector<Contact> found = on_sheet.contacts(frame);
+        ASSERT_FALSE(found.empty());
+        const Contact rim = on_solid.contacts(frame).front();  // the deepest
+        const double truth = rim.depth;
+        EXPECT_GT(truth, 0.06);
+        EXPECT_GT(deepest(found), truth - on_sheet.tolerance(frame)) << degrees << ", " << cells;
+        // Straight up, past the face of a cell, it is farther.
+        const double most = cells == 1 ? truth : truth / rim.normal.z;
+        EXPECT_LT(deepest(found), most + on_sheet.tolerance(frame)) << degrees << ", " << cells;
+        for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.75);
+      }
+}
+
 // From x = 0 on it falls to one side.
 TestMesh tile(double side, double slope, int cells) {
   TestMesh sheet = moved(make_sheet(4, cells), {2 * side, 0, 0});

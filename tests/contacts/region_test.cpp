@@ -54,7 +54,18 @@ TEST(Features, LieOnTheirEdgesAndVerticesInTheFrameOfB) {
     };
     const double epsilon = static_cast<double>(records.pairs[f.pair].epsilon);
     Point expected;
-    if ((f.flags & OX_FEATURE_VERTEX) != 0) {
+    if ((f.flags & OX_FEATURE_MOVED) != 0) {
+      const auto hit = std::find_if(records.hits.begin(), records.hits.end(), [&](const ox_hit& h) {
+        return h.pair_side == (f.pair << 1 | side) && h.vertex == f.source;
+      });
+      ASSERT_TRUE(hit != records.hits.end());
+      const ox_edge& edge = records.edges.at(hit->edge);
+      const std::size_t other = edge.vertex[0] == f.source ? 1 : 0;
+      ASSERT_EQ(edge.vertex[1 - other], f.source);
+      expected = place_of(f.source);
+      expected =
+          expected + static_cast<double>(hit->t) * unit(place_of(edge.vertex[other]) - expected);
+    } else if ((f.flags & OX_FEATURE_VERTEX) != 0) {
       expected = place_of(f.source);
     } else {
       const ox_edge& edge = records.edges.at(f.source);

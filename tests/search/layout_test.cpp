@@ -169,6 +169,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_hit, depth),
     OFFSET_OF(ox_hit, t),
     OFFSET_OF(ox_hit, from),
+    OFFSET_OF(ox_hit, edge),
     SIZE_OF(ox_edge_crossing),
     OFFSET_OF(ox_edge_crossing, pair_side),
     OFFSET_OF(ox_edge_crossing, edge),
