@@ -47,10 +47,11 @@ static inline float ox_way_back(float3 back, float3 direction, float depth) {
   return -0.5f * depth * ox_dot(back, direction);
 }
 
-// An edge of mesh `side` that crosses such a face, of which `back` is the normal.
+// An edge of mesh `side` that crosses such a face, of which `back` is the normal, and that has been
+// taken `aside` as well.
 static inline bool ox_edge_comes_back(const ox_region_view* r, uint side,
                                       __global const ox_feature* f, float3 back,
-                                      const ox_plane* plane, float depth) {
+                                      const ox_plane* plane, float depth, float3 aside) {
   const float3 direction = ox_way_of(side, plane->normal);
   __global const ox_edge* edge = r->scene->edges + f->source;
   const uint end = (f->flags & OX_FEATURE_LEAVES) != 0u ? 1u : 0u;
@@ -59,7 +60,7 @@ static inline bool ox_edge_comes_back(const ox_region_view* r, uint side,
   const float height = ox_dot(beyond, back);
   const float part = ox_way_back(back, direction, depth);
   const float3 asked = part < height ? p + part / height * beyond : p + beyond;
-  return ox_stays_inside(r, side, asked, plane, depth);
+  return ox_stays_inside(r, side, asked + aside, plane, depth);
 }
 
 // What of mesh `side` is around a vertex at such a face: where the vertex stays inside, as a tip in
@@ -109,7 +110,8 @@ static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* p
         return true;
     } else if (is_own) {
       const float3 back = ox_normal_of(r->scene, r->pair, 1u - side, f->triangle);
-      if (ox_looks_back(back, direction) && ox_edge_comes_back(r, side, f, back, plane, depth))
+      if (ox_looks_back(back, direction) &&
+          ox_edge_comes_back(r, side, f, back, plane, depth, (float3)(0.0f)))
         return true;
     } else if ((flags & OX_MEMBER_BEGINS) != 0u) {  // each edge once for a chord
       const float3 back = ox_back_of_edge(r, 1u - side, f->source, direction, direction);

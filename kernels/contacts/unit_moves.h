@@ -100,6 +100,19 @@ static inline float ox_gone_along(const ox_moves* moves, float3 normal) {
   return most;
 }
 
+// And how far that move takes it across the normal, the way A is moved [m].
+static inline float3 ox_gone_aside(const ox_moves* moves, float3 normal) {
+  float most = 0.0f;
+  float3 aside = (float3)(0.0f);
+  for (uint i = 0u; i < moves->count; ++i) {
+    const float cosine = ox_dot(moves->chosen[i].normal, normal);
+    if (!(moves->lent[i] * cosine > most)) continue;
+    most = moves->lent[i] * cosine;
+    aside = moves->lent[i] * (moves->chosen[i].normal - cosine * normal);
+  }
+  return aside;
+}
+
 // Of planes that cost as much, to within what is not known, one that goes the way of a move before
 // is better: past it nothing goes another way. (Where a box slides along the foot of a wall, a
 // vertex of that foot is at the box's front for a moment, as deep below the front as not at all;

@@ -108,7 +108,8 @@ static inline void ox_try_unit(const ox_region_view* r, const ox_seed* seed, con
     if (!ox_looks_back(back, direction)) continue;
     float of_body = ox_depth_of_body(r, plane, seed->side, limit);
     if (ox_is_doubted(of_body, choice.depth, limit) &&
-        !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth))
+        !ox_edge_comes_back(r, seed->side, f, back, plane, choice.depth,
+                            ox_way_of(seed->side, ox_gone_aside(seed->before, plane->normal))))
       of_body = ox_doubted(choice.depth);
     choice.judged = ox_max(choice.judged, ox_cost_of(r, seed->before, plane, of_body));
   }
@@ -159,6 +160,36 @@ static inline uint ox_clearing_planes(const ox_region_view* r, uint block, const
   return ox_mask_of(&clears) & ox_present_lanes(r->plane_count, block);
 }
 
+// The edge at which two facets meet that triangles are of, if it is a side of either; or OX_NONE.
+static inline uint ox_edge_between(const ox_scene* scene, uint one, uint other) {
+  if (ox_facet_of(scene, one) == ox_facet_of(scene, other)) return OX_NONE;
+  for (uint turn = 0u; turn < 2u; ++turn) {
+    const uint facet = ox_facet_of(scene, turn == 0u ? other : one);
+    __global const ox_triangle* t = scene->surfaces.triangles + (turn == 0u ? one : other);
+    for (uint k = 0u; k < 3u; ++k) {
+      const uint at = ox_side_of_triangle(t, k);
+      if (!ox_is_edge(at)) continue;
+      for (uint i = 0u; i < 2u; ++i) {
+        const uint face = scene->edges[at].triangle[i];
+        if (face != OX_NONE && ox_facet_of(scene, face) == facet) return at;
+      }
+    }
+  }
+  return OX_NONE;
+}
+
+// The pair of the edge of a chord and of that between the two facets that it goes through, as of a
+// wedge whose own edge goes on below what the chord is the rim of. OX_PLANE_NONE: there is none.
+static inline ox_plane ox_plane_across(const ox_region_view* r, const ox_seed* seed) {
+  if (seed->count != 2u) return ox_no_plane();
+  __global const ox_feature* one = r->scene->features + seed->through[0];
+  const uint edge =
+      ox_edge_between(r->scene, one->triangle, r->scene->features[seed->through[1]].triangle);
+  if (edge == OX_NONE) return ox_no_plane();
+  return seed->side == 0u ? ox_plane_of_edges(r->scene, r->pair, one->source, edge)
+                          : ox_plane_of_edges(r->scene, r->pair, edge, one->source);
+}
+
 // Of all planes of the region, and a unit's own, the best for it. Its own is tried first: what
 // costs more need not be looked at. But last where all of its body may have to pass it: how far
 // that is need not be known beyond what others cost.
@@ -167,6 +198,10 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
   const ox_plane own = ox_own_plane(r, seed->unit);
   const bool is_last = seed->count == 0u && own.index != OX_NONE && !ox_is_crossed(r, &own);
   if (!is_last) ox_try_unit(r, seed, &own, &best);
+  if (best.judged > ox_floats_of(&r->members, OX_MEMBER_LEAST)[seed->unit]) {
+    const ox_plane across = ox_plane_across(r, seed);
+    ox_try_unit(r, seed, &across, &best);
+  }
   for (uint i = 0u; i < seed->before->count; ++i) {
     const ox_plane on = ox_plane_on(r, seed->before, i);
     ox_try_unit(r, seed, &on, &best);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "contacts/lowered.h"
 #include "contacts/placed.h"
 #include "contacts/upright.h"
 #include "support/convex_makers.h"
@@ -96,6 +97,55 @@ TEST(Sharp, BladesOnACylinderArePartedFromItByTheirDeepestContact) {
           << half << " degrees";
     }
   }
+}
+
+// Four pointed legs about 0.
+TestMesh make_caltrop(double reach) {
+  const Point corners[] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  const unsigned faces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  TestMesh mesh;
+  const auto add = [&](const Point& p) {
+    for (const double x : p) mesh.vertices.push_back(static_cast<float>(x));
+  };
+  for (const Point& p : corners) add(0.25 * reach * p);
+  for (unsigned i = 0; i < 4; ++i) {
+    add(-reach / std::sqrt(3.0) * corners[i]);
+    for (unsigned k = 0; k < 3; ++k)
+      mesh.indices.insert(mesh.indices.end(), {faces[i][k], faces[i][(k + 1) % 3], 4 + i});
+  }
+  return mesh;
+}
+
+// A caltrop is out of hills by as much as it was lowered, straight up. Of a leg that lies along
+// them edges of the hills go in by one side and out by the other, past neither of which alone they
+// are out: the edge between the two passes them. And where a move before has taken one out, it does
+// not come back by the next. One such leg was sent on down, by 19 times as much as it was in.
+TEST(Sharp, LegsThatLieAlongHillsArePushedUp) {
+  Random random(13);
+  const TestMesh caltrop = make_caltrop(0.56);
+  int contacts = 0;
+  for (const bool closed : {false, true}) {
+    TestMesh ground = closed ? make_box({4, 4, 1}, 40, 40, 1) : make_sheet(4, 40);
+    for (std::size_t i = 0; i < ground.vertices.size(); i += 3)
+      if (!closed || ground.vertices[i + 2] > 0)
+        ground.vertices[i + 2] = static_cast<float>(0.03 * std::sin(3 * ground.vertices[i]) *
+                                                    std::cos(4 * ground.vertices[i + 1]));
+    const FclSurface surface(ground);
+    for (const double by : {0.003, 0.01, 0.03}) {
+      for (int i = 0; i < 100; ++i) {
+        TestPose pose = random.pose(0);
+        pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
+        pose = lowered_onto(surface, caltrop, pose, 0.8, -0.1, by);
+        const Placed placed{caltrop, ground, pose, TestPose{}};
+        for (const Contact& c : placed.contacts(TestPose{})) {
+          EXPECT_LT(c.depth, 2 * by) << closed << ", " << i;
+          EXPECT_TRUE(c.normal.z > 0 || c.depth < 0.2 * by) << closed << ", " << by << ", " << i;
+          ++contacts;
+        }
+      }
+    }
+  }
+  EXPECT_GT(contacts, 1000);
 }
 
 }  // namespace
