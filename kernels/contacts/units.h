@@ -72,24 +72,24 @@ static inline void ox_propose_face(const ox_region_view* r, uint k, const ox_pla
 // a face that nothing of the region meets. A vertex has the face that its ray leaves by (GRAPP),
 // which serves as well: to ask for the nearest of vertices too made no nut on a bolt less deep, and
 // took a third more for deep tori. But what is inside by no more than A is made larger may have a
-// ray that meets none. Behind an open mesh it is not known how far, so the nearest tells nothing.
+// ray that meets none. Behind an open mesh it is not known how far, so the nearest tells nothing;
+// what is in front of all that the region meets of that is outside.
 static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);
   ox_settle();
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] = flags | OX_MEMBER_NEAREST;
   const uint side = ox_side_of(flags);
   ox_settle();
-  const bool has_face =
-      ox_is_vertex(flags) && ox_words_of(&r->members, OX_MEMBER_PLANE)[k] != OX_NONE;
-  if (has_face || (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u) return;
+  const bool is_none = ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE;
+  const bool is_open = (ox_target_of(r, side)->flags & OX_MESH_CLOSED) == 0u;
+  if (!is_none && (ox_is_vertex(flags) || is_open)) return;
   ox_plane_choice own = ox_no_choice();
   own.plane = ox_own_plane(r, k);
   own.depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[k];
   own.judged = own.depth + ox_edge_tie(r, &own.plane);
-  const bool is_none = own.plane.kind == OX_PLANE_NONE;
   const float3 middle = ox_middle_of(r, k);
   const float clearance = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
-  const ox_plane nearest = ox_nearest_behind(r, side, middle, own.judged);
+  const ox_plane nearest = is_open ? ox_no_plane() : ox_nearest_behind(r, side, middle, own.judged);
   bool is_taken = ox_take_better(r, k, &nearest, INFINITY, &own);
   // From outside of a solid there is a face on its other side that a point is behind.
   if (is_taken && is_none && own.depth > clearance)
@@ -108,8 +108,7 @@ static inline void ox_propose_nearest(const ox_region_view* r, uint k) {
 // and enters it again, as at a corner of its side, rounding may take the stretch between for one
 // that is inside; a vertex may be so by as much as A is made larger.
 static inline bool ox_is_outside(const ox_region_view* r, uint k) {
-  return ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE &&
-         (ox_target_of(r, ox_side_of(ox_flags_of(r, k)))->flags & OX_MESH_CLOSED) != 0u;
+  return ox_words_of(&r->members, OX_MEMBER_PLANE)[k] == OX_NONE;
 }
 
 // The nearest face, whether or not it is behind that.
