@@ -42,7 +42,7 @@ bool is_amidst(const std::vector<Contact>& contacts, std::size_t count, const Po
 
 // Its units are cleared one after the other past the floor, by a plane that is chosen several
 // times. Each of these counted as a manifold of its own, of which the deepest come first, all at
-// the lower side: such cubes fell over where they had four contacts.
+// the lower side.
 TEST(FirstFour, ContactsOfABevelledFaceThatLeansALittleHoldItAllRound) {
   Random random(12);
   const TestMesh floor = moved(make_box({3, 3, 1}), {0, 0, -0.5});
