@@ -105,23 +105,18 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
     s->refuted = s->asks;
     return false;
   }
-  const bool is_whole = is_new && !s->lies && chunk->is_joined != 0u;
   // Of an open source nothing but what can reach an open target gets a ray: a floor goes on beyond
   // the body on it, and all of that is behind the body's wall.
-  if (is_new && s->is_near_only && !ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, chunk)) {
-    ox_settle();
-    s->scene->flood_words[word] = key;
-    s->scene->flood_words[word + 1u] = (1u << chunk->count) - 1u;
-    ox_settle();
-    ++s->table.used;
-    return true;
-  }
+  const bool is_far =
+      is_new && s->is_near_only && !ox_keep_chunk(s->pair, s->pair_side & 1u, s->target, chunk);
+  const bool is_whole = is_far || (is_new && !s->lies && chunk->is_joined != 0u);
   ox_settle();
   s->scene->flood_words[word] = key;
   s->scene->flood_words[word + 1u] =
       is_whole ? (1u << chunk->count) - 1u : known | ox_bit_in_chunk(s, vertex);
   ox_settle();
   if (is_new) ++s->table.used;
+  if (is_far) return true;
   if (is_whole)
     ox_queue_chunk(s, chunk, begins);
   else

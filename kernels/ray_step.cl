@@ -10,24 +10,6 @@
 #include "lib/closest.h"
 #include "lib/vertex_ray.h"
 
-// A vertex beyond the border of an open target that it is behind, if an edge of it comes from below
-// that.
-static void ox_append_below_border(const ox_scene* scene, const ox_ray* ray) {
-  const ox_below_border below = ox_find_below_border(scene, ray->pair_side, ray->vertex);
-  if (below.edge == OX_NONE) return;
-  const uint index = ox_append(scene, OX_LIST_HITS);
-  if (index == OX_NONE) return;
-  __global ox_hit* hit = scene->hits + index;
-  hit->pair_side = ray->pair_side;
-  hit->vertex = ray->vertex;
-  hit->triangle = below.triangle;
-  hit->kind = OX_HIT_INSIDE;
-  hit->depth = below.depth;
-  hit->t = below.t;
-  hit->from = OX_NONE;
-  hit->edge = below.edge;
-}
-
 static void ox_cast_rays(const ox_scene* scene) {
   const uint first = scene->lists[OX_LIST_RAYS].first;
   const uint count = ox_length(scene, OX_LIST_RAYS);
@@ -63,18 +45,25 @@ static void ox_cast_rays(const ox_scene* scene) {
       outcome.triangle = ox_closest_in_front(scene, ray.pair_side, p);
       if (outcome.triangle != OX_NONE) outcome.kind = OX_HIT_INSIDE;
     }
+    // Or an edge of it comes from below that.
+    uint edge = OX_NONE;
     if ((told || ray.memory == OX_RAY_REACHED) && outcome.triangle == OX_NONE) {
-      ox_append_below_border(scene, &ray);
-      continue;
+      const ox_below_border below = ox_find_below_border(scene, ray.pair_side, ray.vertex);
+      if (below.edge == OX_NONE) continue;
+      edge = below.edge;
+      outcome.triangle = below.triangle;
+      outcome.kind = OX_HIT_INSIDE;
+      outcome.depth = below.depth;
+      outcome.t = below.t;
     }
-    const bool may_be_behind = !vertex_ray.known &&
+    const bool may_be_behind = !vertex_ray.known && edge == OX_NONE &&
                                (target->flags & (OX_MESH_CLOSED | OX_MESH_TWO_SIDED)) == 0u &&
                                (source->flags & OX_MESH_CLOSED) != 0u;
     if (may_be_behind && outcome.t > 0.5f * vertex_ray.exit && outcome.t < INFINITY &&
         !ox_goes_on(scene, ray.pair_side, vertex_ray.origin + outcome.t * vertex_ray.direction,
                     outcome.t))
       continue;
-    ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, &outcome);
+    ox_append_hit(scene, &ray, vertex_ray.known, ray.triangle, edge, &outcome);
   }
 }
 

@@ -90,27 +90,35 @@ static inline float ox_taken_back(const ox_moves* moves, float3 normal, float de
   return most;
 }
 
-// How far the moves before take what a plane clears along it, at most [m]. None lends more than its
-// unit proposed to go itself: of a ring on a plate, across its edge, one vertex would lead the next
-// out past the plate's side else, each a little farther.
-static inline float ox_gone_along(const ox_moves* moves, float3 normal) {
-  float most = 0.0f;
-  for (uint i = 0u; i < moves->count; ++i)
-    most = ox_max(most, moves->lent[i] * ox_dot(moves->chosen[i].normal, normal));
-  return most;
+// Of the moves before the one that takes what a plane clears the farthest along it, *along [m];
+// OX_NONE: none does. None lends more than its unit proposed to go itself: of a ring on a plate,
+// across its edge, one vertex would lead the next out past the plate's side else, each a little
+// farther.
+static inline uint ox_leading_move(const ox_moves* moves, float3 normal, float* along) {
+  uint leading = OX_NONE;
+  *along = 0.0f;
+  for (uint i = 0u; i < moves->count; ++i) {
+    const float lent = moves->lent[i] * ox_dot(moves->chosen[i].normal, normal);
+    if (!(lent > *along)) continue;
+    *along = lent;
+    leading = i;
+  }
+  return leading;
 }
 
-// And how far that move takes it across the normal, the way A is moved [m].
+// How far that is, at most [m].
+static inline float ox_gone_along(const ox_moves* moves, float3 normal) {
+  float along;
+  ox_leading_move(moves, normal, &along);
+  return along;
+}
+
+// And how far the same move takes it across the normal, the way A is moved [m].
 static inline float3 ox_gone_aside(const ox_moves* moves, float3 normal) {
-  float most = 0.0f;
-  float3 aside = (float3)(0.0f);
-  for (uint i = 0u; i < moves->count; ++i) {
-    const float cosine = ox_dot(moves->chosen[i].normal, normal);
-    if (!(moves->lent[i] * cosine > most)) continue;
-    most = moves->lent[i] * cosine;
-    aside = moves->lent[i] * (moves->chosen[i].normal - cosine * normal);
-  }
-  return aside;
+  float along;
+  const uint leading = ox_leading_move(moves, normal, &along);
+  if (leading == OX_NONE) return (float3)(0.0f);
+  return moves->lent[leading] * moves->chosen[leading].normal - along * normal;
 }
 
 // Of planes that cost as much, to within what is not known, one that goes the way of a move before

@@ -198,7 +198,8 @@ static inline ox_plane_choice ox_search_for(const ox_region_view* r, const ox_se
   const ox_plane own = ox_own_plane(r, seed->unit);
   const bool is_last = seed->count == 0u && own.index != OX_NONE && !ox_is_crossed(r, &own);
   if (!is_last) ox_try_unit(r, seed, &own, &best);
-  if (best.judged > ox_floats_of(&r->members, OX_MEMBER_LEAST)[seed->unit]) {
+  // Where that costs more than it is worth.
+  if (best.judged > OX_WORTH * ox_floats_of(&r->members, OX_MEMBER_LEAST)[seed->unit]) {
     const ox_plane across = ox_plane_across(r, seed);
     ox_try_unit(r, seed, &across, &best);
   }

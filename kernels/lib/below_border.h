@@ -39,32 +39,33 @@ static inline float ox_pass_border(const ox_scene* scene, __global const ox_tria
   return passed;
 }
 
-// On the edge of two points, from the base of the target on, that begins beyond the border of it.
+// On the edge of two points, from the base of the target on, that begins beyond the border of it;
+// `closest` to its first point is this triangle.
 static inline ox_below_border ox_look_along(const ox_scene* scene, uint pair_side, float3 from,
-                                            float3 to) {
+                                            float3 to, uint closest) {
   __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
   const uint side = 1u - (pair_side & 1u);  // of the target
   __global const ox_mesh* target = scene->meshes + pair->mesh[side];
   const float3 base = ox_base(pair, side);
   ox_below_border below = {OX_NONE, OX_NONE, 0.0f, 0.0f};
   float share = 0.0f;
-  for (;;) {  // a border that turns is passed triangle by triangle
-    const float3 p = from + share * (to - from);
-    const uint closest =
-        ox_closest_triangle(&scene->surfaces, target, base, p, target->radius, pair->epsilon);
-    if (closest == OX_NONE) return below;
+  while (closest != OX_NONE) {  // a border that turns is passed triangle by triangle
     __global const ox_triangle* t = scene->surfaces.triangles + closest;
     const float passed = ox_pass_border(scene, t, base, from, to, OX_MARGIN * pair->epsilon, share);
-    if (!(passed <= 1.0f)) return below;
+    if (!(passed <= 1.0f)) break;
+    const float3 p = from + passed * (to - from);
     if (passed > share) {
       share = passed;
+      closest =
+          ox_closest_triangle(&scene->surfaces, target, base, p, target->radius, pair->epsilon);
       continue;
     }
     below.depth = ox_dot(vload3(0, t->normal), vload3(0, t->a) - base - p);
     if (share > 0.0f && below.depth > 0.0f) below.triangle = closest;
     below.t = share * sqrt(ox_dot(to - from, to - from));
-    return below;
+    break;
   }
+  return below;
 }
 
 // Of the edges at a vertex of a solid, which a crossing tells to be behind the open target of a
@@ -87,7 +88,7 @@ static inline ox_below_border ox_find_below_border(const ox_scene* scene, uint p
   for (uint k = scene->ring_starts[vertex]; k < scene->ring_starts[vertex + 1u]; ++k) {
     const ox_neighbour neighbour = scene->rings[k];
     const float3 to = ox_place(pair, side, vload3(0, scene->vertices[neighbour.vertex].position));
-    ox_below_border below = ox_look_along(scene, pair_side, from, to);
+    ox_below_border below = ox_look_along(scene, pair_side, from, to, closest);
     if (below.triangle == OX_NONE || !(below.depth > best.depth)) continue;
     best = below;
     best.edge = neighbour.edge;

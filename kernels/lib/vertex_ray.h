@@ -35,10 +35,10 @@ static inline void ox_append_ray(const ox_scene* scene, uint pair_side, uint ver
     ox_store_ray(scene, ox_append(scene, OX_LIST_RAYS), pair_side, vertex, OX_RAY_ASKING, OX_NONE);
 }
 
-// The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from`: as in
-// ox_hit.
+// The vertex of a ray, if it is inside. `known`: it is, whatever its ray meets. `from` and `edge`:
+// as in ox_hit.
 static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool known, uint from,
-                                 const ox_outcome* outcome) {
+                                 uint edge, const ox_outcome* outcome) {
   const uint kind = outcome->kind & OX_HIT_KIND;
   const bool leaves = kind == OX_HIT_INSIDE || kind == OX_HIT_FALLBACK;
   if (!leaves && !known) return;
@@ -52,7 +52,7 @@ static inline void ox_append_hit(const ox_scene* scene, const ox_ray* ray, bool 
   hit->depth = outcome->depth;
   hit->t = outcome->t;
   hit->from = from;
-  hit->edge = OX_NONE;
+  hit->edge = edge;
 }
 
 #endif

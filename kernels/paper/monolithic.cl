@@ -51,7 +51,7 @@ __kernel void monolithic(OX_SCENE_PARAMETERS, uint task_count, float displacemen
             done = ox_cast_ray(&scene, OX_LIST_RAYS, &ray, walk_limit, temporal, &outcome, &work);
         }
       }
-      ox_append_hit(&scene, &ray, false, OX_NONE, &outcome);
+      ox_append_hit(&scene, &ray, false, OX_NONE, OX_NONE, &outcome);
     }
     ox_note_work(works, i, &work);
   }

@@ -25,7 +25,7 @@ static inline void ox_cast_list(const ox_scene* scene, uint list, uint walk_limi
     const bool done = ox_cast_ray(scene, list, &ray, walk_limit, temporal, &outcome, &work);
     ox_note_work(works, i, &work);
     if (done) {
-      ox_append_hit(scene, &ray, false, OX_NONE, &outcome);
+      ox_append_hit(scene, &ray, false, OX_NONE, OX_NONE, &outcome);
       continue;
     }
     ox_count(scene, OX_COUNTER_UNPROVEN);

@@ -224,8 +224,7 @@ int main(int argc, char** argv) {
       "What a pair of meshes costs: this library in a batch and alone, ODE's own collider, FCL "
       "(every contact, and yes or no) and Bullet's GImpact. At four depths two tori, two rocks, a "
       "rock on hills, met from anywhere, a rock and debris of four triangles on ground, from "
-      "above; "
-      "and pairs that are hard on a collider ('worst'). One thread of the device's with "
+      "above; and pairs that are hard on a collider ('worst'). One thread of the device's with "
       "POCL_MAX_PTHREAD_COUNT=1.",
       "pair_times"};
   Options options;
