@@ -86,6 +86,7 @@ OX_STATIC_ASSERT(sizeof(ox_list) == 8, ox_list_is_8_bytes);
 #define OX_MESH_CLOSED 1u
 #define OX_MESH_DEFORMABLE 2u  // its vertices move: what depends on them is made on the device
 #define OX_MESH_TWO_SIDED 4u   // deformable and open: a sheet, with no inside
+#define OX_MESH_CONVEX 8u      // mesh/convex.h
 
 // A geom of this batch. world = rotation * local + (hi + lo), rotation row-major; hi + lo is the
 // position to twice the float precision, so that differences hold far from the origin, and

@@ -131,16 +131,17 @@ static inline bool ox_is_on(uint flags, uint side) {
 // A plane and its price.
 typedef struct {
   ox_plane plane;
-  float depth;   // [m] how far to move
-  float judged;  // what it is compared by
-  bool of_body;  // that is what it takes to move all of a body that goes on beyond the region
+  float depth;       // [m] how far to move
+  float judged;      // what it is compared by
+  bool of_body;      // that is for a body that goes on beyond the region
+  bool all_of_body;  // all of it has to move, more than twice as far as the region alone
 } ox_plane_choice;
 
 static inline ox_plane_choice ox_no_choice(void) {
   ox_plane_choice choice;
   choice.plane = ox_no_plane();
   choice.depth = choice.judged = INFINITY;
-  choice.of_body = false;
+  choice.of_body = choice.all_of_body = false;
   return choice;
 }
 

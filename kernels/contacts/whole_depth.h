@@ -143,6 +143,7 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   if (beyond.price + tie > best->judged) return false;
   choice.judged = ox_max(choice.depth, beyond.price) + tie;
   choice.of_body = beyond.price > choice.depth;
+  choice.all_of_body = beyond.price > ox_doubted(choice.depth);
   // A pair of edges holds where it is; its contact says how far all of the body has to go, if it
   // does.
   if (plane->kind == OX_PLANE_EDGES)

@@ -262,6 +262,24 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
   return false;
 }
 
+// Whether all of a body would have to pass a plane for which the region alone would go much less
+// far, and it is not far to the surface from anything of the region. Of convex bodies that is the
+// shortest way out; else one where other parts of the bodies are in the way may be, as where the
+// edge of one lobe cuts that of another, and nothing of what overlaps tells how they part.
+static inline bool ox_goes_too_far(const ox_region_view* r, const ox_plane_choice* choice) {
+  if (!choice->all_of_body ||
+      (ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CONVEX) != 0u)
+    return false;
+  const float worth = choice->judged / OX_WORTH;
+  for (uint k = 0u; k < r->count; ++k) {
+    const uint flags = ox_flags_of(r, k);
+    if ((flags & OX_MEMBER_BEGINS) != 0u &&
+        ox_nearest_behind(r, ox_side_of(flags), ox_middle_of(r, k), worth).kind == OX_PLANE_NONE)
+      return false;
+  }
+  return true;
+}
+
 // The diagonal of the box of the members [m].
 static inline float ox_size_of(const ox_region_view* r) {
   float size[3];
@@ -335,7 +353,7 @@ static inline ox_plane_choice ox_choose_whole(const ox_region_view* r) {
       return ox_no_choice();
     ox_try_nearest(r, &search, &best);
     if (best.plane.kind == OX_PLANE_NONE || !ox_is_better_choice(&best, &of_body)) break;
-    if (best.judged > worth) return ox_no_choice();
+    if (best.judged > worth || ox_goes_too_far(r, &best)) return ox_no_choice();
     // Of what is wholly inside the planes of the other are not known all round.
     if ((r->flags & OX_REGION_CROSSED) == 0u || ox_only_touches(r, &best) ||
         !ox_whole_stays(r, &best))

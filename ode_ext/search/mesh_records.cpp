@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "mesh/both.h"
+#include "mesh/convex.h"
 #include "mesh/normals.h"
 #include "mesh/ray_cast.h"
 #include "mesh/rings.h"
@@ -196,7 +197,8 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
   record.flat_edge_first = first.edge_first + static_cast<ox_u32>(built.edges.size());
   record.flags = (mesh.closed() ? OX_MESH_CLOSED : 0u) |
                  (mesh.deformable ? OX_MESH_DEFORMABLE : 0u) |
-                 (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u);
+                 (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u) |
+                 (is_convex(mesh) ? OX_MESH_CONVEX : 0u);
   measure(mesh, record);
 
   if (mesh.deformable) append_topology(built, topologies_);
