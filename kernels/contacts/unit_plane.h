@@ -35,6 +35,9 @@ static inline float ox_depth_behind(const ox_region_view* r, const ox_seed* seed
   const float3 direction = ox_way_of(seed->side, plane->normal);
   if (ox_is_on_open(r) || !ox_looks_back(seed->inward, direction)) return 0.0f;
   const float next = depth / OX_MERGE;
+  // Nothing of its mesh is farther from the unit than the mesh is wide.
+  const float farthest = depth + 2.0f * ox_target_of(r, 1u - seed->side)->radius;
+  if (farthest + OX_CLEARANCE * r->scene->pairs[r->pair].epsilon < next) return 0.0f;
   const float enough = ox_max(next, limit);
   float behind = 0.0f;
   for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block) {
