@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How deep vertices of a solid are behind an open mesh, along the mean normal of the faces that its
+// How deep vertices of a body are behind an open mesh, along the mean normal of the faces that its
 // edges cross, and whether their rays tell. Device only.
 #ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
 #define ODE_EXT_KERNELS_LIB_WAY_UP_H
@@ -7,11 +7,19 @@
 #include "lib/scene.h"
 #include "lib/transform.h"
 
-// In the frame of the solid.
+// In the frame of the body.
 typedef struct {
   float3 up;     // unit
   float height;  // [m] along it, of the highest crossing; -INFINITY: there is no way
 } ox_way_up;
+
+// Whether a mesh is a body that may be behind another: that is open, and the mesh is a solid, or the
+// smaller of the two. What is one layer of a bowl is behind the ground that its rim is in; the
+// ground within the bowl goes on on the other side of it.
+static inline bool ox_may_be_behind(__global const ox_mesh* mesh, __global const ox_mesh* other) {
+  if ((other->flags & OX_MESH_CLOSED) != 0u) return false;
+  return (mesh->flags & OX_MESH_CLOSED) != 0u || mesh->radius < other->radius;
+}
 
 // Of the source of a side of a pair. Crossings come in any order, so their normals are summed as
 // whole numbers.
@@ -19,8 +27,7 @@ static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
   ox_way_up way = {(float3)(0.0f), -INFINITY};
   __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
   const uint side = pair_side & 1u;
-  if ((scene->meshes[pair->mesh[side]].flags & OX_MESH_CLOSED) == 0u ||
-      (scene->meshes[pair->mesh[1u - side]].flags & OX_MESH_CLOSED) != 0u)
+  if (!ox_may_be_behind(scene->meshes + pair->mesh[side], scene->meshes + pair->mesh[1u - side]))
     return way;
   const uint head = scene->found[pair_side >> 1].head[side];
   int3 sum = (int3)(0);
