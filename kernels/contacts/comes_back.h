@@ -78,19 +78,43 @@ static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
   return ox_stays_inside(r, 1u - side, asked, plane, depth);
 }
 
-// Whether an edge of mesh `side` is still in the other where a plane takes it: it meets a face, or
-// is all inside.
-static inline bool ox_edge_stays(const ox_region_view* r, uint side, uint edge,
-                                 const ox_plane* plane, float depth) {
-  __global const uint* ends = r->scene->edges[edge].vertex;
-  const float3 away = ox_way_of(side, plane->normal);
-  const float3 moved = ox_way_past(r, depth) * away;
-  const float3 from = ox_vertex_of(r->scene, r->pair, side, ends[0]) + moved;
-  const float3 along = ox_vertex_of(r->scene, r->pair, side, ends[1]) + moved - from;
-  const float length = sqrt(ox_dot(along, along));
-  const ox_nearest nearest = ox_cast_into(r, side, from, along / length);
+// How much of what of an edge is beyond a chord is nearer to that than to where it enters the other
+// mesh again: all, or half of the way to there [m].
+static inline float ox_own_part(const ox_region_view* r, uint side, float3 from, float3 direction,
+                                float length) {
+  const float next = ox_cast_into(r, side, from, direction).front_t;
+  return next < length ? 0.5f * next : length;
+}
+
+// Whether a stretch of an edge of mesh `side` is in the other: it meets a face, or is all inside.
+static inline bool ox_stretch_is_inside(const ox_region_view* r, uint side, float3 from,
+                                        float3 direction, float length, float3 away) {
+  const ox_nearest nearest = ox_cast_into(r, side, from, direction);
   return ox_min(nearest.front_t, nearest.back_t) <= length ||
          ox_is_still_inside(r, side, from, away);
+}
+
+// Whether what of an edge of mesh `side` is about a chord is still in the other mesh where a plane
+// takes it. Another chord of the edge is of another region, or has planes of its own.
+static inline bool ox_chord_stays(const ox_region_view* r, uint side, uint k, const ox_plane* plane,
+                                  float depth) {
+  __global const uint* ends = r->scene->edges[ox_feature_of(r, k)->source].vertex;
+  const float3 away = ox_way_of(side, plane->normal);
+  const float3 moved = ox_way_past(r, depth) * away;
+  const float3 from = ox_vertex_of(r->scene, r->pair, side, ends[0]);
+  const float3 along = ox_vertex_of(r->scene, r->pair, side, ends[1]) - from;
+  const float length = sqrt(ox_dot(along, along));
+  const float3 direction = along / length;
+  // Mostly nothing of all of the edge is.
+  if (!ox_stretch_is_inside(r, side, from + moved, direction, length, away)) return false;
+  const float one = ox_dot(ox_position_of(r, k) - from, direction);
+  const float other = ox_dot(ox_vector_of(&r->members, OX_MEMBER_END, k) - from, direction);
+  const float begin = ox_min(one, other);
+  const float end = ox_max(one, other);
+  const float first = begin - ox_own_part(r, side, from + begin * direction, -direction, begin);
+  const float last = end + ox_own_part(r, side, from + end * direction, direction, length - end);
+  return ox_stretch_is_inside(r, side, from + first * direction + moved, direction, last - first,
+                              away);
 }
 
 // Whether mesh `side` comes back through any of the faces that it goes through: its edges cross
@@ -115,7 +139,7 @@ static inline bool ox_body_comes_back(const ox_region_view* r, const ox_plane* p
         return true;
     } else if ((flags & OX_MEMBER_BEGINS) != 0u) {  // each edge once for a chord
       const float3 back = ox_back_of_edge(r, 1u - side, f->source, direction, direction);
-      if (ox_looks_back(back, direction) && ox_edge_stays(r, 1u - side, f->source, plane, depth))
+      if (ox_looks_back(back, direction) && ox_chord_stays(r, 1u - side, k, plane, depth))
         return true;
     }
   }

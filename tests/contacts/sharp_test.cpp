@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -146,6 +147,39 @@ TEST(Sharp, LegsThatLieAlongHillsArePushedUp) {
     }
   }
   EXPECT_GT(contacts, 1000);
+}
+
+// The edge of a wedge lies across a ridge, and its end is in a wall. Past the common normal of edge
+// and ridge the wedge is out there, and in the wall as before, which is none of it: that was taken
+// for a body that comes back, and the wedge was sent out along the ridge, by all of its length.
+TEST(Sharp, WedgesAcrossARidgeAreHeldThereThoughTheirEndsAreInAWall) {
+  const TestMesh ground = extruded({{-0.3, -0.2},
+                                    {0.25, -0.2},
+                                    {0.25, 0.3},
+                                    {0.2, 0.3},
+                                    {0.2, -0.1},
+                                    {0.03, -0.1},
+                                    {0, 0},
+                                    {-0.03, -0.1},
+                                    {-0.3, -0.1}},
+                                   0.4);
+  for (const auto& [half, tilt] : {std::array{25, 40}, {8, 40}, {8, 55}, {25, 55}, {30, 40}}) {
+    const double first = radians(tilt + half), second = radians(tilt - half);
+    const TestMesh wedge = extruded({{0, 0},
+                                     {0.15 * std::sin(first), 0.15 * std::cos(first)},
+                                     {0.15 * std::sin(second), 0.15 * std::cos(second)}},
+                                    0.4);
+    for (const double deep : {0.00005, 0.0002, 0.0008, 0.003})
+      for (const double in_wall : {0.000005, 0.0001, 0.001, 0.003}) {
+        TestPose pose = turned({0, 1, 0}, std::numbers::pi / 2);
+        pose.position = {in_wall, -deep, 0.011};
+        const Placed placed{wedge, ground, pose, TestPose{}};
+        const double most = std::max(deep, in_wall);
+        EXPECT_NEAR(deepest(placed.contacts(TestPose{})), most,
+                    0.1 * most + placed.tolerance(TestPose{}))
+            << half << ", " << tilt << " degrees, " << deep << ", " << in_wall;
+      }
+  }
 }
 
 }  // namespace
