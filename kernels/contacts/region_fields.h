@@ -5,6 +5,7 @@
 
 #include "contacts/fields.h"
 #include "contacts/plane.h"
+#include "lib/border.h"
 
 static inline ox_fields ox_members_of(const ox_scene* scene, __global const ox_region* region) {
   const ox_fields list = {scene->members + (ulong)OX_MEMBER_WORDS * region->first, region->count};
@@ -21,11 +22,15 @@ static inline ox_fields ox_planes_of(const ox_scene* scene, __global const ox_re
 // Whether faces of mesh `side` are planes for a region with these flags. In front of those of an
 // open mesh is nothing that is to be moved where the other has no edge and no vertex in it: a
 // card that stands in a block cuts the block's face, and is as deep in it as the card's own edges
-// are.
+// are. Nor is in front of those of an open body whose border is in the ground: the ground ends
+// beside it.
 static inline bool ox_parts_by_faces_of(const ox_scene* scene, uint pair, uint flags, uint side) {
-  const uint mesh = scene->pairs[pair].mesh[side];
-  return (scene->meshes[mesh].flags & OX_MESH_CLOSED) != 0u ||
-         (flags & OX_REGION_OF(1u - side)) != 0u;
+  __global const ox_mesh* mesh = scene->meshes + scene->pairs[pair].mesh[side];
+  if ((mesh->flags & OX_MESH_CLOSED) != 0u) return true;
+  if (scene->found[pair].at_border[side] != 0u &&
+      ox_may_be_behind(mesh, scene->meshes + scene->pairs[pair].mesh[1u - side]))
+    return false;
+  return (flags & OX_REGION_OF(1u - side)) != 0u;
 }
 
 static inline void ox_store_plane(const ox_fields* list, uint i, const ox_plane* plane,

@@ -41,12 +41,12 @@ static inline float3 ox_target_base(const ox_region_view* r, uint side) {
   return ox_base(r->scene->pairs + r->pair, 1u - side);
 }
 
-// Whether a point of mesh `side`, which was taken along `away`, is inside the other; of a solid
-// behind an open one. Between two open meshes nothing is.
+// Whether a point of mesh `side`, which was taken along `away`, is inside the other mesh, or behind
+// that where it is open.
 static inline bool ox_is_still_inside(const ox_region_view* r, uint side, float3 p, float3 away) {
   __global const ox_mesh* target = ox_target_of(r, side);
   if ((target->flags & OX_MESH_CLOSED) == 0u)
-    return (ox_target_of(r, 1u - side)->flags & OX_MESH_CLOSED) != 0u &&
+    return ox_may_be_behind(ox_target_of(r, 1u - side), target) &&
            ox_closest_in_front(r->scene, 2u * r->pair + side, ox_in_target(r, side, p)) != OX_NONE;
   return ox_winds_about(ox_target_base(r, side), ox_in_target(r, side, p),
                         side == 0u ? away : ox_rotate(r->scene->pairs + r->pair, 1u, away),

@@ -12,6 +12,15 @@
 #include "lib/scene.h"
 #include "lib/transform.h"
 
+// Whether a mesh is a body that may be behind another: that is open, and the mesh is a solid or the
+// smaller of the two. The rim of a bowl of one layer is behind the ground that it is in; the ground
+// within the bowl goes on on the other side of it. A sheet is neither.
+static inline bool ox_may_be_behind(__global const ox_mesh* mesh, __global const ox_mesh* other) {
+  if ((other->flags & OX_MESH_CLOSED) != 0u) return false;
+  if ((mesh->flags & OX_MESH_CLOSED) != 0u) return true;
+  return ((mesh->flags | other->flags) & OX_MESH_TWO_SIDED) == 0u && mesh->radius < other->radius;
+}
+
 static inline bool ox_is_border(const ox_scene* scene, uint edge) {
   return scene->edges[edge].triangle[1] == OX_NONE;
 }

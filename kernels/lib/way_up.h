@@ -4,6 +4,7 @@
 #ifndef ODE_EXT_KERNELS_LIB_WAY_UP_H
 #define ODE_EXT_KERNELS_LIB_WAY_UP_H
 
+#include "lib/border.h"
 #include "lib/scene.h"
 #include "lib/transform.h"
 
@@ -12,14 +13,6 @@ typedef struct {
   float3 up;     // unit
   float height;  // [m] along it, of the highest crossing; -INFINITY: there is no way
 } ox_way_up;
-
-// Whether a mesh is a body that may be behind another: that is open, and the mesh is a solid, or the
-// smaller of the two. What is one layer of a bowl is behind the ground that its rim is in; the
-// ground within the bowl goes on on the other side of it.
-static inline bool ox_may_be_behind(__global const ox_mesh* mesh, __global const ox_mesh* other) {
-  if ((other->flags & OX_MESH_CLOSED) != 0u) return false;
-  return (mesh->flags & OX_MESH_CLOSED) != 0u || mesh->radius < other->radius;
-}
 
 // Of the source of a side of a pair. Crossings come in any order, so their normals are summed as
 // whole numbers.

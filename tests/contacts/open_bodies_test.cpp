@@ -62,12 +62,17 @@ TEST(OpenBodies, AreHeldByOpenGroundAsDeepAsTheyAre) {
         }
 }
 
-TEST(OpenBodies, AreOutOfOpenHillsByAsMuchAsTheyWereLowered) {
-  Random random(38);
+TestMesh make_hills() {
   TestMesh hills = make_sheet(4, 40);
   for (std::size_t i = 0; i < hills.vertices.size(); i += 3)
     hills.vertices[i + 2] = static_cast<float>(0.1 * std::sin(3 * hills.vertices[i]) *
                                                std::cos(4 * hills.vertices[i + 1]));
+  return hills;
+}
+
+TEST(OpenBodies, AreOutOfOpenHillsByAsMuchAsTheyWereLowered) {
+  Random random(38);
+  const TestMesh hills = make_hills();
   const FclSurface surface(hills);
   for (const bool is_inverted : {false, true}) {
     const TestMesh outward = make_bowl(6, 20);
@@ -83,6 +88,45 @@ TEST(OpenBodies, AreOutOfOpenHillsByAsMuchAsTheyWereLowered) {
         EXPECT_LT(deepest(found), 2 * by) << is_inverted << ", " << by << ", " << i;
       }
   }
+}
+
+// Half of the wall of a cylinder along x, about 0, in one layer.
+TestMesh make_half_pipe(double radius, double length, int sides) {
+  TestMesh mesh;
+  for (const double x : {-0.5 * length, 0.5 * length})
+    for (int i = 0; i <= sides; ++i) {
+      const double angle = std::numbers::pi * i / sides;
+      for (const double v : {x, radius * std::cos(angle), radius * std::sin(angle)})
+        mesh.vertices.push_back(static_cast<float>(v));
+    }
+  const auto n = static_cast<unsigned>(sides) + 1;
+  for (unsigned i = 0; i + 1 < n; ++i)
+    mesh.indices.insert(mesh.indices.end(), {i, n + i, n + i + 1, i, n + i + 1, i + 1});
+  return mesh;
+}
+
+// Where the border of the pipe goes through a crest no vertex of it is below that, and the crest
+// would go past the faces of the pipe by 0. So deep were 82 of these 600, now 8.
+TEST(OpenBodies, AreHeldByACrestThatTheirBorderLiesAcross) {
+  Random random(39);
+  int shallow = 0;
+  const TestMesh hills = make_hills();
+  const FclSurface surface(hills);
+  for (const bool is_inverted : {false, true}) {
+    const TestMesh outward = make_half_pipe(0.24, 0.56, 10);
+    const TestMesh pipe = is_inverted ? inverted(outward) : outward;
+    for (const double by : {0.003, 0.01, 0.03})
+      for (int i = 0; i < 100; ++i) {
+        TestPose pose = tilted(random, std::numbers::pi, TestPose{});
+        pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
+        pose = lowered_onto(surface, pipe, pose, 0.8, -0.3, by);
+        const std::vector<Contact> found =
+            Placed{pipe, hills, pose, TestPose{}}.contacts(TestPose{});
+        EXPECT_LT(deepest(found), 2 * by) << is_inverted << ", " << by << ", " << i;
+        shallow += deepest(found) < 0.2 * by;
+      }
+  }
+  EXPECT_LE(shallow, 10);
 }
 
 }  // namespace
