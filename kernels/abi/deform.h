@@ -20,6 +20,6 @@ typedef struct {
   ox_f32 on_surface;      // where a ray from a vertex begins [m]
   ox_u32 measure_first;   // of its triangles in the measures, in triangles
 } ox_move;
-OX_STATIC_ASSERT(sizeof(ox_move) == 128, ox_move_is_128_bytes);
+OX_STATIC_ASSERT(sizeof(ox_move) == 132, ox_move_is_132_bytes);
 
 #endif

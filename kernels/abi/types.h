@@ -111,13 +111,14 @@ typedef struct {
   ox_u32 flags;
   ox_f32 box_centre[3];
   ox_f32 box_half[3];
-  ox_f32 extent;     // largest distance of a box corner from the local origin
-  ox_f32 radius;     // of the vertices about the box's centre
-  ox_f32 mean_edge;  // [m]
-  ox_f32 reach;      // of an open mesh: the longest ray of its vertices; 0: closed [m]
-  ox_f32 moved;      // the farthest a vertex went in its own frame at the last deformation [m]
+  ox_f32 extent;       // largest distance of a box corner from the local origin
+  ox_f32 radius;       // of the vertices about the box's centre
+  ox_f32 mean_edge;    // [m]
+  ox_f32 reach;        // of an open mesh: the longest ray of its vertices; 0: closed [m]
+  ox_f32 moved;        // the farthest a vertex went in its own frame at the last deformation [m]
+  ox_f32 vector_area;  // of an open mesh that keeps its shape: its length over the area [1]
 } ox_mesh;
-OX_STATIC_ASSERT(sizeof(ox_mesh) == 88, ox_mesh_is_88_bytes);
+OX_STATIC_ASSERT(sizeof(ox_mesh) == 92, ox_mesh_is_92_bytes);
 
 typedef struct {
   ox_f32 position[3];

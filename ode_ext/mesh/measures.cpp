@@ -18,6 +18,19 @@ float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>&
   return static_cast<float>(sum / (3 * static_cast<double>(triangles.size())));
 }
 
+float vector_area_share(const std::vector<Vec3f>& vertices,
+                        const std::vector<Triangle>& triangles) {
+  Vec3d vector_area{};
+  double area = 0;
+  for (const Triangle& triangle : triangles) {
+    const Vec3d a(vertices[triangle[0]]);
+    const Vec3d twice = cross(Vec3d(vertices[triangle[1]]) - a, Vec3d(vertices[triangle[2]]) - a);
+    vector_area = vector_area + twice;
+    area += length(twice);
+  }
+  return area > 0 ? static_cast<float>(length(vector_area) / area) : 1;
+}
+
 float half_diagonal(const Box& box) {
   const Vec3d middle(centre(box));
   return rounded_up(length(max(Vec3d(box.hi) - middle, middle - Vec3d(box.lo))));

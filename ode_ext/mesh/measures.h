@@ -13,6 +13,10 @@ namespace ode_ext {
 // of them.
 float mean_side(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);
 
+// The length of the vector area over the area: 0 of what is closed, 1 of what is flat, or of no
+// area.
+float vector_area_share(const std::vector<Vec3f>& vertices, const std::vector<Triangle>& triangles);
+
 // The largest distance of a corner from centre(box), rounded up [m].
 float half_diagonal(const Box& box);
 

@@ -7,6 +7,7 @@
 
 #include "mesh/both.h"
 #include "mesh/convex.h"
+#include "mesh/measures.h"
 #include "mesh/normals.h"
 #include "mesh/ray_cast.h"
 #include "mesh/rings.h"
@@ -200,6 +201,8 @@ ox_mesh MeshRecords::append(const Mesh& mesh) {
                  (mesh.deformable && !mesh.closed() ? OX_MESH_TWO_SIDED : 0u) |
                  (is_convex(mesh) ? OX_MESH_CONVEX : 0u);
   measure(mesh, record);
+  if (!mesh.closed() && !mesh.deformable)
+    record.vector_area = vector_area_share(mesh.vertices, built.triangles);
 
   if (mesh.deformable) append_topology(built, topologies_);
   for (const MeshletNode& node : built.meshlets.tree)
