@@ -25,8 +25,10 @@ inline Point lowest_of(const TestMesh& mesh, const TestPose& turned) {
 // Up to `most` off upright, turned by anything about z first.
 inline TestPose tilted(Random& random, double most, const TestPose& upright) {
   const double around = random.uniform(0, 2 * std::numbers::pi);
-  return composed(turned({std::cos(around), std::sin(around), 0}, random.uniform(0, most)),
-                  composed(turned({0, 0, 1}, random.uniform(0, 2 * std::numbers::pi)), upright));
+  const double about = random.uniform(0, 2 * std::numbers::pi);
+  const double tilt = random.uniform(0, most);
+  return composed(turned({std::cos(around), std::sin(around), 0}, tilt),
+                  composed(turned({0, 0, 1}, about), upright));
 }
 
 }  // namespace ode_ext::test
