@@ -264,8 +264,8 @@ static inline bool ox_whole_stays(const ox_region_view* r, const ox_plane_choice
 
 // Whether all of a body would have to pass a plane for which the region alone would go much less
 // far, and it is not far to the surface from anything of the region. Of convex bodies that is the
-// shortest way out; else one where other parts of the bodies are in the way may be, as where the
-// edge of one lobe cuts that of another, and nothing of what overlaps tells how they part.
+// least translation that separates them. Of others, other parts may block it, as where the edge of
+// one lobe cuts that of another, and nothing of what overlaps tells how they part.
 static inline bool ox_goes_too_far(const ox_region_view* r, const ox_plane_choice* choice) {
   if (!choice->all_of_body ||
       (ox_target_of(r, 0u)->flags & ox_target_of(r, 1u)->flags & OX_MESH_CONVEX) != 0u)
