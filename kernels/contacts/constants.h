@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All that contacts depend on and that is chosen, not derived, but for the direction of the shift
-// of general position (lib/exact_sign.h). docs/contacts.md says what each was chosen by. Device
+// of general position (lib/exact_sign.h). docs/planes.md says what each was chosen by. Device
 // only.
 #ifndef ODE_EXT_KERNELS_CONTACTS_CONSTANTS_H
 #define ODE_EXT_KERNELS_CONTACTS_CONSTANTS_H

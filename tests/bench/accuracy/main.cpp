@@ -24,7 +24,7 @@ ODE_EXT_DEVICE, as always.
 Examples:
   contact_accuracy all --check --json accuracy.json
   contact_accuracy cubes --count 100 --seed 3
-  contact_accuracy table --markdown docs/contacts.md   what is between the page's markers
+  contact_accuracy table --markdown docs/accuracy.md   what is between the page's markers
 
 Exit codes: 0 done, 1 something failed, or a target was missed with --check.)";
 
