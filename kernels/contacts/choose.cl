@@ -15,6 +15,7 @@
 #include "contacts/own_faces.h"
 #include "contacts/sheet.h"
 #include "contacts/unit_order.h"
+#include "contacts/valley.h"
 
 // A unit that needs no plane any more.
 static void ox_mark_cleared(const ox_region_view* r, uint k) {
@@ -28,8 +29,9 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
   if (k == seed || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
   const ox_plane_choice by = ox_clearing_plane(r, k, moves);
   if (by.plane.kind == OX_PLANE_NONE) return;
-  // A contact of a vertex is on a facet.
-  if (by.plane.kind != OX_PLANE_EDGES || !ox_is_vertex(ox_flags_of(r, k)))
+  // A contact of a vertex is on a facet; one of a valley does not press its sides in.
+  if ((by.plane.kind != OX_PLANE_EDGES || !ox_is_vertex(ox_flags_of(r, k))) &&
+      !ox_takes_side_in(r, k, &by.plane))
     ox_add_cleared(m, &by, ox_feature_of(r, k));
   ox_mark_cleared(r, k);
 }
@@ -56,19 +58,6 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
   ox_settle();
 }
 
-// Whether a unit is a chord of an edge at which its mesh bends inwards a little, so that the faces
-// there face one way. It comes out past no face of the other mesh that does not: its own mesh goes
-// on beside it, as a floor does on both sides of where it begins to rise.
-static bool ox_is_of_bend(const ox_region_view* r, uint k) {
-  if (ox_is_vertex(ox_flags_of(r, k))) return false;
-  const uint edge = ox_feature_of(r, k)->source;
-  if (!ox_is_valley(r->scene, r->pair, edge)) return false;
-  __global const uint* faces = r->scene->edges[edge].triangle;
-  const float3 one = vload3(0, r->scene->surfaces.triangles[faces[0]].normal);
-  const float3 other = vload3(0, r->scene->surfaces.triangles[faces[1]].normal);
-  return ox_dot(one, other) > OX_SAME_WAY;
-}
-
 // Whether a unit is a chord that does not reach the surface of the solid that it is inside.
 static bool ox_is_nested(const ox_region_view* r, uint k) {
   const uint flags = ox_flags_of(r, k);
@@ -76,12 +65,15 @@ static bool ox_is_nested(const ox_region_view* r, uint k) {
          (ox_target_of(r, ox_side_of(flags))->flags & OX_MESH_CLOSED) != 0u;
 }
 
-// Marks the units that come only where of no other a plane is known. What is deepest about a bend
-// is of the other mesh.
-static void ox_mark_later(const ox_region_view* r, uint units) {
+// Makes a unit one that comes only where of no other a plane is known. By one work-item.
+static void ox_mark_later(const ox_region_view* r, uint k) {
+  ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
+}
+
+// What is deepest about a bend is of the other mesh.
+static void ox_mark_those_later(const ox_region_view* r, uint units) {
   for (uint k = OX_ITEM; k < units; k += OX_ITEMS)
-    if (ox_is_nested(r, k) || ox_is_of_bend(r, k))
-      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
+    if (ox_is_nested(r, k) || ox_is_of_bend(r, k)) ox_mark_later(r, k);
   ox_settle();
 }
 
@@ -145,6 +137,12 @@ static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* mor
     return unit;
   }
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
+  // What of the other mesh is in a side of a valley takes that out, and the valley with it.
+  if ((ox_flags_of(r, unit) & OX_MEMBER_LATER) == 0u && ox_takes_side_in(r, unit, &choice.plane)) {
+    ox_settle();
+    if (ox_is_first_item()) ox_mark_later(r, unit);
+    return unit;
+  }
   ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
   const uint side = ox_side_of(flags);
@@ -193,7 +191,7 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
   const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
-  ox_mark_later(r, units);
+  ox_mark_those_later(r, units);
   if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, 0u)) == 0u)
     ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, OX_MEMBER_LATER));
 }
