@@ -24,6 +24,10 @@ foreach(line IN LISTS idioms)
   set_tests_properties(preload_idiom_${idiom} PROPERTIES TIMEOUT 120)
 endforeach()
 
+add_executable(own_collider tests/preload/clients/own_collider.cpp)
+ode_ext_compile_options(own_collider)
+target_link_libraries(own_collider PRIVATE ODE::ODE)
+
 add_test(NAME preload_run
          COMMAND ${preload_tests}/run_test.sh ${PROJECT_BINARY_DIR}/bin ${preload_output})
 set_tests_properties(preload_run PROPERTIES TIMEOUT 120)

@@ -14,6 +14,7 @@ typedef struct {
 #include "preload/interposed.h"
   __typeof__(&dGeomGetClass) class_of;
   FoundOde found;
+  atomic_bool are_meshes_the_programs; /* which has a collider of its own for two of them */
 } Ode;
 
 enum { kMostCallers = 32 };

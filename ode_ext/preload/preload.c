@@ -47,9 +47,11 @@ static const char* precision_of(const Ode* ode) {
   return NULL;
 }
 
+static int uses_ode_ext(void) { return dlsym(RTLD_DEFAULT, "dBatchColliderCreate") != NULL; }
+
 static void load_core_of(Ode* ode) {
   core_ode = ode;
-  if (dlsym(RTLD_DEFAULT, "dBatchColliderCreate") != NULL) {
+  if (uses_ode_ext()) {
     say("this program uses ode_ext by itself", "",
         "it goes on with that, and of the options of ode_ext-run only --device, --log, --trace and "
         "--capture count");
@@ -95,7 +97,9 @@ static const dxPreloadCore* loaded_core_of(Ode* ode) {
   return core_of(ode);
 }
 
-static int may_meshes_meet(void) { return mesh_geoms >= 2; }
+static int may_meshes_meet(const Ode* ode) {
+  return mesh_geoms >= 2 && !ode->are_meshes_the_programs;
+}
 
 static int is_mesh(const Ode* ode, dGeomID geom) {
   return ode->class_of != NULL && ode->class_of(geom) == dTriMeshClass;
@@ -106,7 +110,7 @@ static int is_mesh(const Ode* ode, dGeomID geom) {
 /* --- passes --------------------------------------------------------------------------------- */
 
 static int collide(Ode* ode, dGeomID first, dGeomID second, void* data, dNearCallback* callback) {
-  if (!may_meshes_meet() || callback == NULL || loaded_core_of(ode) == NULL) return 0;
+  if (!may_meshes_meet(ode) || callback == NULL || loaded_core_of(ode) == NULL) return 0;
   return core->collide(first, second, data, callback);
 }
 
@@ -139,22 +143,36 @@ __attribute__((cold)) static void meet(Ode* ode, dGeomID first, dGeomID second) 
 /* In a pass ODE asks the library by itself. What is met before any pass has to bring it in. */
 EXPORTED int dCollide(dGeomID first, dGeomID second, int flags, dContactGeom* contacts, int skip) {
   Ode* ode = ODE_OF_CALLER();
-  if (may_meshes_meet() && !have_met) meet(ode, first, second);
+  if (may_meshes_meet(ode) && !have_met) meet(ode, first, second);
   return ode->dCollide(first, second, flags, contacts, skip);
+}
+
+EXPORTED void dSetColliderOverride(int first, int second, dColliderFn* collider) {
+  Ode* ode = ODE_OF_CALLER();
+  ode->dSetColliderOverride(first, second, collider);
+  if (first != dTriMeshClass || second != dTriMeshClass || uses_ode_ext()) return;
+  if (!atomic_exchange(&ode->are_meshes_the_programs, true))
+    say("this program sets a collider of its own for two meshes", "", "they go on with that");
 }
 
 /* --- what lives ----------------------------------------------------------------------------- */
 
+/* ODE forgets who collides meshes, if it was not initialized before; nothing tells whether it was.
+   So what the program collided once by itself stays the program's. */
+static void initialized(const Ode* ode) {
+  if (core_of(ode) != NULL && !ode->are_meshes_the_programs) core->initialized();
+}
+
 EXPORTED void dInitODE(void) {
   const Ode* ode = ODE_OF_CALLER();
   ode->dInitODE();
-  if (core_of(ode) != NULL) core->initialized();
+  initialized(ode);
 }
 
 EXPORTED int dInitODE2(unsigned flags) {
   const Ode* ode = ODE_OF_CALLER();
   const int result = ode->dInitODE2(flags);
-  if (core_of(ode) != NULL) core->initialized();
+  initialized(ode);
   return result;
 }
 

@@ -36,10 +36,10 @@ for library in libode_ext_preload.so libode_ext_preload_double.so libode_ext_pre
   fi
 done
 exported=$(nm -D --defined-only libode_ext_preload.so | awk '{ print $3 }')
-for function in dSpaceCollide dSpaceCollide2 dCollide; do
+for function in dSpaceCollide dSpaceCollide2 dCollide dSetColliderOverride; do
   grep -q -x "$function" <<< "$exported" || fail "libode_ext_preload.so does not export $function"
 done
-if grep -v -E '^d(InitODE2?|SpaceCollide2?|Collide|CreateTriMesh|Geom(Destroy|TriMeshData.*))$' <<< "$exported"; then
+if grep -v -E '^d(InitODE2?|SpaceCollide2?|Collide|SetColliderOverride|CreateTriMesh|Geom(Destroy|TriMeshData.*))$' <<< "$exported"; then
   fail "libode_ext_preload.so exports more than it stands in front of"
 fi
 for precision in double single; do

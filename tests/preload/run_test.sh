@@ -91,6 +91,13 @@ lacking() {
 lacking dGeomTriMeshGetTriangleCount "this ODE has no dGeomTriMeshGetTriangleCount"
 lacking dCheckConfiguration "does not tell its precision"
 
+# A program that collides two meshes by a function of its own: it is asked, and nobody else.
+"$bin/ode_ext-run" "$bin/own_collider" > "$results/own" 2> "$results/said"
+printf 'asked 1 times, contacts 0\n%.0s' 1 2 | cmp - <(tail -n 2 "$results/own") ||
+  fail "a collider of the program's own: $(cat "$results/own")"
+[[ $(grep -c "sets a collider of its own" "$results/said") -eq 1 ]] ||
+  fail "a collider of the program's own: says $(cat "$results/said")"
+
 # Without the library behind it, which may want an OpenCL that is not there.
 cp "$preload/libode_ext_preload.so" "$results"
 "$bin/idioms" in_the_callback > "$results/stock"
