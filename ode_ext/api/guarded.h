@@ -2,6 +2,8 @@
 // What all functions of the C boundary do: exceptions become errors, handles colliders.
 #pragma once
 
+#include <cxxabi.h>
+
 #include <exception>
 #include <memory>
 #include <new>
@@ -16,12 +18,15 @@
 
 namespace ode_ext::api {
 
-// Runs `body`; an exception becomes the last error, prefixed with the call, and `failure`.
+// Runs `body`; an exception becomes the last error, prefixed with the call, and `failure`. A thread
+// that ends (pthread_exit, pthread_cancel) in a callback of the program's within goes on ending.
 template <class Result, class Body>
-Result guarded(const char* call, Result failure, Body body) noexcept {
+Result guarded(const char* call, Result failure, Body body) {
   try {
     try {
       return body();
+    } catch (const abi::__forced_unwind&) {
+      throw;
     } catch (const std::bad_alloc&) {
       set_last_error(std::string(call) + ": out of memory");
     } catch (const std::exception& error) {
@@ -29,6 +34,8 @@ Result guarded(const char* call, Result failure, Body body) noexcept {
     } catch (...) {
       set_last_error(std::string(call) + ": unknown exception");
     }
+  } catch (const abi::__forced_unwind&) {
+    throw;
   } catch (...) {  // no memory for the message either
   }
   return failure;

@@ -67,4 +67,8 @@ class Collider {
   int given_up_in_a_row_ = 0;
 };
 
+// A collider that is made in the driver thread (opencl/driver_thread.h): on a thread of the
+// program's there is no other way.
+std::unique_ptr<Collider> make_collider(const ColliderOptions& options);
+
 }  // namespace ode_ext

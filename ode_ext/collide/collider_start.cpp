@@ -6,6 +6,7 @@
 
 #include "collide/collider.h"
 #include "opencl/choice.h"
+#include "opencl/driver_thread.h"
 
 namespace ode_ext {
 namespace {
@@ -131,6 +132,10 @@ void Collider::warm_up() {
   data_.meshes.warm_up(wide);
   device_.finish();
   take_milliseconds();
+}
+
+std::unique_ptr<Collider> make_collider(const ColliderOptions& options) {
+  return from_driver_thread([&] { return std::make_unique<Collider>(options); });
 }
 
 }  // namespace ode_ext

@@ -19,6 +19,10 @@ namespace ode_ext {
 inline constexpr std::uint64_t kRoundsRemembered = 8;
 // Passes that gather a pair nobody asks for, after which it is no longer computed ahead.
 inline constexpr std::uint64_t kPassesUnasked = 8;
+// So many pairs that the program did not ask for the last time, new ones among them, a pass
+// computes ahead, and as many more as it did ask for. Of what a program keeps in one place every
+// two meet.
+inline constexpr std::size_t kUnaskedAhead = 256;
 
 // How many pairs ahead answers are fetched, which have left the caches since the last pass: about
 // what memory takes to come.
@@ -35,7 +39,8 @@ struct Answer {
   std::uint64_t last_round = 0;      // the last one that gathered it or in which it was asked for
   std::uint64_t passes_unasked = 0;  // that gathered it since the program last asked
   std::uint64_t given_up = 0;        // the last one in which the device had no room for it; 0: none
-  std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead
+  std::uint64_t noted_pass = 0;      // the last one that met it and did not compute it ahead,
+  std::size_t noted_as = 0;          // and which it was of those (UnaskedPairs)
   std::array<const MeshTopology*, 2> given_up_meshes{};  // it was of these then; compared only
   // What is known of the geoms, the lower handle's first; of this generation of members.
   std::array<Members::Seen*, 2> seen{};

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "collide/own_work.h"
 #include "ode/contact_export.h"
 #include "ode/messages.h"
 #include "ode/pass_stats.h"
@@ -49,7 +50,7 @@ BatchCollider::BatchCollider(const ColliderOptions& options, float open_thicknes
 }
 
 bool BatchCollider::claim() {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   hear_announcements();
   if (depth_ != 0 && pass_thread_ != std::this_thread::get_id())
     throw std::runtime_error(
@@ -64,7 +65,7 @@ bool BatchCollider::claim() {
 }
 
 void BatchCollider::unclaim(bool outer_failed) {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   --depth_;
   failed_ = outer_failed;
 }
@@ -80,7 +81,7 @@ bool BatchCollider::run_batch(const PassRoot& root, std::span<const PassRoot> tr
   const double ms_gather = whole.milliseconds();
 
   const HeldMessages held;
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   known_.look_again();
   if (depth_ == 1 && may_hold_pair) {
     known_.note_outermost(root, pairs.size());
@@ -127,6 +128,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
   const std::uint64_t pass = known_.pass();
   const std::uint64_t members = known_.members().generation();
   std::size_t gathered = 0;
+  std::size_t room_for_unasked = kUnaskedAhead;
   long long unasked_colliding = 0;  // as far as is known
   bool familiar = pairs.empty();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -138,11 +140,13 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
     answer.gathering = known_.look();
     ++gathered;
     familiar = familiar || answer.gathered_pass != 0;
+    const bool was_asked = answer.gathered_pass != 0 && answer.passes_unasked == 0;
     if (answer.gathered_pass != pass) ++answer.passes_unasked;
     answer.gathered_pass = pass;
     answer.last_round = known_.round();
     // A program filters pairs in its callback; what it never asks for is not worth computing ahead.
-    if (answer.passes_unasked <= kPassesUnasked) {
+    if (was_asked || (answer.passes_unasked <= kPassesUnasked && room_for_unasked > 0)) {
+      room_for_unasked = was_asked ? room_for_unasked + 1 : room_for_unasked - 1;
       known_.add(answer, pair);
     } else {
       unasked_.note(answer, pair, known_);
@@ -174,7 +178,7 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
   AnswerCopy asked;  // for the program's callbacks to be asked without the lock
   {
     const HeldMessages held;
-    const std::lock_guard lock(mutex_);
+    const OwnWork work(mutex_);
     hear_announcements();
     const Answer* known = find_or_compute(g1, g2);
     if (known == nullptr) {
@@ -187,7 +191,7 @@ int BatchCollider::answer(dGeomID g1, dGeomID g2, int limit, dContactGeom* conta
     asked = known_.copy_of(*known);
   }
   const int count = export_asked(asked, g1, g2, limit, contacts, skip);
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   return stats_.totals.note_answer(count);
 }
 
@@ -198,9 +202,10 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   Answer* known = known_.find(g1, g2);
   bool was_unasked = false;
   if (known != nullptr) {
-    was_unasked = !alone && known->noted_pass == pass;
+    was_unasked = (!alone || depth_ == 0) && known->noted_pass == pass;
     known->last_round = known_.round();
     known->passes_unasked = 0;
+    if (was_unasked) unasked_.note_question();
   }
   // Outside of any pass nothing has read the meshes since the last question.
   std::optional<KnownPairs::LookBetween> look;
@@ -210,8 +215,8 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
   try {
     if (holds_now()) return known;
     if ((!alone && failed_) || is_given_up()) return nullptr;
-    if (was_unasked && unasked_.wakes_by_question()) {
-      unasked_.compute(known_);
+    if (was_unasked && unasked_.expects_others()) {
+      stats_.pairs_colliding += unasked_.compute_from(*known, known_);
       stats_.count_more(static_cast<std::int64_t>(known_.collider().report().pairs) -
                         known_.given_up());
       if (!known_.why_given_up().empty()) note_given_up();
@@ -222,6 +227,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
     age_outside(1);
     ++made_outside_;
     known = &known_.entry(g1, g2);
+    if (was_unasked) stats_.pairs_colliding -= known->valid && !known->contacts.empty() ? 1 : 0;
     known->last_round = known_.round();
     known_.begin_batch(false);
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});
@@ -230,6 +236,7 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
       note_given_up(alone);
       return nullptr;
     }
+    if (was_unasked) stats_.pairs_colliding += known_.colliding();
     health_.note_success();
     if (alone) failure_said_ = false;
     if (std::exchange(failed_alone_, false)) stats_.status &= ~unsigned{dBatchStatusDeviceFailed};
@@ -250,11 +257,13 @@ int BatchCollider::export_asked(const AnswerCopy& asked, dGeomID g1, dGeomID g2,
 
 bool BatchCollider::holds(dGeomID g1, dGeomID g2, bool waits) {
   const HeldMessages held;
+  const NotCancelled not_cancelled;
   std::unique_lock lock(mutex_, std::defer_lock);
   if (waits)
     lock.lock();
   else if (!lock.try_lock())
     return false;
+  const DefaultArithmetic arithmetic;
   hear_announcements();
   Answer* known = known_.find(g1, g2);
   return known != nullptr && known_.holds(*known, g1, g2, is_within_a_pass());
@@ -313,13 +322,13 @@ void BatchCollider::hear_announcements() {
 }
 
 void BatchCollider::set_deformable(dTriMeshDataID data, bool deformable) {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   hear_announcements();
   known_.meshes().set_deformable(data, deformable);
 }
 
 PassStats BatchCollider::stats() {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   return stats_;
 }
 

@@ -2,6 +2,7 @@
 // What a program asks of answers and meshes that are known. Nothing is computed.
 #include <algorithm>
 
+#include "collide/own_work.h"
 #include "ode/batch_collider.h"
 #include "ode/known_contacts.h"
 
@@ -9,7 +10,7 @@ namespace ode_ext {
 
 template <class Visit>
 void BatchCollider::for_each_known(const dContactGeom* contacts, int count, int skip, Visit visit) {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   const auto* bytes = reinterpret_cast<const unsigned char*>(contacts);
   const dContactGeom* before = nullptr;
   KnownContacts of_pair({}, nullptr);
@@ -48,7 +49,7 @@ int BatchCollider::contact_regions(const dContactGeom* contacts, int count, int 
 }
 
 int BatchCollider::meshlets(dTriMeshDataID data, int triangle_count, int* meshlets) {
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   hear_announcements();
   std::fill_n(meshlets, triangle_count, -1);
   const std::shared_ptr<const Mesh> mesh = known_.meshes().known(data, triangle_count);

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "collide/own_work.h"
 #include "ode/batch_collider.h"
 #include "ode/contact_export.h"
 #include "ode/messages.h"
@@ -50,7 +51,7 @@ int BatchCollider::collide_pairs(std::span<const dGeomID> geoms, int flags, dCon
     output.note(i, export_asked(answer, geoms[2 * i], geoms[2 * i + 1], output.limit(),
                                 output.of(i), skip));
 
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   stats_.pairs_colliding = output.colliding();
   stats_.pairs_stock += answered_by_stock;
   stats_.meshes = static_cast<std::int64_t>(known_.meshes().size());
@@ -62,7 +63,7 @@ void BatchCollider::collide_batch(std::span<const dGeomID> geoms, PairOutput& ou
                                   std::vector<PairToAsk>& to_ask,
                                   std::vector<std::size_t>& by_stock) {
   const HeldMessages held;
-  const std::lock_guard lock(mutex_);
+  const OwnWork work(mutex_);
   hear_announcements();
   begin_stats(is_passing());
   try {

@@ -14,7 +14,7 @@ namespace ode_ext {
 KnownPairs::KnownPairs(const ColliderOptions& options, float open_thickness, bool trust_meshes,
                        PassStats& stats)
     : stats_(stats),
-      collider_(std::make_unique<Collider>(options)),
+      collider_(make_collider(options)),
       meshes_({.open_thickness = open_thickness}, trust_meshes) {}
 
 bool KnownPairs::holds(Answer& answer, dGeomID g1, dGeomID g2, bool reads) {
@@ -88,9 +88,7 @@ void KnownPairs::note_status(dTriMeshDataID data, bool is_placed) {
   if (meshes_.has_left_box(data)) stats_.status |= dBatchStatusMeshLeftBox;
 }
 
-void KnownPairs::make_collider_anew() {
-  collider_ = std::make_unique<Collider>(collider_->options_here());
-}
+void KnownPairs::make_collider_anew() { collider_ = make_collider(collider_->options_here()); }
 
 void KnownPairs::give_up(std::size_t pair, const std::string& why) {
   scene_.give_up(pair, pass_);

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "collide/own_work.h"
 #include "ode/thread_state.h"
 
 namespace ode_ext {
@@ -26,6 +27,12 @@ struct Waiting {
 Waiting& waiting() { return of_this_thread<Waiting>(); }
 
 std::atomic<LogLevel> level_in_force{LogLevel::kWarning};
+
+// A handler writes, where a thread can be cancelled, and the library's frames are around it.
+void say(const std::string& message) {
+  const NotCancelled not_cancelled;
+  dMessage(0, "ode_ext: %s", message.c_str());
+}
 
 }  // namespace
 
@@ -52,7 +59,7 @@ void log(LogLevel level, const std::string& message) {
   if (waiting().holders != 0)
     waiting().messages.push_back(message);
   else
-    dMessage(0, "ode_ext: %s", message.c_str());
+    say(message);
 }
 
 void say_that_a_fork_lost_the_device() {
@@ -74,7 +81,7 @@ HeldMessages::~HeldMessages() {
   const std::vector<std::string> messages = std::exchange(waiting().messages, {});
   for (const std::string& message : messages) {
     try {
-      dMessage(0, "ode_ext: %s", message.c_str());
+      say(message);
     } catch (...) {  // the program's handler threw; nothing may be thrown from here
     }
   }

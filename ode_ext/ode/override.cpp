@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/override.h"
 
+#include <cxxabi.h>
 #include <ode/ode.h>
+
+#include <atomic>
+#include <string>
 
 #include "ode/contact_export.h"
 #include "ode/messages.h"
@@ -12,18 +16,35 @@
 namespace ode_ext {
 namespace {
 
+// Contacts would be written into one another. ODE's own collider ends the program.
+void refuse_stride(int skip) {
+  const std::string message =
+      "dCollide: the stride is " + std::to_string(skip) +
+      ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)) +
+      ": no contact is given";
+  set_last_error(message);
+  static std::atomic<bool> said{false};
+  if (!said.exchange(true)) log(LogLevel::kError, message);
+}
+
 // dSetColliderOverride(i, i, fn) fills its one cell twice, and the second time as reversed:
 // dCollide(A, B) calls fn(B, A) and then negates the normals and swaps g1/g2 and side1/side2. An
 // answer in the order of fn's own arguments is thus right as it is. Stock contacts are not
 // symmetric in the arguments, so they are asked for as the program did and turned round here first.
 int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   try {
+    if (skip < static_cast<int>(sizeof(dContactGeom))) {
+      refuse_stride(skip);
+      return 0;
+    }
     if (is_lost_by_fork()) {
       say_that_a_fork_lost_the_device();
     } else {
       const int count = answer_from_registry(g1, g2, flags & 0xffff, contacts, skip);
       if (count >= 0) return count;
     }
+  } catch (const abi::__forced_unwind&) {  // the program ends the thread in a callback of its own
+    throw;
   } catch (...) {  // out of memory: nothing may pass through ODE, and there still is an answer
   }
   const int stock = stock_collide(g2, g1, flags, contacts, skip);

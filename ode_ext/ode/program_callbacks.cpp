@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/program_callbacks.h"
 
+#include <cxxabi.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,11 +16,14 @@
 namespace ode_ext {
 namespace {
 
-// Between here and the program is ODE, through which nothing may be thrown.
+// Between here and the program is ODE, through which nothing may be thrown, but where the program
+// ends the thread: that cannot be stopped.
 template <class Call>
 int guarded(const char* name, int otherwise, Call call) {
   try {
     return call();
+  } catch (const abi::__forced_unwind&) {
+    throw;
   } catch (const std::exception& error) {
     set_last_error(std::string("the program's ") + name + " threw: " + error.what());
   } catch (...) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ode/unasked_pairs.h"
 
-#include <algorithm>
-
 #include "ode/pose_of.h"
 
 namespace ode_ext {
@@ -14,10 +12,11 @@ void UnaskedPairs::clear() {
 }
 
 // Geoms and meshes may be gone when the program asks, so all that is needed is kept, the mesh as it
-// was last read: where it has changed since, the answer will not hold.
+// was last read, if it ever was: where it has changed since, the answer will not hold.
 void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& known) {
   if (answer.noted_pass == known.pass()) return;  // in a pass around this one
   answer.noted_pass = known.pass();
+  answer.noted_as = pairs_.size();
   for (const PlacedGeom& placed : {pair.first, pair.second}) {
     const auto [place, is_new] = members_.try_emplace(placed.geom);
     if (!is_new) continue;
@@ -26,34 +25,51 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
     const dTriMeshDataID data = dGeomTriMeshGetData(placed.geom);
     place->second.data = data;
     place->second.mesh = known.meshes().keep(data, known.round());
+    if (place->second.mesh == nullptr)
+      place->second.mesh = known.meshes().refresh(data, dGeomTriMeshGetTriangleCount(placed.geom),
+                                                  known.look(), known.round());
     place->second.given = pose_of(placed);
     if (place->second.mesh != nullptr)
       known.note_status(data, Members::is_placed(now, place->second.given));
   }
-  pairs_.push_back({pair.first.geom, pair.second.geom});
+  pairs_.push_back({{pair.first.geom, pair.second.geom}, pairs_.size()});
 }
 
-// A few of very many are what a program picks that filters its pairs.
-bool UnaskedPairs::wakes_by_question() {
-  return ++questions_ >= std::max<std::uint64_t>(4, pairs_.size() / 256) && !pairs_.empty();
+// On the way each is made to point farther (path halving), so that all questions of a pass together
+// hardly look at a pair twice.
+std::size_t UnaskedPairs::first_left(std::size_t from) {
+  while (from < pairs_.size() && pairs_[from].next != from) {
+    std::size_t& next = pairs_[from].next;
+    if (next < pairs_.size()) next = pairs_[next].next;
+    from = next;
+  }
+  return from;
 }
 
-void UnaskedPairs::compute(KnownPairs& known) {
+long long UnaskedPairs::compute_from(const Answer& answer, KnownPairs& known) {
   known.begin_batch(true);
+  long long colliding_before = 0;
   const auto note = [&](dGeomID geom, const PairMember& as) -> PairMember& {
     PairMember& member = known.members().note(known.members().seen(geom), geom, as.data, as.mesh,
                                               as.given, known.round());
     known.note_status(as.data, member.is_placed);
     return member;
   };
-  for (const auto& [first, second] : pairs_) {
+  for (std::size_t from = answer.noted_as; known.changed() < 2 * questions_;) {
+    std::size_t i = first_left(from);
+    if (i == pairs_.size()) i = first_left(0);
+    if (i == pairs_.size()) break;
+    pairs_[i].next = from = i + 1;
+    const auto& [first, second] = pairs_[i].geoms;
     const PairMember &a = members_.at(first), &b = members_.at(second);
-    if (known.meshes().is_as_known(a.data, a.mesh) && known.meshes().is_as_known(b.data, b.mesh))
-      known.add(known.entry(first, second), note(first, a), note(second, b));
+    if (!known.meshes().is_as_known(a.data, a.mesh) || !known.meshes().is_as_known(b.data, b.mesh))
+      continue;
+    Answer& entry = known.entry(first, second);
+    colliding_before += entry.valid && !entry.contacts.empty() ? 1 : 0;
+    known.add(entry, note(first, a), note(second, b));
   }
-  pairs_.clear();
-  members_.clear();
   known.compute(nullptr);
+  return known.colliding() - colliding_before;
 }
 
 }  // namespace ode_ext

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What there is: the platforms and devices that the ICD loader finds.
-#include <mutex>
-
 #include "opencl/choice.h"
 #include "opencl/device.h"
+#include "opencl/driver_thread.h"
 #include "opencl/error.h"
 #include "opencl/fork_guard.h"
 #include "opencl/opencl.h"
@@ -110,12 +109,7 @@ struct Survey {
   std::string advice;    // about those that show no device
 };
 
-// One thread at a time: platforms set themselves up in the first call, and PoCL 3.1 crashes or
-// shows no device where several threads make it at once.
-Survey survey() {
-  note_opencl_is_used();
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
+Survey survey_here() {
   Survey result;
   for (cl_platform_id platform : list_platforms()) {
     try {
@@ -133,6 +127,13 @@ Survey survey() {
     ++result.platform_count;
   }
   return result;
+}
+
+// One thread at a time, as the driver thread is: platforms set themselves up in the first call, and
+// PoCL 3.1 crashes or shows no device where several threads make it at once.
+Survey survey() {
+  note_opencl_is_used();
+  return from_driver_thread(&survey_here);
 }
 
 // Why nothing was chosen, and what there is instead.

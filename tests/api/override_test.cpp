@@ -30,6 +30,16 @@ class ApiOverride : public ::testing::Test {
   Pile pile{world, space, 6, 1};
 };
 
+TEST_F(ApiOverride, GivesNoContactWhereContactsWouldLieInOneAnother) {
+  const BatchCollider collider;
+  const dGeomID g1 = world.geom(world.mesh(make_cube(1)), {});
+  const dGeomID g2 = world.geom(world.mesh(make_cube(1)), at(0.1, 0.2, 0.9));
+  dContactGeom contacts[8];
+  EXPECT_GT(dCollide(g1, g2, 8, contacts, sizeof(dContactGeom)), 0);
+  EXPECT_EQ(dCollide(g1, g2, 8, contacts, sizeof(dContactGeom) - 1), 0);
+  EXPECT_NE(last_error().find("the stride is"), std::string::npos) << last_error();
+}
+
 // ODE's own collider is not symmetric in its arguments, so both orders must be right.
 TEST_F(ApiOverride, IsUndoneToTheByteWithTheLastCollider) {
   const auto stock = stock_answers();

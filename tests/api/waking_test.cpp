@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pairs that the program stopped asking for (both bodies asleep) and asks for again, all in one
-// pass: they are computed together, not one at a time.
+// Pairs that the program does not ask for: such as it stopped asking for (both bodies asleep) and
+// asks for again, all in one pass, which are computed together, not one at a time; and such as it
+// never asks for, of which few are computed.
 #include <algorithm>
 
 #include "support/batch_collider.h"
@@ -115,6 +116,90 @@ TEST_F(ApiWaking, SeesMeshesThatWereEditedWhileNobodyLooked) {
   const Collected awake = collider.pass(space);
   const BatchCollider fresh;
   EXPECT_EQ(difference_with_geoms(awake, fresh.pass(space)), "");
+}
+
+// Objects that a program keeps in one place until it needs them: every two of them meet.
+class ApiStore : public ::testing::Test {
+ protected:
+  static constexpr int kCount = 60, kPairs = kCount * (kCount - 1) / 2;
+
+  ApiStore() {
+    const OdeMesh& cube = world.mesh(make_cube(1));
+    for (int i = 0; i < kCount; ++i) world.geom(cube, at(0.001 * i, 0, 0), space);
+  }
+
+  OdeWorld world;
+  dSpaceID space = world.space(SpaceKind::Simple);
+  BatchCollider collider;
+};
+
+TEST_F(ApiStore, OfWhichNothingIsAskedIsHardlyComputed) {
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, nullptr, &ask_nothing), 1);
+  EXPECT_EQ(collider.stats().pairs, kPairs);
+  EXPECT_LE(collider.stats().pairs_computed, kPairs / 6);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, nullptr, &ask_nothing), 1);
+    EXPECT_EQ(collider.stats().pairs_computed, 0) << "pass " << i;
+  }
+}
+
+TEST_F(ApiStore, OfWhichAllIsAskedIsComputedInBatches) {
+  const Collected found = collider.pass(space);
+  EXPECT_LE(collider.stats().pairs_alone, 4);
+  EXPECT_GE(collider.stats().pairs_computed, kPairs - 4);
+  std::vector<dGeomID> pairs;
+  for (const auto& [pair, contacts] : found.contacts) {
+    pairs.push_back(pair.first);
+    pairs.push_back(pair.second);
+  }
+  ASSERT_EQ(pairs.size(), 2u * kPairs);
+  EXPECT_EQ(collider.stats().pairs_colliding, kPairs);
+  const BatchCollider fresh;
+  for (std::size_t i = 0; i < pairs.size(); i += 2)
+    ASSERT_EQ(difference(found.contacts.at({pairs[i], pairs[i + 1]}),
+                         answer_of(fresh, pairs[i], pairs[i + 1])),
+              "");
+  collider.pass(space);
+  EXPECT_EQ(collider.stats().pairs_computed, 0);
+}
+
+// Each object has a mesh of its own, which no pass has read before. Asked for after the pass, in
+// the other order.
+TEST_F(ApiStore, OfWhichAllIsAskedAfterThePassIsComputedInBatches) {
+  std::vector<dGeomID> cubes;
+  for (int i = 0; i < kCount; ++i) cubes.push_back(dSpaceGetGeom(space, i));
+  for (int i = 0; i < kCount; ++i)
+    set_mesh(cubes[static_cast<std::size_t>(i)], world.mesh(make_cube(1 + 0.01 * i)).id());
+  Collected met;
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &met, &collect_order_only), 1);
+  ASSERT_EQ(met.order.size(), static_cast<std::size_t>(kPairs));
+  std::vector<Contacts> found;
+  for (auto pair = met.order.rbegin(); pair != met.order.rend(); ++pair)
+    found.push_back(collide(pair->first, pair->second));
+  EXPECT_LE(collider.stats().pairs_alone, 4);
+  EXPECT_GE(collider.stats().pairs_computed, kPairs - 4);
+  EXPECT_EQ(collider.stats().pairs_colliding, kPairs);
+  const BatchCollider fresh;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto& [g1, g2] = met.order[found.size() - 1 - i];
+    ASSERT_EQ(difference(found[i], answer_of(fresh, g1, g2)), "") << i;
+  }
+}
+
+// What it does not want it pays for twice as often as for what it wants, at most, wherever it lies.
+TEST_F(ApiStore, OfWhichSomeIsAskedIsComputedByAsMuch) {
+  struct EveryHundredth {
+    int met = 0, asked = 0;
+    static void ask(void* self, dGeomID o1, dGeomID o2) {
+      auto& picker = *static_cast<EveryHundredth*>(self);
+      if (++picker.met % 100 != 0) return;
+      ++picker.asked;
+      EXPECT_FALSE(collide(o1, o2).empty());
+    }
+  } picker;
+  ASSERT_EQ(dBatchColliderSpaceCollide(collider, space, &picker, &EveryHundredth::ask), 1);
+  EXPECT_EQ(picker.asked, 17);
+  EXPECT_LE(collider.stats().pairs_computed, kPairs / 3);
 }
 
 // A program that asks for a pair or two of those that sleep does not pay for all of them.
