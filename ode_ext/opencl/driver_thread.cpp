@@ -79,7 +79,20 @@ struct Work {
   std::exception_ptr thrown;
 };
 
+// LLVM gives the thread that it is first asked for anything in another stack for signals.
+class SignalStack {
+ public:
+  SignalStack() { sigaltstack(nullptr, &before_); }
+  ~SignalStack() { sigaltstack(&before_, nullptr); }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+
+ private:
+  stack_t before_{};
+};
+
 void run_here(Work& work) {
+  const SignalStack signal_stack;
   is_driver_thread = true;
   try {
     work.call();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where drivers are loaded and kernels built. A driver takes for its own what is the program's:
-// PoCL and the compiler in it set handlers for fifteen signals, wait for children (the linker),
-// start threads that take the signals which the thread that starts them lets in and go on by its
-// arithmetic, and need 128 KiB of stack. So they get a thread of their own, as a process has it
-// that does nothing else, and what they set of the process is as it was afterwards.
+// PoCL and the compiler in it set handlers for fifteen signals and another stack for these, wait
+// for children (the linker), start threads that take the signals which the thread that starts them
+// lets in and go on by its arithmetic, and need 128 KiB of stack. So they get a thread of their
+// own, as a process has it that does nothing else, and what they set of the process is as it was
+// afterwards.
 #pragma once
 
 #include <functional>
