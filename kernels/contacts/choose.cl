@@ -29,9 +29,8 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
   if (k == seed || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
   const ox_plane_choice by = ox_clearing_plane(r, k, moves);
   if (by.plane.kind == OX_PLANE_NONE) return;
-  // A contact of a vertex is on a facet; one of a valley does not press its sides in.
-  if ((by.plane.kind != OX_PLANE_EDGES || !ox_is_vertex(ox_flags_of(r, k))) &&
-      !ox_takes_side_in(r, k, &by.plane))
+  // A contact of a vertex is on a facet.
+  if (by.plane.kind != OX_PLANE_EDGES || !ox_is_vertex(ox_flags_of(r, k)))
     ox_add_cleared(m, &by, ox_feature_of(r, k));
   ox_mark_cleared(r, k);
 }
@@ -65,15 +64,12 @@ static bool ox_is_nested(const ox_region_view* r, uint k) {
          (ox_target_of(r, ox_side_of(flags))->flags & OX_MESH_CLOSED) != 0u;
 }
 
-// Makes a unit one that comes only where of no other a plane is known. By one work-item.
-static void ox_mark_later(const ox_region_view* r, uint k) {
-  ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
-}
-
-// What is deepest about a bend is of the other mesh.
-static void ox_mark_those_later(const ox_region_view* r, uint units) {
+// Marks the units that come only where of no other a plane is known. What is deepest about a bend
+// is of the other mesh.
+static void ox_mark_later(const ox_region_view* r, uint units) {
   for (uint k = OX_ITEM; k < units; k += OX_ITEMS)
-    if (ox_is_nested(r, k) || ox_is_of_bend(r, k)) ox_mark_later(r, k);
+    if (ox_is_nested(r, k) || ox_is_of_bend(r, k))
+      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
   ox_settle();
 }
 
@@ -138,11 +134,7 @@ static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* mor
   }
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
   // What of the other mesh is in a side of a valley takes that out, and the valley with it.
-  if ((ox_flags_of(r, unit) & OX_MEMBER_LATER) == 0u && ox_takes_side_in(r, unit, &choice.plane)) {
-    ox_settle();
-    if (ox_is_first_item()) ox_mark_later(r, unit);
-    return unit;
-  }
+  if (ox_is_of_valley(r, unit) && ox_is_taken_along(r, unit, moves, choice.judged)) return unit;
   ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
   const uint side = ox_side_of(flags);
@@ -191,7 +183,7 @@ static uint ox_clear_units(ox_manifold* m, uint waiting) {
 static void ox_choose_parts(ox_manifold* m) {
   const ox_region_view* r = m->region;
   const uint units = ox_bring_first(r, r->count, OX_MEMBER_BEGINS, OX_MEMBER_BEGINS);
-  ox_mark_those_later(r, units);
+  ox_mark_later(r, units);
   if (ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, 0u)) == 0u)
     ox_clear_units(m, ox_bring_first(r, units, OX_MEMBER_LATER, OX_MEMBER_LATER));
 }

@@ -22,15 +22,4 @@ static inline bool ox_is_of_bend(const ox_region_view* r, uint k) {
                 ox_normal_of(r->scene, r->pair, side, f->at[1])) > OX_SAME_WAY;
 }
 
-// Whether the move past a plane that takes a chord of a valley out takes a side of that farther
-// into the other mesh, as past the flank of a tip that is in a floor and in the wall on it.
-static inline bool ox_takes_side_in(const ox_region_view* r, uint k, const ox_plane* plane) {
-  if (!ox_is_of_valley(r, k)) return false;
-  __global const ox_feature* f = ox_feature_of(r, k);
-  const uint side = ox_side_of(f->flags);
-  const float3 back = -ox_way_of(side, plane->normal);
-  return ox_looks_back(ox_normal_of(r->scene, r->pair, side, f->at[0]), back) ||
-         ox_looks_back(ox_normal_of(r->scene, r->pair, side, f->at[1]), back);
-}
-
 #endif
