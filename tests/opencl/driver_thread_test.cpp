@@ -47,6 +47,7 @@ void count_child(int) { children = children + 1; }
 
 // Of children that end meanwhile it hears afterwards.
 TEST(DriverThread, CallsAHandlerOfChildrenOnceItIsDone) {
+  children = 0;
   struct sigaction own {
   }, before{};
   own.sa_handler = &count_child;
