@@ -12,6 +12,7 @@
 #include "api/params.h"
 #include "ode/batch_collider.h"
 #include "ode/capture.h"
+#include "ode/contact_export.h"
 #include "ode/known_contacts.h"
 #include "ode/messages.h"
 #include "ode/override.h"
@@ -70,9 +71,8 @@ int collide(const char* call, dBatchColliderID handle, const PassRoot& root, voi
 }
 
 void check_skip(int skip) {
-  if (skip < static_cast<int>(sizeof(dContactGeom)))
-    refuse("skip is " + std::to_string(skip) +
-           ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)));
+  const std::string fault = ode_ext::fault_of_stride(skip);
+  if (!fault.empty()) refuse(fault);
 }
 
 // Null: one that knows nothing.

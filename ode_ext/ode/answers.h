@@ -46,6 +46,7 @@ struct Answer {
   std::array<Members::Seen*, 2> seen{};
   std::uint64_t generation = 0;
 
+  bool collides() const { return valid && !contacts.empty(); }
   // Whether this is the answer for these two, in either order.
   bool holds(const PairMember& a, const PairMember& b) const;
   // Into the caches: it is about to be used.

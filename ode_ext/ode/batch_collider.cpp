@@ -150,7 +150,7 @@ void BatchCollider::compute_ahead(std::span<const GatheredPair> pairs, const Pas
       known_.add(answer, pair);
     } else {
       unasked_.note(answer, pair, known_);
-      unasked_colliding += answer.valid && !answer.contacts.empty() ? 1 : 0;
+      unasked_colliding += answer.collides() ? 1 : 0;
     }
   }
   stats_.pairs = static_cast<long long>(gathered);
@@ -222,12 +222,14 @@ const Answer* BatchCollider::find_or_compute(dGeomID g1, dGeomID g2) {
       if (!known_.why_given_up().empty()) note_given_up();
       if (holds_now()) return known;
       if (is_given_up()) return nullptr;
+      // It has been moved since the pass, and so may the others.
+      if (alone) unasked_.clear();
     }
     if (alone) make_anew_what_keeps_failing();
     age_outside(1);
     ++made_outside_;
     known = &known_.entry(g1, g2);
-    if (was_unasked) stats_.pairs_colliding -= known->valid && !known->contacts.empty() ? 1 : 0;
+    if (was_unasked) stats_.pairs_colliding -= known->collides() ? 1 : 0;
     known->last_round = known_.round();
     known_.begin_batch(false);
     known_.add(*known, GatheredPair{{g1, g1}, {g2, g2}});

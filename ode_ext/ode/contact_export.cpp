@@ -6,6 +6,12 @@
 
 namespace ode_ext {
 
+std::string fault_of_stride(int skip) {
+  if (skip >= static_cast<int>(sizeof(dContactGeom))) return "";
+  return "skip is " + std::to_string(skip) +
+         ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom));
+}
+
 int export_contacts(std::span<const Contact> contacts, dGeomID first, dGeomID g1, dGeomID g2,
                     int limit, dContactGeom* target, int skip) {
   const bool swapped = g1 != first;

@@ -5,10 +5,14 @@
 #include <ode/ode.h>
 
 #include <span>
+#include <string>
 
 #include "contacts/contact.h"
 
 namespace ode_ext {
+
+// What is wrong with a stride, "": nothing. Contacts would be written into one another.
+std::string fault_of_stride(int skip);
 
 // Writes at most `limit` of the contacts between `first` and `second` (whose contacts they are), as
 // an answer to dCollide(g1, g2): {g1, g2} = {first, second} in either order. `skip` [bytes] is the

@@ -16,12 +16,9 @@
 namespace ode_ext {
 namespace {
 
-// Contacts would be written into one another. ODE's own collider ends the program.
-void refuse_stride(int skip) {
-  const std::string message =
-      "dCollide: the stride is " + std::to_string(skip) +
-      ", less than sizeof(dContactGeom) = " + std::to_string(sizeof(dContactGeom)) +
-      ": no contact is given";
+// ODE's own collider ends the program there.
+void refuse_stride(const std::string& fault) {
+  const std::string message = "dCollide: " + fault + ": no contact is given";
   set_last_error(message);
   static std::atomic<bool> said{false};
   if (!said.exchange(true)) log(LogLevel::kError, message);
@@ -33,8 +30,9 @@ void refuse_stride(int skip) {
 // symmetric in the arguments, so they are asked for as the program did and turned round here first.
 int collide_meshes(dGeomID g1, dGeomID g2, int flags, dContactGeom* contacts, int skip) {
   try {
-    if (skip < static_cast<int>(sizeof(dContactGeom))) {
-      refuse_stride(skip);
+    const std::string fault = fault_of_stride(skip);
+    if (!fault.empty()) {
+      refuse_stride(fault);
       return 0;
     }
     if (is_lost_by_fork()) {

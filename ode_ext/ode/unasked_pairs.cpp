@@ -7,6 +7,7 @@ namespace ode_ext {
 
 void UnaskedPairs::clear() {
   questions_ = 0;
+  left_ = 0;
   pairs_.clear();
   members_.clear();
 }
@@ -33,17 +34,19 @@ void UnaskedPairs::note(Answer& answer, const GatheredPair& pair, KnownPairs& kn
       known.note_status(data, Members::is_placed(now, place->second.given));
   }
   pairs_.push_back({{pair.first.geom, pair.second.geom}, pairs_.size()});
+  ++left_;
 }
 
 // On the way each is made to point farther (path halving), so that all questions of a pass together
-// hardly look at a pair twice.
+// hardly look at a pair twice. There is one.
 std::size_t UnaskedPairs::first_left(std::size_t from) {
-  while (from < pairs_.size() && pairs_[from].next != from) {
+  for (;;) {
+    if (from >= pairs_.size()) from = 0;
+    if (pairs_[from].next == from) return from;
     std::size_t& next = pairs_[from].next;
     if (next < pairs_.size()) next = pairs_[next].next;
     from = next;
   }
-  return from;
 }
 
 long long UnaskedPairs::compute_from(const Answer& answer, KnownPairs& known) {
@@ -55,17 +58,16 @@ long long UnaskedPairs::compute_from(const Answer& answer, KnownPairs& known) {
     known.note_status(as.data, member.is_placed);
     return member;
   };
-  for (std::size_t from = answer.noted_as; known.changed() < 2 * questions_;) {
-    std::size_t i = first_left(from);
-    if (i == pairs_.size()) i = first_left(0);
-    if (i == pairs_.size()) break;
+  for (std::size_t from = answer.noted_as; left_ != 0 && known.changed() < 2 * questions_;) {
+    const std::size_t i = first_left(from);
     pairs_[i].next = from = i + 1;
+    --left_;
     const auto& [first, second] = pairs_[i].geoms;
     const PairMember &a = members_.at(first), &b = members_.at(second);
     if (!known.meshes().is_as_known(a.data, a.mesh) || !known.meshes().is_as_known(b.data, b.mesh))
       continue;
     Answer& entry = known.entry(first, second);
-    colliding_before += entry.valid && !entry.contacts.empty() ? 1 : 0;
+    colliding_before += entry.collides() ? 1 : 0;
     known.add(entry, note(first, a), note(second, b));
   }
   known.compute(nullptr);

@@ -26,7 +26,7 @@ class UnaskedPairs {
   // noted after it, and the first again after the last, in one batch, twice as many as were asked
   // for: of a pile that wakes all are computed in a few batches, in whatever order they are asked
   // for, and a program that picks some pays for few that it does not want.
-  bool expects_others() const { return questions_ > kQuestionsAlone && !pairs_.empty(); }
+  bool expects_others() const { return questions_ > kQuestionsAlone && left_ != 0; }
   // Returns by how many more of them have contacts than had when they were noted.
   long long compute_from(const Answer& answer, KnownPairs& known);
 
@@ -37,10 +37,11 @@ class UnaskedPairs {
     std::array<dGeomID, 2> geoms;
     std::size_t next;  // the pair itself, or once it was in a batch one after it
   };
-  // The first from here on that has been in no batch, or how many there are.
+  // The first from here on, and after the last from the first on, that has been in no batch.
   std::size_t first_left(std::size_t from);
 
   std::vector<Noted> pairs_;
+  std::size_t left_ = 0;                             // that have been in no batch
   std::unordered_map<dGeomID, PairMember> members_;  // data, mesh and given pose
   std::uint64_t questions_ = 0;
 };
