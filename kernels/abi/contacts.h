@@ -24,8 +24,10 @@ typedef struct ox_feature {
   ox_u32 triangle;  // that is crossed, or that the ray of the vertex leaves by; OX_NONE: none is
   ox_f32 t;         // [m] along the edge, from its first vertex
   ox_u32 face;      // that is crossed, or left by, among those of the region (ox_face); or OX_NONE
-  ox_u32 next;      // another crossing of the edge; of a vertex `from` of ox_hit; or OX_NONE
-  ox_u32 partner;   // of a crossing: the feature at the other end of its chord; OX_NONE: none
+  // Another crossing of the edge, and once chords are known that at the other end of the stretch
+  // outside; of a vertex `from` of ox_hit; or OX_NONE.
+  ox_u32 next;
+  ox_u32 partner;  // of a crossing: the feature at the other end of its chord; OX_NONE: none
   // The triangles at the edge, the second OX_NONE at a border; of a vertex that is moved the first
   // is one at the edge that it is moved along.
   ox_u32 at[2];

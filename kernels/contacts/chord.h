@@ -125,4 +125,25 @@ static inline uint ox_find_partners(const ox_scene* scene, uint head) {
   return head;
 }
 
+// Makes the next of each crossing of an edge, from the head of their chain on, that by which the
+// edge enters again after it has left, or by which it left before it enters.
+static inline void ox_link_outside(__global ox_feature* features, uint head) {
+  uint left = OX_NONE;     // the last by which it left
+  uint outside = OX_NONE;  // the first by which it left since it last entered
+  for (uint i = head; i != OX_NONE;) {
+    const uint next = features[i].next;
+    if (!ox_enters(features + i)) {
+      left = i;
+      if (outside == OX_NONE) outside = i;
+    }
+    while (outside != OX_NONE && (ox_enters(features + i) || next == OX_NONE)) {
+      const uint after = outside == left ? OX_NONE : features[outside].next;
+      features[outside].next = ox_enters(features + i) ? i : OX_NONE;
+      outside = after;
+    }
+    if (ox_enters(features + i)) features[i].next = left;
+    i = next;
+  }
+}
+
 #endif

@@ -78,27 +78,29 @@ static inline bool ox_comes_back_around(const ox_region_view* r, uint side,
   return ox_stays_inside(r, 1u - side, asked, plane, depth);
 }
 
-// How much of what of an edge is beyond a chord is nearer to that than to where it enters the other
-// mesh again: all, or half of the way to there [m].
-static inline float ox_own_part(const ox_region_view* r, uint side, float3 from, float3 direction,
-                                float length) {
-  const float next = ox_cast_into(r, side, from, direction).front_t;
-  return next < length ? 0.5f * next : length;
+// To where on an edge what is beyond a crossing is nearer to that than to where the edge is inside
+// again: to its end, or half of the way to there [m].
+static inline float ox_own_until(const ox_scene* scene, __global const ox_feature* f, float end) {
+  return f->next == OX_NONE ? end : 0.5f * (f->t + scene->features[f->next].t);
 }
 
 // Whether a stretch of an edge of mesh `side` is in the other: it meets a face, or is all inside.
 static inline bool ox_stretch_is_inside(const ox_region_view* r, uint side, float3 from,
                                         float3 direction, float length, float3 away) {
   const ox_nearest nearest = ox_cast_into(r, side, from, direction);
-  return ox_min(nearest.front_t, nearest.back_t) <= length ||
-         ox_is_still_inside(r, side, from, away);
+  if (ox_min(nearest.front_t, nearest.back_t) <= length) return true;
+  // A ray out of a solid leaves it; where it meets a front first, that may be within another part.
+  if ((ox_target_of(r, side)->flags & OX_MESH_CLOSED) != 0u && !(nearest.front_t < nearest.back_t))
+    return nearest.back_t < nearest.front_t;
+  return ox_is_still_inside(r, side, from, away);
 }
 
 // Whether what of an edge of mesh `side` is about a chord is still in the other mesh where a plane
 // takes it. Another chord of the edge is of another region, or has planes of its own.
 static inline bool ox_chord_stays(const ox_region_view* r, uint side, uint k, const ox_plane* plane,
                                   float depth) {
-  __global const uint* ends = r->scene->edges[ox_feature_of(r, k)->source].vertex;
+  __global const ox_feature* f = ox_feature_of(r, k);
+  __global const uint* ends = r->scene->edges[f->source].vertex;
   const float3 away = ox_way_of(side, plane->normal);
   const float3 moved = ox_way_past(r, depth) * away;
   const float3 from = ox_vertex_of(r->scene, r->pair, side, ends[0]);
@@ -107,12 +109,16 @@ static inline bool ox_chord_stays(const ox_region_view* r, uint side, uint k, co
   const float3 direction = along / length;
   // Mostly nothing of all of the edge is.
   if (!ox_stretch_is_inside(r, side, from + moved, direction, length, away)) return false;
-  const float one = ox_dot(ox_position_of(r, k) - from, direction);
-  const float other = ox_dot(ox_vector_of(&r->members, OX_MEMBER_END, k) - from, direction);
-  const float begin = ox_min(one, other);
-  const float end = ox_max(one, other);
-  const float first = begin - ox_own_part(r, side, from + begin * direction, -direction, begin);
-  const float last = end + ox_own_part(r, side, from + end * direction, direction, length - end);
+  float first = 0.0f;
+  float last = length;
+  for (uint end = 0u; end < 2u; ++end) {
+    if ((f->flags & OX_FEATURE_LEAVES) == 0u)
+      first = ox_own_until(r->scene, f, 0.0f);
+    else
+      last = ox_own_until(r->scene, f, length);
+    if (f->partner == OX_NONE || ox_is_vertex(r->scene->features[f->partner].flags)) break;
+    f = r->scene->features + f->partner;
+  }
   return ox_stretch_is_inside(r, side, from + first * direction + moved, direction, last - first,
                               away);
 }

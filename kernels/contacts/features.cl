@@ -189,6 +189,7 @@ static void ox_join_chords(const ox_scene* scene, uint head) {
     if (scene->features[n].partner != OX_NONE) ox_unite(scene, n, scene->features[n].partner);
     last = n;
   }
+  ox_link_outside(scene->features, first);
   __global const ox_feature* f = scene->features + first;
   const uint target = scene->pairs[f->pair].mesh[1u - ox_side_of(f->flags)];
   if ((scene->meshes[target].flags & OX_MESH_TWO_SIDED) == 0u) return;
@@ -208,9 +209,9 @@ static void ox_join_flat_edge(const ox_scene* scene, uint head) {
   }
 }
 
-// out: partners, which are nested; what follows one another along the curve or along an edge is
-// united. Edges within facets that lead from no vertex inside need not be followed: what hangs
-// together by them alone is within one facet.
+// out: partners, and what is next outside; which are nested; what follows one another along the
+// curve or along an edge is united. Edges within facets that lead from no vertex inside need not be
+// followed: what hangs together by them alone is within one facet.
 static void ox_join_features(const ox_scene* scene) {
   const uint count = ox_feature_count(scene);
   for (uint i = scene->item; i < count; i += scene->item_count) {

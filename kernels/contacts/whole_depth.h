@@ -122,6 +122,7 @@ static inline uint ox_direction_of(float3 n) {
 typedef struct {
   ox_kept_blocks kept[OX_DIRECTIONS];
   ox_refused refused;
+  float least;  // [m] what the best of all directions costs so far
 } ox_search;
 
 // Tries a plane for a whole region; returns whether part of the region is past it, so that it is
@@ -131,7 +132,9 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   if (plane->kind == OX_PLANE_NONE || ox_is_refused(&search->refused, plane, OX_SAME_WAY))
     return false;
   ox_kept_blocks* kept = search->kept + ox_direction_of(plane->normal);
-  const ox_limits limits = {OX_CLEARANCE * r->scene->pairs[r->pair].epsilon, best->judged};
+  // From what costs more than worth it beside the least no walk begins.
+  const ox_limits limits = {OX_CLEARANCE * r->scene->pairs[r->pair].epsilon,
+                            ox_min(best->judged, OX_WORTH * search->least)};
   ox_extent extent = ox_begin_extent(plane);
   if (ox_least_depth(r, &limits, kept, &extent) == INFINITY) return extent.past > limits.past;
   ox_plane_choice choice = ox_no_choice();
@@ -139,8 +142,8 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   choice.depth = ox_whole_depth(r, &limits, kept, &extent);
   if (choice.depth == INFINITY) return extent.past > limits.past;
   const float tie = ox_edge_tie(r, plane);
-  const ox_beyond beyond = ox_go_on_beyond(r, plane, choice.depth, best->judged - tie);
-  if (beyond.price + tie > best->judged) return false;
+  const ox_beyond beyond = ox_go_on_beyond(r, plane, choice.depth, limits.cost - tie);
+  if (beyond.price + tie > limits.cost) return false;
   choice.judged = ox_max(choice.depth, beyond.price) + tie;
   choice.of_body = beyond.price > choice.depth;
   choice.all_of_body = beyond.price > ox_doubted(choice.depth);
@@ -149,6 +152,7 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   if (plane->kind == OX_PLANE_EDGES)
     choice.depth = ox_max(choice.depth, beyond.depth - ox_body_tie(r));
   if (ox_is_better_choice(&choice, best)) *best = choice;
+  search->least = ox_min(search->least, choice.judged);
   return false;
 }
 

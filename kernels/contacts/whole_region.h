@@ -180,6 +180,7 @@ static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_pla
 static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search* search) {
   ox_plane_choice best[OX_DIRECTIONS];
   for (uint i = 0u; i < OX_DIRECTIONS; ++i) best[i] = ox_no_choice();
+  search->least = INFINITY;
   for (uint i = 0u; i < r->plane_count; ++i) {
     const ox_plane plane = ox_load_plane(&r->planes, i);
     if (ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal)))
