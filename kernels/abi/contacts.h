@@ -71,6 +71,7 @@ OX_STATIC_ASSERT(sizeof(ox_region) == 32, ox_region_is_32_bytes);
 #define OX_MEMBER_CLEARED 256u  // a unit: it waits for no plane any more
 #define OX_MEMBER_LATER 512u    // a unit: only where of no other a plane is known
 #define OX_MEMBER_FOUND 1024u   // a unit: it proposes the face that was found for it
+#define OX_MEMBER_VALLEY 4096u  // a unit: of a valley, it comes after all others
 
 // A place in the table of the faces of a region, one of each facet.
 typedef struct ox_face {

@@ -22,11 +22,11 @@ static void ox_mark_cleared(const ox_region_view* r, uint k) {
   ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_CLEARED;
 }
 
-// A unit, other than the one that a plane was chosen for, that the last move may clear, unless
-// another plane of the same corner has. By one work-item.
-static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint seed) {
+// A unit, other than the one that a plane was chosen for and one that is kept, that the last move
+// may clear, unless another plane of the same corner has. By one work-item.
+static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint seed, uint kept) {
   const ox_region_view* r = m->region;
-  if (k == seed || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
+  if (k == seed || k == kept || (ox_flags_of(r, k) & OX_MEMBER_CLEARED) != 0u) return;
   const ox_plane_choice by = ox_clearing_plane(r, k, moves);
   if (by.plane.kind == OX_PLANE_NONE) return;
   // A contact of a vertex is on a facet.
@@ -35,9 +35,26 @@ static void ox_clear(const ox_manifold* m, const ox_moves* moves, uint k, uint s
   ox_mark_cleared(r, k);
 }
 
-// Moves past the plane that is chosen for a unit, which clears others of those that wait.
+// The member that is the vertex in which a chord ends; OX_NONE: it ends in none.
+static uint ox_find_vertex_end(const ox_region_view* r, __global const ox_feature* f) {
+  if (ox_is_vertex(f->flags) || f->partner == OX_NONE ||
+      !ox_is_vertex(r->scene->features[f->partner].flags))
+    return OX_NONE;
+  for (uint block = 0u; OX_VECTOR_WIDTH * block < r->count; ++block) {
+    const ox_ints is = OX_LOAD_WORDS(&r->members, OX_MEMBER_FEATURE, block) == (int)f->partner;
+    const uint found = ox_mask_of(&is) & ox_present_lanes(r->count, block);
+    if (found != 0u) return OX_VECTOR_WIDTH * block + ox_lowest(found);
+  }
+  return OX_NONE;
+}
+
+// Moves past the plane that is chosen for a unit, which clears others of those that wait. A chord
+// comes out by its middle: the vertex in which it ends may be deeper, and in the other flank of a
+// groove still, and waits then. Where a move before has cleared that, it has one more contact, as
+// deep as the chord goes. *more: candidates so far beyond one for each feature, for which there is
+// room (OX_CANDIDATES_PER_FEATURE).
 static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
-                         ox_moves* moves) {
+                         ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
   ox_add_move(r, choice, seed, moves);
   m->manifold = ox_first_past(moves, &choice->plane);
@@ -46,13 +63,24 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
     ox_add_edge_contact(m, choice);
   else if (ox_is_first_item() && ox_add_cleared(m, choice, of_seed) == 0u)  // all on the rim
     ox_add_feature_contact(m, choice, of_seed);
+  uint end = ox_find_vertex_end(r, of_seed);
+  if (end != OX_NONE && (ox_flags_of(r, end) & OX_MEMBER_CLEARED) != 0u) {
+    if (choice->plane.kind != OX_PLANE_EDGES && *more < r->count) {
+      ++*more;
+      if (ox_is_first_item()) ox_add_feature_contact(m, choice, ox_feature_of(r, end));
+    }
+  } else if (end != OX_NONE &&
+             !ox_stays_inside(r, ox_side_of(of_seed->flags), ox_position_of(r, end), &choice->plane,
+                              choice->depth)) {
+    end = OX_NONE;
+  }
   ox_settle();
   for (uint first = 0u; OX_VECTOR_WIDTH * first < waiting; first += OX_BLOCKS_AT_ONCE) {
     uint cleared[OX_BLOCKS_AT_ONCE];
     ox_find_cleared(r, first, waiting, moves, cleared);
     for (uint i = 0u; i < OX_BLOCKS_AT_ONCE; ++i)
       for (uint own = ox_own_bits(cleared[i]); own != 0u; own &= own - 1u)
-        ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed);
+        ox_clear(m, moves, OX_VECTOR_WIDTH * (first + i) + ox_lowest(own), seed, end);
   }
   ox_settle();
 }
@@ -64,12 +92,15 @@ static bool ox_is_nested(const ox_region_view* r, uint k) {
          (ox_target_of(r, ox_side_of(flags))->flags & OX_MESH_CLOSED) != 0u;
 }
 
-// Marks the units that come only where of no other a plane is known. What is deepest about a bend
-// is of the other mesh.
+// Marks the units that come only where of no other a plane is known, and those that come last. What
+// is deepest about a bend, or in a valley, is of the other mesh.
 static void ox_mark_later(const ox_region_view* r, uint units) {
-  for (uint k = OX_ITEM; k < units; k += OX_ITEMS)
-    if (ox_is_nested(r, k) || ox_is_of_bend(r, k))
-      ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= OX_MEMBER_LATER;
+  for (uint k = OX_ITEM; k < units; k += OX_ITEMS) {
+    const bool is_later = ox_is_nested(r, k) || ox_is_of_bend(r, k);
+    const bool is_last = ox_is_of_valley(r, k) || ox_is_between_valleys(r, k);
+    const uint mark = is_later ? OX_MEMBER_LATER : is_last ? OX_MEMBER_VALLEY : 0u;
+    ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= mark;
+  }
   ox_settle();
 }
 
@@ -119,8 +150,7 @@ static uint ox_choose_next(const ox_region_view* r, uint waiting, const ox_moves
 }
 
 // Moves past the planes that are chosen for the next unit, or for one that is deeper below the
-// first of them; returns which. *more: candidates so far beyond one for each feature, for which
-// there is room (OX_CANDIDATES_PER_FEATURE).
+// first of them; returns which. *more: as of ox_move_past.
 static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
   ox_joint_choice together;
@@ -129,12 +159,14 @@ static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* mor
   if (ox_is_outside(r, unit)) {
     if (moves->count != 0u) return unit;  // of a contact where the region has no other
     const ox_plane_choice nearest = ox_choose_nearest(r, unit);
-    if (nearest.plane.kind != OX_PLANE_NONE) ox_move_past(m, &nearest, unit, waiting, moves);
+    if (nearest.plane.kind != OX_PLANE_NONE) ox_move_past(m, &nearest, unit, waiting, moves, more);
     return unit;
   }
   if (choice.plane.kind == OX_PLANE_NONE) return unit;
-  // What of the other mesh is in a side of a valley takes that out, and the valley with it.
-  if (ox_is_of_valley(r, unit) && ox_is_taken_along(r, unit, moves, choice.judged)) return unit;
+  // What of the other mesh is in the sides of a valley takes those out, and the valley with them.
+  if ((ox_flags_of(r, unit) & OX_MEMBER_VALLEY) != 0u &&
+      ox_is_taken_out(r, unit, moves, choice.judged))
+    return unit;
   ox_go_on_to_deepest(r, waiting, moves, &unit, &choice, &together);
   const uint flags = ox_flags_of(r, unit);
   const uint side = ox_side_of(flags);
@@ -143,14 +175,14 @@ static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* mor
     if (ox_is_taken_along(r, unit, moves, ox_min(own.depth, choice.depth))) return unit;
     const uint deepest = ox_deepest_below(r, &own);
     if (deepest < waiting) {
-      ox_move_past(m, &own, deepest, waiting, moves);
+      ox_move_past(m, &own, deepest, waiting, moves, more);
       if (ox_is_first_item()) ox_mark_cleared(r, deepest);
     }
     // Else it has been cleared, or comes later.
     if (deepest < waiting || (deepest != OX_NONE && ox_has_moved(moves, own.plane.normal)))
       return unit;
   }
-  ox_move_past(m, &choice, unit, waiting, moves);
+  ox_move_past(m, &choice, unit, waiting, moves, more);
   const uint ends = ox_is_vertex(flags) ? 1u : 2u;
   for (uint i = 1u; i < together.count && moves->count < OX_MOST_PLANES; ++i) {
     if (!ox_is_needed(r, &together, i, moves)) continue;
@@ -158,7 +190,7 @@ static uint ox_take_out(ox_manifold* m, uint waiting, ox_moves* moves, uint* mor
     *more += ends;
     choice.plane = together.plane[i];
     choice.depth = together.depth[i];
-    ox_move_past(m, &choice, unit, waiting, moves);
+    ox_move_past(m, &choice, unit, waiting, moves, more);
   }
   return unit;
 }

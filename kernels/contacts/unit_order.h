@@ -14,6 +14,7 @@ typedef struct {
   const ox_plane* below;
   const ox_moves* away;
   float least_depth;
+  uint skipped;  // OX_MEMBER_... of those that do not count
 } ox_unit_measure;
 
 static inline void ox_depths_below(const ox_region_view* r, uint block, const ox_plane* plane,
@@ -53,6 +54,11 @@ static inline void ox_find_values(const ox_region_view* r, uint block,
   const ox_floats proposed = OX_LOAD_FLOATS(&r->members, OX_MEMBER_LEAST, block);
   *values = proposed;
   if (measure->below != 0) ox_depths_below(r, block, measure->below, &proposed, values);
+  if (measure->skipped != 0u) {
+    const ox_ints counts =
+        (OX_LOAD_WORDS(&r->members, OX_MEMBER_FLAGS, block) & (int)measure->skipped) == 0;
+    *values = counts ? *values : (ox_floats)(-INFINITY);
+  }
   if (measure->away == 0) return;
   ox_distances_from(r, block, measure->away, values);
   *values = proposed >= measure->least_depth ? *values : (ox_floats)(-INFINITY);
@@ -87,15 +93,22 @@ static inline uint ox_find_greatest(const ox_region_view* r, uint waiting,
 // The waiting unit that is deepest below a plane.
 static inline uint ox_deepest_below_plane(const ox_region_view* r, uint waiting,
                                           const ox_plane* plane) {
-  const ox_unit_measure depth = {plane, 0, 0.0f};
+  const ox_unit_measure depth = {plane, 0, 0.0f, 0u};
   return ox_find_greatest(r, waiting, &depth);
 }
 
-// The waiting unit that is deepest below its own best plane. The nearest face makes it no deeper,
-// but for the tie, so only those need it that are the deepest without.
+// The waiting unit that is deepest below its own best plane; those of valleys come last. The
+// nearest face makes it no deeper, but for the tie, so only those need it that are the deepest
+// without.
 static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
+  const ox_unit_measure of_others = {0, 0, 0.0f, OX_MEMBER_VALLEY};
   for (;;) {
-    const uint k = ox_deepest_below_plane(r, waiting, 0);
+    uint k = ox_deepest_below_plane(r, waiting, 0);
+    const uint flags = ox_flags_of(r, k);
+    if ((flags & OX_MEMBER_NEAREST) != 0u && (flags & OX_MEMBER_VALLEY) != 0u) {
+      const uint other = ox_find_greatest(r, waiting, &of_others);
+      if (other != OX_NONE) k = other;
+    }
     if ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) != 0u) return k;
     ox_propose_nearest(r, k);
   }
@@ -110,7 +123,7 @@ static inline uint ox_next_unit(const ox_region_view* r, uint waiting, const ox_
   const uint deepest = ox_deepest_unit(r, waiting);
   if (moves->count < OX_MOST_PLANES / 2u) return deepest;
   const float depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[deepest];
-  const ox_unit_measure distance = {0, moves, ox_min(depth, depth / OX_WORTH)};
+  const ox_unit_measure distance = {0, moves, ox_min(depth, depth / OX_WORTH), 0u};
   const uint next = ox_find_greatest(r, waiting, &distance);
   if ((ox_flags_of(r, next) & OX_MEMBER_NEAREST) == 0u) ox_propose_nearest(r, next);
   return next;
