@@ -124,6 +124,8 @@ int main(int argc, char** argv) {
   try {
     for (const Pair& pair : all_pairs())
       if (name == pair.name) std::puts(describe(pair, stock).dump().c_str());
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw std::runtime_error("the contacts could not be written");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contacts: %s\n", error.what());
     exit_code = kExitFailed;

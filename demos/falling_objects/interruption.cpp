@@ -2,18 +2,20 @@
 #include "falling_objects/interruption.h"
 
 #include <cstddef>
+#include <iterator>
+#include <tuple>
 
 namespace falling_objects {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM};
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t noted = 0;
 
-// The next one of either ends the program.
+// The next one of any ends the program.
 void note(int signal) {
   noted = signal;
-  for (const int either : kSignals) std::signal(either, SIG_DFL);
+  for (const int any : kSignals) std::signal(any, SIG_DFL);
 }
 
 }  // namespace
@@ -23,15 +25,16 @@ Interruption::Interruption() {
   struct sigaction action {};
   action.sa_handler = &note;
   action.sa_flags = SA_RESTART;
-  for (std::size_t i = 0; i < 2; ++i) {
+  static_assert(std::size(kSignals) == std::tuple_size_v<decltype(before_)>);
+  for (std::size_t i = 0; i < before_.size(); ++i) {
     sigaction(kSignals[i], nullptr, &before_[i]);
-    // A shell's background jobs ignore Ctrl-C, and go on doing so.
+    // A shell's background jobs ignore Ctrl-C, and those of nohup a hang-up, and go on doing so.
     if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
   }
 }
 
 Interruption::~Interruption() {
-  for (std::size_t i = 0; i < 2; ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  for (std::size_t i = 0; i < before_.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
 }
 
 int Interruption::signal() const { return noted; }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ctrl-C: a run ends after the step that it is in, and writes what there is.
+// Ctrl-C, or a terminal that is closed: a run ends after the step that it is in, and writes what
+// there is.
 #pragma once
 
+#include <array>
 #include <csignal>
 
 namespace falling_objects {
 
-// As long as one lives, SIGINT and SIGTERM are noted. A second one ends the program at once.
+// As long as one lives, SIGINT, SIGTERM and SIGHUP are noted. A second one ends the program at
+// once.
 class Interruption {
  public:
   Interruption();
@@ -17,7 +20,7 @@ class Interruption {
   int signal() const;  // that came, or 0
 
  private:
-  struct sigaction before_[2];
+  std::array<struct sigaction, 3> before_;
 };
 
 }  // namespace falling_objects

@@ -11,7 +11,9 @@ namespace falling_objects {
 StepRecord MeasuredWorld::step() {
   StepRecord record = world_.step();
   const int every = std::max(1, static_cast<int>(std::lround(0.1 * world_.options().hz)));
-  if ((record.step + 1) % every == 0) record.deepest_penetration = meter_.measure().deepest;
+  if ((record.step + 1) % every == 0 && meter_.measures_any()) {
+    record.deepest_penetration = meter_.measure().deepest;
+  }
   return record;
 }
 

@@ -59,10 +59,38 @@ Ctrl-C ends a run after the step that it is in, and what there is of it is writt
 Exit codes: 0 done, 1 a check failed or an output could not be written, 2 wrong usage or unreadable
 file, 3 no device, 128 and its number: ended by a signal.)";
 
-// There or not.
-bool are_one_file(const std::string& a, const std::string& b) {
+// The same of all names of a file, whether or not it is there.
+std::filesystem::path whole_path(const std::string& path) {
   std::error_code none;
-  return std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none);
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+}
+
+// Throws where one output would be written over another, or over what is read.
+void check_files(const Options& o) {
+  struct File {
+    std::string option, path;
+    bool is_read;
+  };
+  std::vector<File> files{{"--scene", find_scene_file(o.scene), true}};
+  for (const std::string& mesh : o.meshes) {
+    files.push_back({"--mesh", mesh, true});
+    files.push_back({"--mesh", mesh.substr(mesh.find('=') + 1), true});  // NAME=FILE
+  }
+  for (const auto& [option, path] :
+       std::vector<std::pair<const char*, std::string>>{{"--csv", o.csv},
+                                                        {"--snapshot", o.snapshot},
+                                                        {"--record", o.record},
+                                                        {"--frames", o.pictures.frames},
+                                                        {"--video", o.pictures.video}}) {
+    if (path.empty()) continue;
+    for (const File& file : files) {
+      if (whole_path(file.path) == whole_path(path)) {
+        throw CLI::ValidationError(
+            option, "names the file that " + file.option + (file.is_read ? " reads" : " writes"));
+      }
+    }
+    files.push_back({option, path, false});
+  }
 }
 
 }  // namespace
@@ -186,15 +214,7 @@ ParsedOptions parse_options(int argc, const char* const* argv, std::ostream& out
           "a window neither measures nor writes: leave out --check, --check-rest, "
           "--compare, --csv, --snapshot, --record, --frames and --video, or --window");
     }
-    const std::vector<std::pair<const char*, std::string>> outputs = {
-        {"--csv", o.csv}, {"--snapshot", o.snapshot}, {"--record", o.record}};
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-      for (std::size_t k = 0; k < i; ++k) {
-        if (!outputs[i].second.empty() && are_one_file(outputs[i].second, outputs[k].second))
-          throw CLI::ValidationError(
-              outputs[i].first, "names the file that " + std::string(outputs[k].first) + " writes");
-      }
-    }
+    check_files(o);
     // ODE's own collider knows no open meshes with two sides.
     if (o.has_sheets() && (o.compare || o.collider == Collider::kOde)) {
       throw CLI::ValidationError("--scene", "sheets need the batch collider alone");

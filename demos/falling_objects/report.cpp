@@ -145,9 +145,14 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
     return (s.status & dBatchStatusRedone) != 0;
   });
   out << std::setprecision(4) << "\n  deepest contact       " << largest(contact_depths) << " m\n"
-      << "  deepest penetration   " << largest(depths) << " m, at the end "
-      << (depths.empty() ? 0 : depths.back()) << " m (measured on the meshes)\n"
-      << "  mean speed at the end " << (steps.empty() ? 0 : steps.back().mean_speed) << " m/s\n"
+      << "  deepest penetration   ";
+  if (depths.empty()) {
+    out << "not measured" << (summary.measures_all ? "\n" : ": open meshes have no inside\n");
+  } else {
+    out << largest(depths) << " m, at the end " << depths.back() << " m (measured on the "
+        << (summary.measures_all ? "meshes)\n" : "closed meshes alone)\n");
+  }
+  out << "  mean speed at the end " << (steps.empty() ? 0 : steps.back().mean_speed) << " m/s\n"
       << "  objects lost          " << summary.lost_objects << '\n';
   if (options.has_sheets()) print_draping(out, options, steps, summary.draping);
   if (batch) out << "  steps redone          " << redone << " (for larger buffers; nothing lost)\n";

@@ -126,7 +126,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
       const PenetrationMeter::Result measured = meter.measure();
       checks.after_measurement(step, measured.too_deep);
       if (meter.measures_all()) expectations.after_measurement(measured.deepest);
-      record.deepest_penetration = measured.deepest;
+      if (meter.measures_any()) record.deepest_penetration = measured.deepest;
     }
     if (finite && sheets != nullptr &&
         ((step + 1) % drape_every == 0 || step + 1 == options.steps)) {
@@ -146,6 +146,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
   if (options.check_rest) checks.judge_rest();
 
   summary.lost_objects = checks.lost_objects();
+  summary.measures_all = meter.measures_all();
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);

@@ -28,8 +28,11 @@ PenetrationMeter::PenetrationMeter(const Scene& scene) : scene_(scene) {
     shapes_.push_back(oracle_mesh(shape.mesh));
     half_thinnest_.push_back(shapes_.back().thinnest_part() / 2);
   }
-  for (const Object& object : scene.objects())
-    measures_all_ = measures_all_ && shapes_[object.shape].closed();
+  for (const Object& object : scene.objects()) {
+    const bool closed = shapes_[object.shape].closed();
+    measures_all_ = measures_all_ && closed;
+    measures_any_ = measures_any_ || closed;
+  }
 }
 
 std::vector<Pose> PenetrationMeter::poses() const {

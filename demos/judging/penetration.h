@@ -30,6 +30,7 @@ class PenetrationMeter {
   };
   // Open meshes have no inside: measure() leaves them out.
   bool measures_all() const { return measures_all_; }
+  bool measures_any() const { return measures_any_; }
   // At the current poses.
   Result measure() const;
   // The depth [m] of every pair of which one has a vertex inside the other. Slower: measure() need
@@ -48,6 +49,7 @@ class PenetrationMeter {
   std::vector<double> half_thinnest_;  // of the shapes [m]
   std::optional<ode_ext::oracle::Mesh> ground_;
   bool measures_all_ = true;
+  bool measures_any_ = false;
 };
 
 }  // namespace falling_objects

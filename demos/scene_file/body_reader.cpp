@@ -235,6 +235,12 @@ std::vector<std::size_t> BodyReader::bodies_named(const char* key, TomlTable& ta
   }
   if (numbers.empty()) return {body_named(key, table)};
   body_named(key, name + " 1", table);  // fails where that is the name of several
+  if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                  [&](const BodyDescription& body) { return body.name == name; })) {
+    table.fail(key, "one body is named '" + name + "', and others '" + name + " 1' to '" + name +
+                        ' ' + std::to_string(numbers.size()) +
+                        "': give each [[body]] a 'name' of its own");
+  }
   return numbers;
 }
 

@@ -109,6 +109,10 @@ void check_can_move(const Expectation& e, const SceneDescription& scene, const T
       table.fail("body", "'" + scene.bodies[e.bodies[0]].name +
                              "' is fixed: nothing can be expected of what cannot move");
     }
+    if (e.kind == Expectation::Kind::kRatio && !can_move(e.other)) {
+      table.fail("other", "'" + scene.bodies[e.other].name +
+                              "' is fixed: nothing turns in a ratio to what cannot move");
+    }
   } else if (!scene.bodies.empty() &&
              std::none_of(scene.bodies.begin(), scene.bodies.end(),
                           [](const BodyDescription& b) { return b.motion == Motion::kFree; })) {

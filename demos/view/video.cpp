@@ -3,12 +3,14 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <stdexcept>
 #include <vector>
 
@@ -63,6 +65,8 @@ Video::Video(const std::string& path, Size size, double fps) : path_(path) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
+  said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
+  if (said_ >= 0) posix_spawn_file_actions_adddup2(&actions, said_, STDERR_FILENO);
   // In a group of its own: Ctrl-C ends the run, and then the film.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -74,6 +78,7 @@ Video::Video(const std::string& path, Size size, double fps) : path_(path) {
   close(ends[0]);
   if (error != 0) {
     close(ends[1]);
+    if (said_ >= 0) close(said_);
     encoder_ = -1;
     throw std::runtime_error("there is no ffmpeg to make '" + path +
                              "' with: install ffmpeg, or write pictures with --frames");
@@ -86,6 +91,7 @@ Video::Video(const std::string& path, Size size, double fps) : path_(path) {
 Video::~Video() {
   if (pipe_ >= 0) close(pipe_);
   if (encoder_ > 0) waitpid(encoder_, nullptr, 0);
+  if (said_ >= 0) close(said_);
 }
 
 void Video::add(const Image& image) {
@@ -93,19 +99,35 @@ void Video::add(const Image& image) {
   while (written < image.rgb.size()) {
     const ssize_t count = write(pipe_, &image.rgb[written], image.rgb.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) fail();
+    if (count <= 0) {
+      ends_well();
+      fail();
+    }
     written += static_cast<std::size_t>(count);
   }
 }
 
 void Video::finish() {
+  if (!ends_well()) fail();
+}
+
+// Waits for the encoder. Where the end of a film does not fit on the disk ffmpeg 5.1 says so, and
+// exits with 0.
+bool Video::ends_well() {
   close(pipe_);
   pipe_ = -1;
   int status = 0;
   while (waitpid(encoder_, &status, 0) < 0 && errno == EINTR) {
   }
   encoder_ = -1;
-  if (status != 0) fail();
+  bool is_silent = true;
+  std::array<char, 4096> text{};
+  if (said_ >= 0) lseek(said_, 0, SEEK_SET);
+  for (ssize_t count = 0; said_ >= 0 && (count = read(said_, text.data(), text.size())) > 0;) {
+    is_silent = false;
+    std::fwrite(text.data(), 1, static_cast<std::size_t>(count), stderr);
+  }
+  return status == 0 && is_silent;
 }
 
 void Video::fail() {

@@ -23,11 +23,13 @@ class Video {
   void finish();  // waits until the file is there
 
  private:
+  bool ends_well();
   void fail();
 
   std::string path_;
   pid_t encoder_ = -1;
   int pipe_ = -1;
+  int said_ = -1;  // a file in memory: what the encoder says
 };
 
 }  // namespace view

@@ -26,6 +26,10 @@ for picture in overview plate-in-rim beam-on-ridges; do
 done
 
 status=0
+"$program" > /dev/full 2> log || status=$?
+[[ $status -eq 1 ]] || fail "contacts that cannot be written: exit code $status"
+
+status=0
 /usr/bin/python3 -B "$script" --program missing --out pictures > log 2>&1 || status=$?
 [[ $status -eq 1 ]] || fail "a missing program is not noticed"
 grep -q 'there is no missing' log || fail "a missing program is not named"

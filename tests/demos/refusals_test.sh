@@ -33,10 +33,18 @@ refused "cannot read the mesh '$out/damaged.ply'" --objects 4 --mesh "$out/damag
 refused "'nan' is no number from" --hz nan
 refused "'-1' is no whole number from 0" --seed -1
 refused "names the file that --csv writes" --csv "$out/one" --snapshot "$out/one"
+(cd "$out" && refused "names the file that --csv writes" --csv new --snapshot ./new)
+refused "names the file that --csv writes" --csv "$out/one.mp4" --video "$out/one.mp4"
+refused "names the file that --snapshot writes" --snapshot "$out/one.png" --frames "$out/one.png"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' > "$out/a.obj"
+refused "names the file that --mesh reads" --mesh "$out/a.obj" --snapshot "$out/b/../a.obj"
+refused "names the file that --mesh reads" --scene tower --mesh "cube=$out/a.obj" --csv "$out/a.obj"
+[[ $(wc -l < "$out/a.obj") -eq 8 ]] || fail "a mesh is written over"
 refused "there are two for 'cube'" --scene tower --mesh "$out/a.obj" --mesh "$out/a.obj"
 
 scene() { printf '[[body]]\nmesh = "cube"\nat = [0, 0, 1]\n%s\n' "$1" > "$out/scene.toml"; }
+scene ''
+refused "names the file that --scene reads" --scene "$out/scene.toml" --csv "$out/scene.toml"
 scene $'[[body]]\nmesh = "far"\n[mesh.far]\nfile = "far.obj"'
 printf 'v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' \
   > "$out/far.obj"

@@ -225,6 +225,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[body]]\nmesh = \"cube\"\ncount = [2, 1, 1]\n[[body]]\nmesh = \"cube\"\n"
               "count = [2, 1, 1]\n[[expect]]\nkind = \"still\"\nbody = \"cube\"\nspeed = 1\n",
               "9: ", "2 bodies are named 'cube 1': give each [[body]] a 'name' of its own"},
+        Wrong{"[[body]]\nmesh = \"cube\"\ncount = [2, 1, 1]\n[[body]]\nmesh = \"cube\"\n"
+              "[[expect]]\nkind = \"still\"\nbody = \"cube\"\nspeed = 1\n",
+              "8: ", "one body is named 'cube', and others 'cube 1' to 'cube 2'"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"luck\"\n", "4: ",
               "'kind' is 'luck', expected one of ratio, screw, still, stays, moves, above, apart"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"stays\"\ndistance = 1\n"
@@ -236,6 +239,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[body]]\nmesh = \"cube\"\n[[body]]\nname = \"wall\"\nmesh = \"cube\"\n"
               "motion = \"fixed\"\n[[expect]]\nkind = \"stays\"\nbody = \"wall\"\ndistance = 1\n",
               "9: ", "'wall' is fixed: nothing can be expected of what cannot move"},
+        Wrong{"[[body]]\nmesh = \"cube\"\n[[body]]\nname = \"wall\"\nmesh = \"cube\"\n"
+              "motion = \"fixed\"\n[[expect]]\nkind = \"ratio\"\nbody = \"cube\"\n"
+              "other = \"wall\"\nratio = 2\n",
+              "10: ", "'wall' is fixed: nothing turns in a ratio to what cannot move"},
         Wrong{"[[body]]\nmesh = \"cube\"\n[[expect]]\nkind = \"screw\"\nbody = \"cube\"\n"
               "pitch = 0\n",
               "6: ", "'pitch' must not be 0"},

@@ -19,9 +19,10 @@ std::string length_text(double meters) {
   return text_of(meters >= 0.01 ? "%.0f mm" : "%.1f mm", 1000 * meters);
 }
 
-std::vector<std::string> caption(const Options& options, const StepRecord& record, double deepest) {
+std::vector<std::string> caption(const Options& options, const StepRecord& record,
+                                 std::optional<double> deepest) {
   return {options.collider == Collider::kBatch ? "ode_ext" : "ODE's own collider",
-          "deepest penetration  " + length_text(deepest),
+          "deepest penetration  " + (deepest ? length_text(*deepest) : "not measured"),
           "mean speed  " + text_of("%.2f m/s", record.mean_speed),
           "colliding  " + text_of("%.1f ms", record.collide_ms) + ", " +
               std::to_string(record.contacts) + " contacts"};

@@ -70,7 +70,7 @@ void draw_counts(const World& world, const WorldView& view) {
   line("contacts", record.contacts);
   ImGui::TextUnformatted("penetration");
   ImGui::SameLine(150);
-  ImGui::TextUnformatted(length_text(view.deepest()).c_str());
+  ImGui::TextUnformatted(view.deepest() ? length_text(*view.deepest()).c_str() : "not measured");
   ImGui::TextUnformatted("mean speed");
   ImGui::SameLine(150);
   ImGui::Text("%.2f m/s", record.mean_speed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "falling_objects/show/space_view.h"
 #include "falling_objects/world.h"
 
@@ -14,7 +16,7 @@ class WorldView {
 
   void note(const StepRecord& record);
   const StepRecord& record() const { return record_; }
-  double deepest() const { return deepest_; }  // [m]
+  std::optional<double> deepest() const { return deepest_; }  // [m], if it was measured yet
 
   view::Frame frame(const PictureOptions& options);
   void light_from(const view::Camera& camera) { view_.light_from(camera); }
@@ -23,7 +25,7 @@ class WorldView {
   const World& world_;
   SpaceView view_;
   StepRecord record_;
-  double deepest_ = 0;
+  std::optional<double> deepest_;
 };
 
 // As the options say, else as the scene does, or from so much farther that all that moves is seen
