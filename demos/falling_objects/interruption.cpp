@@ -12,10 +12,10 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t noted = 0;
 
-// The next one of any ends the program.
+// The next one ends the program; but that a terminal is closed the shell and the kernel both say.
 void note(int signal) {
   noted = signal;
-  for (const int any : kSignals) std::signal(any, SIG_DFL);
+  for (const int any : kSignals) std::signal(any, any == SIGHUP ? SIG_IGN : SIG_DFL);
 }
 
 }  // namespace

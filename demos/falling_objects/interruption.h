@@ -9,7 +9,7 @@
 namespace falling_objects {
 
 // As long as one lives, SIGINT, SIGTERM and SIGHUP are noted. A second one ends the program at
-// once.
+// once, but SIGHUP.
 class Interruption {
  public:
   Interruption();

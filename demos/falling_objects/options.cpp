@@ -59,10 +59,14 @@ Ctrl-C ends a run after the step that it is in, and what there is of it is writt
 Exit codes: 0 done, 1 a check failed or an output could not be written, 2 wrong usage or unreadable
 file, 3 no device, 128 and its number: ended by a signal.)";
 
-// The same of all names of a file, whether or not it is there.
-std::filesystem::path whole_path(const std::string& path) {
+// There or not.
+bool are_one_file(const std::string& a, const std::string& b) {
   std::error_code none;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+  if (std::filesystem::equivalent(a, b, none)) return true;
+  const auto whole = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+  };
+  return whole(a) == whole(b);
 }
 
 // Throws where one output would be written over another, or over what is read.
@@ -84,7 +88,7 @@ void check_files(const Options& o) {
                                                         {"--video", o.pictures.video}}) {
     if (path.empty()) continue;
     for (const File& file : files) {
-      if (whole_path(file.path) == whole_path(path)) {
+      if (are_one_file(file.path, path)) {
         throw CLI::ValidationError(
             option, "names the file that " + file.option + (file.is_read ? " reads" : " writes"));
       }

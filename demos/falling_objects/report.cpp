@@ -147,7 +147,7 @@ void print_report(std::ostream& out, const Options& options, const std::vector<S
   out << std::setprecision(4) << "\n  deepest contact       " << largest(contact_depths) << " m\n"
       << "  deepest penetration   ";
   if (depths.empty()) {
-    out << "not measured" << (summary.measures_all ? "\n" : ": open meshes have no inside\n");
+    out << "not measured" << (summary.measures_any ? "\n" : ": open meshes have no inside\n");
   } else {
     out << largest(depths) << " m, at the end " << depths.back() << " m (measured on the "
         << (summary.measures_all ? "meshes)\n" : "closed meshes alone)\n");

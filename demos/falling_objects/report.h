@@ -36,7 +36,8 @@ const char* stage_name(std::size_t stage);
 struct Summary {
   std::string device;  // empty: no batch collider
   std::size_t lost_objects = 0;
-  bool measures_all = true;  // that is: no body is open, and left out of what is measured
+  // What is open has no inside, and is left out of what is measured.
+  bool measures_all = true, measures_any = true;
   Draping draping;           // at the end
   std::uint64_t hash = 0;
 };

@@ -147,6 +147,7 @@ int run_scene(const Options& options, const MakeSpectator& watch) {
 
   summary.lost_objects = checks.lost_objects();
   summary.measures_all = meter.measures_all();
+  summary.measures_any = meter.measures_any();
   summary.hash = simulation.hash();
   if (collision.has_batch()) summary.device = collision.device();
   print_report(std::cout, options, records, summary);

@@ -25,7 +25,7 @@ std::vector<std::string> command(const std::string& path, Size size, double fps)
   std::vector<std::string> words{"ffmpeg",
                                  "-hide_banner",
                                  "-loglevel",
-                                 "error",
+                                 "level+error",
                                  "-y",
                                  "-f",
                                  "rawvideo",
@@ -111,8 +111,8 @@ void Video::finish() {
   if (!ends_well()) fail();
 }
 
-// Waits for the encoder. Where the end of a film does not fit on the disk ffmpeg 5.1 says so, and
-// exits with 0.
+// Waits for the encoder. Where the end of a film does not fit on the disk ffmpeg 5.1 reports an
+// error, and exits with 0. What else is on its stderr may be of the dynamic linker.
 bool Video::ends_well() {
   close(pipe_);
   pipe_ = -1;
@@ -120,14 +120,14 @@ bool Video::ends_well() {
   while (waitpid(encoder_, &status, 0) < 0 && errno == EINTR) {
   }
   encoder_ = -1;
-  bool is_silent = true;
-  std::array<char, 4096> text{};
+  std::string said;
+  std::array<char, 4096> part{};
   if (said_ >= 0) lseek(said_, 0, SEEK_SET);
-  for (ssize_t count = 0; said_ >= 0 && (count = read(said_, text.data(), text.size())) > 0;) {
-    is_silent = false;
-    std::fwrite(text.data(), 1, static_cast<std::size_t>(count), stderr);
-  }
-  return status == 0 && is_silent;
+  for (ssize_t count = 0; said_ >= 0 && (count = read(said_, part.data(), part.size())) > 0;)
+    said.append(part.data(), static_cast<std::size_t>(count));
+  std::fwrite(said.data(), 1, said.size(), stderr);
+  const auto has = [&](const char* level) { return said.find(level) != std::string::npos; };
+  return status == 0 && !has("[error]") && !has("[fatal]") && !has("[panic]");
 }
 
 void Video::fail() {

@@ -50,9 +50,9 @@ static uint ox_find_vertex_end(const ox_region_view* r, __global const ox_featur
 
 // Moves past the plane that is chosen for a unit, which clears others of those that wait. A chord
 // comes out by its middle: the vertex in which it ends may be deeper, and in the other flank of a
-// groove still, and waits then. Where a move before has cleared that, it has one more contact, as
-// deep as the chord goes. *more: candidates so far beyond one for each feature, for which there is
-// room (OX_CANDIDATES_PER_FEATURE).
+// groove still, and waits then, if there is another move. Where it waits no more and is below the
+// plane, it has one more contact there. *more: candidates so far beyond one for each feature, for
+// which there is room (OX_CANDIDATES_PER_FEATURE).
 static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint seed, uint waiting,
                          ox_moves* moves, uint* more) {
   const ox_region_view* r = m->region;
@@ -64,14 +64,16 @@ static void ox_move_past(ox_manifold* m, const ox_plane_choice* choice, uint see
   else if (ox_is_first_item() && ox_add_cleared(m, choice, of_seed) == 0u)  // all on the rim
     ox_add_feature_contact(m, choice, of_seed);
   uint end = ox_find_vertex_end(r, of_seed);
+  const uint side = ox_side_of(of_seed->flags);
   if (end != OX_NONE && (ox_flags_of(r, end) & OX_MEMBER_CLEARED) != 0u) {
-    if (choice->plane.kind != OX_PLANE_EDGES && *more < r->count) {
+    if (choice->plane.kind != OX_PLANE_EDGES && *more < r->count &&
+        ox_plane_depth(&choice->plane, side, ox_position_of(r, end)) > 0.0f) {
       ++*more;
       if (ox_is_first_item()) ox_add_feature_contact(m, choice, ox_feature_of(r, end));
     }
   } else if (end != OX_NONE &&
-             !ox_stays_inside(r, ox_side_of(of_seed->flags), ox_position_of(r, end), &choice->plane,
-                              choice->depth)) {
+             (moves->count == OX_MOST_PLANES ||
+              !ox_stays_inside(r, side, ox_position_of(r, end), &choice->plane, choice->depth))) {
     end = OX_NONE;
   }
   ox_settle();
@@ -98,8 +100,8 @@ static void ox_mark_later(const ox_region_view* r, uint units) {
   for (uint k = OX_ITEM; k < units; k += OX_ITEMS) {
     const bool is_later = ox_is_nested(r, k) || ox_is_of_bend(r, k);
     const bool is_last = ox_is_of_valley(r, k) || ox_is_between_valleys(r, k);
-    const uint mark = is_later ? OX_MEMBER_LATER : is_last ? OX_MEMBER_VALLEY : 0u;
-    ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |= mark;
+    ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |=
+        (is_later ? OX_MEMBER_LATER : 0u) | (is_last ? OX_MEMBER_VALLEY : 0u);
   }
   ox_settle();
 }
@@ -122,7 +124,7 @@ static void ox_go_on_to_deepest(const ox_region_view* r, uint waiting, const ox_
   for (uint i = 0u; i < before->count; ++i)
     again = again || ox_is_same_plane(before->chosen + i, &choice->plane);
   if (!again) return;
-  const uint deepest = ox_deepest_below_plane(r, waiting, &choice->plane);
+  const uint deepest = ox_deepest_below_plane(r, waiting, &choice->plane, OX_MEMBER_VALLEY);
   if (deepest == OX_NONE || deepest == *unit) return;
   ox_joint_choice all;
   const ox_plane_choice other = ox_choose_for(r, deepest, before, &all);

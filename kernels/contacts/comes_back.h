@@ -89,9 +89,11 @@ static inline bool ox_stretch_is_inside(const ox_region_view* r, uint side, floa
                                         float3 direction, float length, float3 away) {
   const ox_nearest nearest = ox_cast_into(r, side, from, direction);
   if (ox_min(nearest.front_t, nearest.back_t) <= length) return true;
-  // A ray out of a solid leaves it; where it meets a front first, that may be within another part.
-  if ((ox_target_of(r, side)->flags & OX_MESH_CLOSED) != 0u && !(nearest.front_t < nearest.back_t))
-    return nearest.back_t < nearest.front_t;
+  // A ray out of a solid leaves it; where it does not meet a back first, it may be in another part.
+  if ((ox_target_of(r, side)->flags & OX_MESH_CLOSED) != 0u) {
+    if (nearest.back_t < nearest.front_t) return true;
+    if (nearest.front_t == INFINITY) return false;
+  }
   return ox_is_still_inside(r, side, from, away);
 }
 
@@ -116,6 +118,7 @@ static inline bool ox_chord_stays(const ox_region_view* r, uint side, uint k, co
       first = ox_own_until(r->scene, f, 0.0f);
     else
       last = ox_own_until(r->scene, f, length);
+    // Behind what is open it is not known how far.
     if (f->partner == OX_NONE || ox_is_vertex(r->scene->features[f->partner].flags)) break;
     f = r->scene->features + f->partner;
   }

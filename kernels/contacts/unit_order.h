@@ -92,8 +92,8 @@ static inline uint ox_find_greatest(const ox_region_view* r, uint waiting,
 
 // The waiting unit that is deepest below a plane.
 static inline uint ox_deepest_below_plane(const ox_region_view* r, uint waiting,
-                                          const ox_plane* plane) {
-  const ox_unit_measure depth = {plane, 0, 0.0f, 0u};
+                                          const ox_plane* plane, uint skipped) {
+  const ox_unit_measure depth = {plane, 0, 0.0f, skipped};
   return ox_find_greatest(r, waiting, &depth);
 }
 
@@ -101,13 +101,13 @@ static inline uint ox_deepest_below_plane(const ox_region_view* r, uint waiting,
 // nearest face makes it no deeper, but for the tie, so only those need it that are the deepest
 // without.
 static inline uint ox_deepest_unit(const ox_region_view* r, uint waiting) {
-  const ox_unit_measure of_others = {0, 0, 0.0f, OX_MEMBER_VALLEY};
   for (;;) {
-    uint k = ox_deepest_below_plane(r, waiting, 0);
+    uint k = ox_deepest_below_plane(r, waiting, 0, 0u);
     const uint flags = ox_flags_of(r, k);
     if ((flags & OX_MEMBER_NEAREST) != 0u && (flags & OX_MEMBER_VALLEY) != 0u) {
-      const uint other = ox_find_greatest(r, waiting, &of_others);
-      if (other != OX_NONE) k = other;
+      const uint other = ox_deepest_below_plane(r, waiting, 0, OX_MEMBER_VALLEY);
+      const bool is_asked = other != OX_NONE && (ox_flags_of(r, other) & OX_MEMBER_NEAREST) != 0u;
+      if (other != OX_NONE && !(is_asked && ox_is_outside(r, other))) k = other;
     }
     if ((ox_flags_of(r, k) & OX_MEMBER_NEAREST) != 0u) return k;
     ox_propose_nearest(r, k);
@@ -123,7 +123,9 @@ static inline uint ox_next_unit(const ox_region_view* r, uint waiting, const ox_
   const uint deepest = ox_deepest_unit(r, waiting);
   if (moves->count < OX_MOST_PLANES / 2u) return deepest;
   const float depth = ox_floats_of(&r->members, OX_MEMBER_LEAST)[deepest];
-  const ox_unit_measure distance = {0, moves, ox_min(depth, depth / OX_WORTH), 0u};
+  const ox_unit_measure distance = {
+      0, moves, ox_min(depth, depth / OX_WORTH),
+      (ox_flags_of(r, deepest) & OX_MEMBER_VALLEY) != 0u ? 0u : OX_MEMBER_VALLEY};
   const uint next = ox_find_greatest(r, waiting, &distance);
   if ((ox_flags_of(r, next) & OX_MEMBER_NEAREST) == 0u) ox_propose_nearest(r, next);
   return next;

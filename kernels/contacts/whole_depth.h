@@ -122,7 +122,7 @@ static inline uint ox_direction_of(float3 n) {
 typedef struct {
   ox_kept_blocks kept[OX_DIRECTIONS];
   ox_refused refused;
-  float least;  // [m] what the best of all directions costs so far
+  float least;  // [m] what the best costs of those that walks may begin with, so far
 } ox_search;
 
 // Tries a plane for a whole region; returns whether part of the region is past it, so that it is
@@ -152,7 +152,6 @@ static inline bool ox_try_whole(const ox_region_view* r, const ox_plane* plane, 
   if (plane->kind == OX_PLANE_EDGES)
     choice.depth = ox_max(choice.depth, beyond.depth - ox_body_tie(r));
   if (ox_is_better_choice(&choice, best)) *best = choice;
-  search->least = ox_min(search->least, choice.judged);
   return false;
 }
 

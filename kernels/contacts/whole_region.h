@@ -183,8 +183,10 @@ static inline ox_plane_choice ox_search_whole(const ox_region_view* r, ox_search
   search->least = INFINITY;
   for (uint i = 0u; i < r->plane_count; ++i) {
     const ox_plane plane = ox_load_plane(&r->planes, i);
-    if (ox_try_whole(r, &plane, search, best + ox_direction_of(plane.normal)))
+    ox_plane_choice* of_direction = best + ox_direction_of(plane.normal);
+    if (ox_try_whole(r, &plane, search, of_direction))
       ox_words_of(&r->planes, OX_PLANE_FLAGS)[i] |= OX_PLANE_PASSED;  // each of a group the same
+    search->least = ox_min(search->least, of_direction->judged);
   }
   ox_plane_choice least = ox_no_choice();
   for (uint i = 0u; i < OX_DIRECTIONS; ++i)

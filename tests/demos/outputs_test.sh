@@ -43,14 +43,16 @@ has "$out/errors" "the report could not be written"
 # As Ctrl-C, which a script's background jobs ignore; and as where a terminal is closed.
 for signal in TERM HUP; do
   rm -f "$out"/run.*
-  "$program" --collider ode --objects 2 --steps 100000000 --quiet --check --csv "$out/run.csv" \
-    --record "$recording" > "$out/report" 2> "$out/errors" &
+  env --default-signal=HUP "$program" --collider ode --objects 2 --steps 100000000 --quiet --check \
+    --csv "$out/run.csv" --record "$recording" > "$out/report" 2> "$out/errors" &
   for ((i = 0; i < 300; ++i)); do
     [[ -e $recording ]] && break
     sleep 0.1
   done
   sleep 1
   kill -"$signal" $!
+  # The shell and the kernel both say that a terminal is closed.
+  [[ $signal != HUP ]] || kill -HUP $! 2> /dev/null || true
   code=0
   wait $! || code=$?
   [[ $code -eq $((128 + $(kill -l "$signal"))) ]] || fail "a run that $signal ends: exit code $code"
@@ -85,7 +87,7 @@ if "$program" --collider ode --objects 2 --steps 1 --quiet --frames "$out/pictur
   mkdir "$out/bin"
   touch "$out/bin/ffmpeg"
   chmod +x "$out/bin/ffmpeg"
-  printf '#!/bin/sh\ncat > /dev/null\necho "Error writing trailer" >&2\n' > "$out/bin/ffmpeg"
+  printf '#!/bin/sh\ncat > /dev/null\necho "[error] Error writing trailer" >&2\n' > "$out/bin/ffmpeg"
   PATH=$out/bin:$PATH ran 1 --quiet --check --size 64x64 --video "$out/run.mp4"
   has "$out/errors" "Error writing trailer"
   has "$out/errors" "ffmpeg could not make '$out/run.mp4'"

@@ -3,7 +3,7 @@
 # What falling_objects cannot do it says before it begins, in a sentence and with exit code 2.
 set -euo pipefail
 
-program=${1:?usage: tests/demos/refusals_test.sh <falling_objects>}
+program=$(realpath "${1:?usage: tests/demos/refusals_test.sh <falling_objects>}")
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 unset DISPLAY WAYLAND_DISPLAY
@@ -34,6 +34,9 @@ refused "'nan' is no number from" --hz nan
 refused "'-1' is no whole number from 0" --seed -1
 refused "names the file that --csv writes" --csv "$out/one" --snapshot "$out/one"
 (cd "$out" && refused "names the file that --csv writes" --csv new --snapshot ./new)
+touch "$out/link"
+ln "$out/link" "$out/other"
+refused "names the file that --csv writes" --csv "$out/link" --snapshot "$out/other"
 refused "names the file that --csv writes" --csv "$out/one.mp4" --video "$out/one.mp4"
 refused "names the file that --snapshot writes" --snapshot "$out/one.png" --frames "$out/one.png"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' > "$out/a.obj"
