@@ -38,7 +38,7 @@ struct Summary {
   std::size_t lost_objects = 0;
   // What is open has no inside, and is left out of what is measured.
   bool measures_all = true, measures_any = true;
-  Draping draping;           // at the end
+  Draping draping;  // at the end
   std::uint64_t hash = 0;
 };
 
