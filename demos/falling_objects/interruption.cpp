@@ -12,7 +12,7 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t noted = 0;
 
-// The next one ends the program; but that a terminal is closed the shell and the kernel both say.
+// That a terminal is closed both the shell and the kernel say.
 void note(int signal) {
   noted = signal;
   for (const int any : kSignals) std::signal(any, any == SIGHUP ? SIG_IGN : SIG_DFL);

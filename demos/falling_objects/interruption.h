@@ -8,8 +8,8 @@
 
 namespace falling_objects {
 
-// As long as one lives, SIGINT, SIGTERM and SIGHUP are noted. A second one ends the program at
-// once, but SIGHUP.
+// As long as one lives, SIGINT, SIGTERM and SIGHUP are noted. After any of them SIGINT and SIGTERM
+// end the program at once, and SIGHUP is ignored.
 class Interruption {
  public:
   Interruption();

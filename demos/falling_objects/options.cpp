@@ -15,6 +15,7 @@
 #include "falling_objects/output_file.h"
 #include "scene_file/scene_file.h"
 #include "scene_file/scene_list.h"
+#include "scene_file/user_meshes.h"
 
 namespace falling_objects {
 namespace {
@@ -75,11 +76,10 @@ void check_files(const Options& o) {
     std::string option, path;
     bool is_read;
   };
-  std::vector<File> files{{"--scene", find_scene_file(o.scene), true}};
-  for (const std::string& mesh : o.meshes) {
-    files.push_back({"--mesh", mesh, true});
-    files.push_back({"--mesh", mesh.substr(mesh.find('=') + 1), true});  // NAME=FILE
-  }
+  std::vector<File> files;
+  for (const std::string& file : o.description.files) files.push_back({"--scene", file, true});
+  for (const std::string& mesh : o.meshes)
+    files.push_back({"--mesh", mesh_option(mesh).path, true});
   for (const auto& [option, path] :
        std::vector<std::pair<const char*, std::string>>{{"--csv", o.csv},
                                                         {"--snapshot", o.snapshot},

@@ -117,6 +117,7 @@ void BodyReader::read_mesh(const std::string& name, TomlTable& table) {
     const double scale = table.number("scale", 1, kPositive);
     TriangleMesh mesh;
     try {
+      scene_.files.push_back(path.string());
       mesh = read_mesh_file(path.string());
       center_on_mass(mesh);
       scale_mesh(mesh, radius ? *radius / bounding_radius(mesh) : scale);

@@ -92,6 +92,7 @@ struct Expectation {
 
 struct SceneDescription {
   std::string title;
+  std::vector<std::string> files;  // that were read for it
   int steps = 600;
   double hz = 60;
   WorldSettings world;

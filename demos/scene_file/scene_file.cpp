@@ -211,6 +211,7 @@ SceneDescription read_scene(const std::string& text, const std::string& path) {
                          std::string(e.description()));
   }
   SceneDescription scene;
+  scene.files.push_back(path);
   TomlTable file(parsed, path, "a scene");
   BodyReader bodies(scene, fs::path(path).parent_path().string());
   scene.title = file.text("title", "");

@@ -27,6 +27,12 @@ std::size_t number_of(const SceneDescription& scene, const std::string& name) {
 
 }  // namespace
 
+MeshOption mesh_option(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || std::filesystem::exists(text)) return {"", text};
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
 void use_meshes(SceneDescription& scene, const std::vector<std::string>& meshes) {
   if (meshes.empty()) return;
   if (scene.drop) {
@@ -36,14 +42,13 @@ void use_meshes(SceneDescription& scene, const std::vector<std::string>& meshes)
   }
   std::set<std::size_t> taken;
   for (const std::string& text : meshes) {
-    const auto equals = text.find('=');
-    const bool named = equals != std::string::npos && !std::filesystem::exists(text);
-    const std::size_t number = number_of(scene, named ? text.substr(0, equals) : "");
+    const MeshOption option = mesh_option(text);
+    const std::size_t number = number_of(scene, option.name);
     NamedMesh& mesh = scene.meshes[number];
     if (!taken.insert(number).second)
       throw std::runtime_error("--mesh: there are two for '" + mesh.name + "'");
     const double radius = bounding_radius(mesh.mesh);
-    mesh.mesh = load_mesh(named ? text.substr(equals + 1) : text);
+    mesh.mesh = load_mesh(option.path);
     scale_mesh(mesh.mesh, radius / kShapeRadius);
   }
 }

@@ -98,8 +98,9 @@ static bool ox_is_nested(const ox_region_view* r, uint k) {
 // is deepest about a bend, or in a valley, is of the other mesh.
 static void ox_mark_later(const ox_region_view* r, uint units) {
   for (uint k = OX_ITEM; k < units; k += OX_ITEMS) {
-    const bool is_later = ox_is_nested(r, k) || ox_is_of_bend(r, k);
-    const bool is_last = ox_is_of_valley(r, k) || ox_is_between_valleys(r, k);
+    const bool is_chord_of_valley = ox_is_of_valley(r, k);
+    const bool is_later = ox_is_nested(r, k) || (is_chord_of_valley && ox_is_of_bend(r, k));
+    const bool is_last = is_chord_of_valley || ox_is_between_valleys(r, k);
     ox_words_of(&r->members, OX_MEMBER_FLAGS)[k] |=
         (is_later ? OX_MEMBER_LATER : 0u) | (is_last ? OX_MEMBER_VALLEY : 0u);
   }

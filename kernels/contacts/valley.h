@@ -24,18 +24,19 @@ static inline bool ox_is_between_valleys(const ox_region_view* r, uint k) {
   return true;
 }
 
-// Whether a unit is a chord of an edge at which its mesh bends inwards a little, so that the faces
-// there face one way. It comes out past no face of the other mesh that does not: its own mesh goes
-// on beside it, as a floor does on both sides of where it begins to rise.
+// Whether the mesh of a chord of a valley bends a little there, so that the faces face one way. The
+// chord comes out past no face of the other mesh that does not: its own mesh goes on beside it, as
+// a floor does on both sides of where it begins to rise.
 static inline bool ox_is_of_bend(const ox_region_view* r, uint k) {
-  if (!ox_is_of_valley(r, k)) return false;
   __global const ox_feature* f = ox_feature_of(r, k);
   const uint side = ox_side_of(f->flags);
   return ox_dot(ox_normal_of(r->scene, r->pair, side, f->at[0]),
                 ox_normal_of(r->scene, r->pair, side, f->at[1])) > OX_SAME_WAY;
 }
 
-// Whether the moves before together take a unit out, by less than a depth.
+// Whether the moves before together take a unit out, by less than a depth. The way past all planes
+// is gone one plane after the other, a few times round, as each may take the others back; that is
+// not the shortest one, and there may be more planes than contacts/joint_way.h has room for.
 static inline bool ox_is_taken_out(const ox_region_view* r, uint unit, const ox_moves* before,
                                    float depth) {
   float3 way = (float3)(0.0f);

@@ -80,8 +80,8 @@ if ! "$program" --window --objects 2 --steps 1 2>&1 | grep -q -F "draws nothing"
   has "$out/errors" "no window can be opened"
 fi
 
-# An ffmpeg that ends after four pictures, and one that has no room for the end of the film. (Built without pictures the
-# program says that it draws nothing.)
+# An ffmpeg that has no room for the end of the film, and one that ends after four pictures. (Built
+# without pictures the program says that it draws nothing.)
 if "$program" --collider ode --objects 2 --steps 1 --quiet --frames "$out/picture.png" \
   > "$out/report" 2>&1; then
   mkdir "$out/bin"

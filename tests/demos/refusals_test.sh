@@ -48,6 +48,9 @@ refused "there are two for 'cube'" --scene tower --mesh "$out/a.obj" --mesh "$ou
 scene() { printf '[[body]]\nmesh = "cube"\nat = [0, 0, 1]\n%s\n' "$1" > "$out/scene.toml"; }
 scene ''
 refused "names the file that --scene reads" --scene "$out/scene.toml" --csv "$out/scene.toml"
+cp "$out/a.obj" "$out/near.obj"
+scene $'[[body]]\nmesh = "near"\n[mesh.near]\nfile = "near.obj"'
+refused "names the file that --scene reads" --scene "$out/scene.toml" --csv "$out/near.obj"
 scene $'[[body]]\nmesh = "far"\n[mesh.far]\nfile = "far.obj"'
 printf 'v 0 0 0\nv 1e30 0 0\nv 0 1e30 0\nv 0 0 1e30\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' \
   > "$out/far.obj"
