@@ -15,6 +15,7 @@
 // out   rays, of the sides that are flooded (lib/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
+//       found: on which side of a sheet a rigid body is
 // room  flood_words: a table for each side (lib/flood_table.h)
 // item  1 side of a pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
@@ -23,6 +24,7 @@
 #include "lib/flat.h"
 #include "lib/flooded.h"
 #include "lib/general_position.h"
+#include "lib/sheet_side.h"
 #include "lib/vertex_ray.h"
 #include "lib/way_up.h"
 
@@ -474,6 +476,8 @@ static void ox_flood_sides(const ox_scene* scene) {
     state.crossed = 0u;
     state.is_near_only = ((state.source->flags | state.target->flags) & OX_MESH_CLOSED) == 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
+    if ((i & 1u) == 1u - ox_sheet_of(scene, pair) && ox_is_first_item())
+      scene->found[i >> 1].sheet_side = ox_find_sheet_side(scene, i >> 1, 1u - (i & 1u));
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
     if (state.leaks)
       ox_look_at_all(&state);

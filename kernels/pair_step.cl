@@ -80,6 +80,7 @@ static void ox_begin_found(__global ox_found* found) {
   found->head[1] = OX_NONE;
   found->at_border[0] = 0u;
   found->at_border[1] = 0u;
+  found->sheet_side = OX_SHEET_UNTOLD;
 }
 
 static void ox_relate_pairs(const ox_scene* scene) {

@@ -19,7 +19,8 @@ static void ox_cast_rays(const ox_scene* scene) {
     __global const ox_pair* pair = scene->pairs + (ray.pair_side >> 1);
     __global const ox_mesh* source = scene->meshes + pair->mesh[side];
     __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
-    ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex);
+    ox_vertex_ray vertex_ray = ox_ray_of(pair, side, scene->meshes, scene->vertices + ray.vertex,
+                                         scene->found[ray.pair_side >> 1].sheet_side);
     vertex_ray.known = ray.memory == OX_RAY_INSIDE || ray.memory == OX_RAY_CONTAINED;
     uint work = 0u;
     uint remember;

@@ -275,8 +275,13 @@ typedef struct {
   ox_u32 placed;    // of its members, so far
   ox_u32 candidates;
   ox_u32 at_border[2];  // per side whether one of those crossings is of an edge at its border
+  ox_u32 sheet_side;    // OX_SHEET_...: of a sheet and a rigid body, where the body is
 } ox_found;
-OX_STATIC_ASSERT(sizeof(ox_found) == 32, ox_found_is_32_bytes);
+OX_STATIC_ASSERT(sizeof(ox_found) == 36, ox_found_is_36_bytes);
+
+#define OX_SHEET_UNTOLD 0u  // or the pair is no such
+#define OX_SHEET_FRONT 1u   // in front of the faces of the sheet
+#define OX_SHEET_BACK 2u
 
 // Vertices to be looked at. pair_side = pair << 1 | side; side 0: vertices of A against B, side 1:
 // of B against A. The last two fields are the paper's (abi/paper.h).

@@ -6,10 +6,11 @@
 
 #include "lib/flooded.h"
 #include "lib/intersect.h"
+#include "lib/sheet_side.h"
 
 #define OX_NEW_LEAVES 1u
-#define OX_NEW_FLOODED 2u  // of a side that is flooded: linked from the pair's head on
-#define OX_NEW_OPEN 4u     // of an open mesh
+#define OX_NEW_LINKED 2u  // from the pair's head on: of a side that is flooded, and with a sheet
+#define OX_NEW_OPEN 4u    // of an open mesh
 
 // Crossings of a pair that are yet to be stored.
 typedef struct {
@@ -42,7 +43,7 @@ static inline void ox_store_crossings(ox_new_crossings* fresh) {
     crossing->t = fresh->t[i];
     crossing->blur = fresh->blur[i];
     crossing->leaves = flags & OX_NEW_LEAVES;
-    if ((flags & OX_NEW_FLOODED) == 0u) continue;
+    if ((flags & OX_NEW_LINKED) == 0u) continue;
     if (head[side] == OX_NONE) tail[side] = first + i;
     crossing->before = head[side];
     head[side] = first + i;
@@ -281,9 +282,10 @@ static inline void ox_intersect_side(ox_new_crossings* fresh, uint side, ox_plac
   const uint near_triangles = ox_find_near_triangles(target, &faces->points, blocks);
   if (near_triangles == 0u) return;
   __global const ox_mesh* mesh = scene->meshes + pair->mesh[side];
+  const bool is_linked = ox_is_flooded(scene, mesh, scene->meshes + pair->mesh[1u - side]) ||
+                         ox_sheet_of(scene, pair) != OX_NONE;
   const uint flags =
-      (ox_is_flooded(scene, mesh, scene->meshes + pair->mesh[1u - side]) ? OX_NEW_FLOODED : 0u) |
-      ((mesh->flags & OX_MESH_CLOSED) == 0u ? OX_NEW_OPEN : 0u);
+      (is_linked ? OX_NEW_LINKED : 0u) | ((mesh->flags & OX_MESH_CLOSED) == 0u ? OX_NEW_OPEN : 0u);
   ox_place_triangles(target, blocks, faces);
   const ox_general_triangles* t = &faces->triangles;
   ox_end_heights heights;

@@ -90,6 +90,7 @@ static inline ox_query ox_asking_query(uint k, float3 base, float3 origin, float
   query.t_max = INFINITY;
   query.behind = query.entry = 0.0f;
   query.two_sided = false;
+  query.side = OX_SHEET_UNTOLD;
   query.known = false;
   return query;
 }
@@ -152,13 +153,14 @@ typedef struct {
   float ahead;  // [m] how far before its vertex it starts: as in general position
   float exit;   // [m] where it leaves its own mesh
   float epsilon;
-  bool both_ways;  // the source is a sheet: along -direction too, and the shallower exit counts
-  bool known;      // its vertex is inside
+  bool both_ways;   // the source is a sheet: along -direction too, and the shallower exit counts
+  bool known;       // its vertex is inside
+  uint sheet_side;  // OX_SHEET_...: then a sheet's goes away from the body alone
 } ox_vertex_ray;
 
 static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
                                       __global const ox_mesh* meshes,
-                                      __global const ox_vertex* vertex) {
+                                      __global const ox_vertex* vertex, uint sheet_side) {
   __global const ox_mesh* source = meshes + pair->mesh[side];
   __global const ox_mesh* target = meshes + pair->mesh[1u - side];
   ox_vertex_ray ray;
@@ -170,11 +172,14 @@ static inline ox_vertex_ray ox_ray_of(__global const ox_pair* pair, uint side,
   ray.both_ways = (source->flags & OX_MESH_TWO_SIDED) != 0u;
   ray.exit = vertex->exit;
   ray.known = false;
+  ray.sheet_side = sheet_side;
   const bool closed = (target->flags & OX_MESH_CLOSED) != 0u;
   // A sheet's thickness says nothing about how deep it is in a solid. A sheet that cuts through a
-  // solid source parts the vertex's way through it in two: what is on the shorter part is beyond.
+  // solid source, of which it is not known where that is, parts the vertex's way through it in two:
+  // what is on the shorter part is beyond.
   if (ray.both_ways && closed) ray.exit = INFINITY;
-  if ((target->flags & OX_MESH_TWO_SIDED) != 0u && (source->flags & OX_MESH_CLOSED) != 0u)
+  if ((target->flags & OX_MESH_TWO_SIDED) != 0u && (source->flags & OX_MESH_CLOSED) != 0u &&
+      sheet_side == OX_SHEET_UNTOLD)
     ray.exit = 0.5f * ray.exit;
   ray.exit += ray.ahead;
   return ray;
@@ -207,9 +212,12 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
   query.entry = closed && !ray->known ? ray->ahead : 0.0f;
   query.known = ray->known;
   query.two_sided = (mesh->flags & OX_MESH_TWO_SIDED) != 0u;
+  query.side = ray->sheet_side;
   ox_outcome best = ox_miss();
   *remember = OX_NONE;
-  for (uint way = 0u; way < (ray->both_ways ? 2u : 1u); ++way) {
+  const uint first_way = ray->both_ways && ray->sheet_side == OX_SHEET_BACK ? 1u : 0u;
+  const uint end_way = ray->both_ways && ray->sheet_side != OX_SHEET_FRONT ? 2u : 1u;
+  for (uint way = first_way; way < end_way; ++way) {
     query.direction = way == 0u ? ray->direction : -ray->direction;
     const float3 origin =
         way == 0u ? ray->origin : ray->origin + 2.0f * ray->ahead * ray->direction;
@@ -223,7 +231,7 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
     const ox_outcome outcome = ox_judge(&query, &nearest, inside, ray->exit, surfaces->triangles);
     const uint kind = outcome.kind & OX_HIT_KIND;
     const uint best_kind = best.kind & OX_HIT_KIND;
-    if (way == 0u || kind < best_kind || (kind == best_kind && outcome.t < best.t)) {
+    if (way == first_way || kind < best_kind || (kind == best_kind && outcome.t < best.t)) {
       best = outcome;
       *remember = ox_to_remember(&nearest);
     }

@@ -127,6 +127,10 @@ typedef float ox_native_floats __attribute__((__vector_size__(64)));
 #elif !defined(OX_NO_BUILTINS) && OX_VECTOR_WIDTH == 8 && defined(__AVX__)
 #define OX_HAS_AVX
 typedef float ox_native_floats __attribute__((__vector_size__(32)));
+#if defined(__AVX2__)
+#define OX_HAS_AVX2
+typedef int ox_native_ints __attribute__((__vector_size__(32)));
+#endif
 #endif
 
 static inline uint ox_mask_of(const ox_ints* v) {
@@ -183,6 +187,14 @@ static inline void ox_pick_lanes(const float* from, const ox_ints* lanes, ox_flo
 #if defined(OX_HAS_AVX512)
   const ox_native_floats all = (ox_native_floats)ox_load_own(0, from);
   *picked = __builtin_astype(__builtin_ia32_permvarsf512(all, (ox_native_ints)*lanes), ox_floats);
+#elif defined(OX_HAS_AVX2)  // of each half, by the lowest three bits
+  const ox_native_ints lane = (ox_native_ints)*lanes;
+  const ox_native_floats low =
+      __builtin_ia32_permvarsf256((ox_native_floats)ox_load_own(0, from), lane);
+  const ox_native_floats high =
+      __builtin_ia32_permvarsf256((ox_native_floats)ox_load_own(1, from), lane);
+  const ox_ints is_high = (*lanes & 8) != 0;
+  *picked = is_high ? __builtin_astype(high, ox_floats) : __builtin_astype(low, ox_floats);
 #else
   int lane[OX_VECTOR_WIDTH];
   float there[OX_VECTOR_WIDTH];
@@ -196,6 +208,14 @@ static inline void ox_pick_ints(const int* from, const ox_ints* lanes, ox_ints* 
 #if defined(OX_HAS_AVX512)
   const ox_native_ints all = (ox_native_ints)ox_load_own_ints(0, from);
   *picked = __builtin_astype(__builtin_ia32_permvarsi512(all, (ox_native_ints)*lanes), ox_ints);
+#elif defined(OX_HAS_AVX2)
+  const ox_native_ints lane = (ox_native_ints)*lanes;
+  const ox_native_ints low =
+      __builtin_ia32_permvarsi256((ox_native_ints)ox_load_own_ints(0, from), lane);
+  const ox_native_ints high =
+      __builtin_ia32_permvarsi256((ox_native_ints)ox_load_own_ints(1, from), lane);
+  const ox_ints is_high = (*lanes & 8) != 0;
+  *picked = is_high ? __builtin_astype(high, ox_ints) : __builtin_astype(low, ox_ints);
 #else
   int lane[OX_VECTOR_WIDTH];
   int there[OX_VECTOR_WIDTH];

@@ -17,7 +17,7 @@ static inline bool ox_cast_ray(const ox_scene* scene, uint list, ox_ray* ray, ui
   __global const ox_pair* pair = scene->pairs + (ray->pair_side >> 1);
   __global const ox_mesh* target = scene->meshes + pair->mesh[1u - side];
   const ox_vertex_ray vertex_ray =
-      ox_ray_of(pair, side, scene->meshes, scene->vertices + ray->vertex);
+      ox_ray_of(pair, side, scene->meshes, scene->vertices + ray->vertex, OX_SHEET_UNTOLD);
   // What is up to half an edge behind the vertex it may pass through in the next passes.
   const float behind = ray->memory == OX_NONE ? 0.0f : 0.5f * target->mean_edge;
   uint remember = ray->triangle;
