@@ -15,7 +15,7 @@
 // out   rays, of the sides that are flooded (lib/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
-//       found: on which side of a sheet a rigid body is
+//       found: on which side of a sheet another mesh is
 // room  flood_words: a table for each side (lib/flood_table.h)
 // item  1 side of a pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS

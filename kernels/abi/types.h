@@ -275,7 +275,7 @@ typedef struct {
   ox_u32 placed;    // of its members, so far
   ox_u32 candidates;
   ox_u32 at_border[2];  // per side whether one of those crossings is of an edge at its border
-  ox_u32 sheet_side;    // OX_SHEET_...: of a sheet and a rigid body, where the body is
+  ox_u32 sheet_side;    // OX_SHEET_...: of a sheet and another mesh, where that is
 } ox_found;
 OX_STATIC_ASSERT(sizeof(ox_found) == 36, ox_found_is_36_bytes);
 
@@ -348,7 +348,7 @@ typedef struct {
   ox_f32 t;         // [m] along the edge, from its first vertex
   ox_f32 blur;      // [m] what rounding may have moved it along the edge
   ox_u32 leaves;    // whether the edge leaves the target here: a back face
-  ox_u32 before;    // of flooded sides: the crossing of the side that was found before it; OX_NONE
+  ox_u32 before;    // of flooded sides and pairs with a sheet: that of the side found before it
   ox_u32 of_edge;   // and, in the flood, another of the same edge; OX_NONE: there is none
 } ox_edge_crossing;
 OX_STATIC_ASSERT(sizeof(ox_edge_crossing) == 32, ox_edge_crossing_is_32_bytes);

@@ -51,20 +51,30 @@ static inline uint ox_find_end_behind(const ox_region_view* r, __global const ox
   return r->scene->edges[f->source].vertex[leaves == is_front ? 0 : 1];
 }
 
+// Whether the edge of a crossing has no other.
+static inline bool ox_goes_through_once(const ox_region_view* r, __global const ox_feature* f) {
+  return f->next == OX_NONE &&
+         (f->partner == OX_NONE || ox_is_vertex(r->scene->features[f->partner].flags));
+}
+
 // Whether a ray told of a vertex.
 static inline bool ox_is_told_by_ray(const ox_region_view* r, uint side, uint vertex) {
   return ox_find_feature(r->scene, ox_inside_key(r->pair, side, vertex)) != OX_NONE;
 }
 
-// The first edge at a vertex that goes through the other mesh, and bounds something; OX_NONE: none.
-static inline uint ox_first_through(const ox_region_view* r, uint side, uint vertex) {
+// The first edge at a vertex that goes through the sheet once, and leads to it; OX_NONE: none. Not
+// within a facet: that is no member of a region.
+static inline uint ox_first_through(const ox_region_view* r, uint side, uint vertex,
+                                    uint sheet_side) {
   const ox_scene* scene = r->scene;
   __global const ox_mesh* mesh = ox_mesh_of(scene, scene->pairs + r->pair, side);
   for (uint k = scene->ring_starts[vertex]; k < scene->ring_starts[vertex + 1u]; ++k) {
     const uint edge = scene->rings[k].edge;
-    if (!ox_is_flat_edge(mesh, edge) &&
-        ox_find_feature(scene, ox_edge_key(r->pair, side, edge)) != OX_NONE)
-      return edge;
+    if (ox_is_flat_edge(mesh, edge)) continue;
+    const uint entry = ox_find_feature(scene, ox_edge_key(r->pair, side, edge));
+    if (entry == OX_NONE) continue;
+    __global const ox_feature* f = scene->features + (entry >> 2);
+    if (ox_goes_through_once(r, f) && ox_find_end_behind(r, f, sheet_side) == vertex) return edge;
   }
   return OX_NONE;
 }
@@ -76,7 +86,7 @@ static inline float ox_depth_at_sheet(const ox_region_view* r, const ox_plane* p
   return reversed ? -depth : depth;
 }
 
-// From a vertex over edges to where none leads deeper.
+// From a vertex to where no edge leads deeper that does not go through the sheet.
 static inline uint ox_walk_deeper(const ox_region_view* r, const ox_plane* plane, uint side,
                                   uint vertex, bool reversed) {
   const ox_scene* scene = r->scene;
@@ -87,6 +97,8 @@ static inline uint ox_walk_deeper(const ox_region_view* r, const ox_plane* plane
       const uint other = scene->rings[k].vertex;
       const float there = ox_depth_at_sheet(r, plane, side, other, reversed);
       if (!(there > depth)) continue;
+      const ox_feature_key key = ox_edge_key(r->pair, side, scene->rings[k].edge);
+      if (ox_find_feature(scene, key) != OX_NONE) continue;
       depth = there;
       vertex = other;
     }
@@ -118,24 +130,26 @@ static inline bool ox_add_ends_behind(ox_manifold* m, uint sheet, uint sheet_sid
     if (choice.plane.kind == OX_PLANE_NONE) continue;
     const float depth = ox_depth_at_sheet(r, &choice.plane, side, vertex, reversed);
     // Members come in any order.
-    const bool is_first = vertex < deepest || (vertex == deepest && f->source < by->source);
+    const bool is_first =
+        vertex != deepest
+            ? vertex < deepest
+            : f->source < by->source || (f->source == by->source && f->triangle < by->triangle);
     if (depth > most || (depth == most && is_first)) {
       deepest = vertex;
       by = f;
       most = depth;
     }
-    if (!is_open || ox_is_told_by_ray(r, side, vertex) ||
-        ox_first_through(r, side, vertex) != f->source)
-      continue;
+    if (!is_open || ox_is_told_by_ray(r, side, vertex)) continue;
+    const uint first = ox_first_through(r, side, vertex, sheet_side);
+    if (first != OX_NONE && first != f->source) continue;
     ox_add_behind_sheet(m, &choice, side, vertex, reversed, f);
     any = true;
   }
   if (deepest == OX_NONE) return any;
   choice.plane = ox_plane_of_face(scene, r->pair, sheet, by->triangle);
   const uint vertex = ox_walk_deeper(r, &choice.plane, side, deepest, reversed);
-  if (ox_is_told_by_ray(r, side, vertex) ||
-      (is_open && ox_first_through(r, side, vertex) != OX_NONE))
-    return any;
+  const bool is_end = vertex == deepest || ox_first_through(r, side, vertex, sheet_side) != OX_NONE;
+  if (ox_is_told_by_ray(r, side, vertex) || (is_open && is_end)) return any;
   ox_add_behind_sheet(m, &choice, side, vertex, reversed, by);
   return true;
 }
@@ -161,7 +175,9 @@ static inline void ox_choose_sheet(ox_manifold* m) {
     if (f->triangle == OX_NONE) continue;
     const uint side = ox_side_of(f->flags);
     // An open body whose border is in the sheet ends there; the sheet goes on beside it.
-    if (is_told && side == sheet && scene->found[r->pair].at_border[1u - side] != 0u) continue;
+    if (is_told && side == sheet && (r->flags & OX_REGION_OF(1u - sheet)) != 0u &&
+        scene->found[r->pair].at_border[1u - sheet] != 0u)
+      continue;
     ox_plane_choice choice = ox_no_choice();
     choice.plane = ox_plane_of_face(r->scene, r->pair, 1u - side, f->triangle);
     if (choice.plane.kind == OX_PLANE_NONE) continue;

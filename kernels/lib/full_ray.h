@@ -90,7 +90,7 @@ static inline ox_query ox_asking_query(uint k, float3 base, float3 origin, float
   query.t_max = INFINITY;
   query.behind = query.entry = 0.0f;
   query.two_sided = false;
-  query.side = OX_SHEET_UNTOLD;
+  query.sheet_side = OX_SHEET_UNTOLD;
   query.known = false;
   return query;
 }
@@ -212,7 +212,7 @@ static inline ox_outcome ox_cast_in_full(bool basic, const ox_vertex_ray* ray,
   query.entry = closed && !ray->known ? ray->ahead : 0.0f;
   query.known = ray->known;
   query.two_sided = (mesh->flags & OX_MESH_TWO_SIDED) != 0u;
-  query.side = ray->sheet_side;
+  query.sheet_side = ray->sheet_side;
   ox_outcome best = ox_miss();
   *remember = OX_NONE;
   const uint first_way = ray->both_ways && ray->sheet_side == OX_SHEET_BACK ? 1u : 0u;

@@ -14,13 +14,13 @@
 typedef struct {
   ox_cast cast;
   float3 direction;
-  float epsilon;   // [m] |t| up to which the vertex lies on a face
-  float t_max;     // [m] nothing beyond exists
-  float behind;    // [m] how far back the line is looked at, for temporal data
-  float entry;     // [m] how far on the vertex is that lies on a face where the ray enters
-  bool two_sided;  // the target is a sheet: every face is met from behind
-  uint side;       // OX_SHEET_...: but if it is known where the source is, those that face it alone
-  bool known;      // it is inside, whatever is met first: it leaves by the first back face
+  float epsilon;    // [m] |t| up to which the vertex lies on a face
+  float t_max;      // [m] nothing beyond exists
+  float behind;     // [m] how far back the line is looked at, for temporal data
+  float entry;      // [m] how far on the vertex is that lies on a face where the ray enters
+  bool two_sided;   // the target is a sheet: every face is met from behind
+  uint sheet_side;  // OX_SHEET_...: but where it is known where the source is, from there alone
+  bool known;       // it is inside, whatever is met first: it leaves by the first back face
 } ox_query;
 
 // A distance is finite exactly where there is a triangle: ox_consider_met sets both, of finite ones
@@ -72,7 +72,7 @@ static inline bool ox_is_nearer(uint k, float t, uint nearest, float nearest_t) 
 static inline void ox_consider_met(const ox_query* query, __global const ox_triangle* triangles,
                                    uint k, float t, bool back, ox_nearest* nearest) {
   if (query->two_sided)
-    back = query->side == OX_SHEET_UNTOLD || back == (query->side == OX_SHEET_FRONT);
+    back = query->sheet_side == OX_SHEET_UNTOLD || back == (query->sheet_side == OX_SHEET_FRONT);
   const float epsilon = query->epsilon;
   if (t < -epsilon) {
     if (back && t > nearest->behind_t) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// On which side of a sheet a rigid body is. Device only.
+// On which side of a sheet a smaller mesh is. Device only.
 //
-// A sheet has no front. Where all of it that a body crosses faces about one way, the body is on the
-// side on which it reaches farther, and what of it is on the other has gone through. Else, as in a
-// bag or between two layers, each way through the body tells by itself.
+// A sheet has no front. Where the normals of its faces that the other mesh crosses are about the
+// same on the mean, and the middle of that mesh is farther along them than all crossings, or less
+// far than all, it is on that side, and what of it is on the other has gone through. Else each way
+// through it tells by itself, as in a bag, between two layers, or where a sheet hangs into a bowl.
+// Of a mesh that is larger, as a ground, the middle may be far from the sheet and tells nothing;
+// nor does it where the sheet ends in the other mesh.
 #ifndef ODE_EXT_KERNELS_LIB_SHEET_SIDE_H
 #define ODE_EXT_KERNELS_LIB_SHEET_SIDE_H
 
@@ -11,7 +14,7 @@
 #include "lib/scene.h"
 #include "lib/transform.h"
 
-// The sheet of a pair with a rigid mesh, by its side; OX_NONE: the pair is no such.
+// The sheet of a pair, by its side; OX_NONE: there is none, or both are.
 static inline uint ox_sheet_of(const ox_scene* scene, __global const ox_pair* pair) {
   const bool is_sheet[2] = {(scene->meshes[pair->mesh[0]].flags & OX_MESH_TWO_SIDED) != 0u,
                             (scene->meshes[pair->mesh[1]].flags & OX_MESH_TWO_SIDED) != 0u};
@@ -38,6 +41,11 @@ static inline float3 ox_place_at_sheet(const ox_scene* scene, __global const ox_
 // OX_SHEET_... Crossings come in any order, so their normals are summed as whole numbers.
 static inline uint ox_find_sheet_side(const ox_scene* scene, uint p, uint sheet) {
   __global const ox_pair* pair = scene->pairs + p;
+  const uint body = 1u - sheet;
+  __global const ox_mesh* mesh = scene->meshes + pair->mesh[body];
+  if (mesh->radius >= scene->meshes[pair->mesh[sheet]].radius ||
+      scene->found[p].at_border[sheet] != 0u)
+    return OX_SHEET_UNTOLD;
   int3 sum = (int3)(0);
   uint count = 0u;
   for (uint side = 0u; side < 2u; ++side)
@@ -57,9 +65,9 @@ static inline uint ox_find_sheet_side(const ox_scene* scene, uint p, uint sheet)
       lowest = ox_min(lowest, height);
       highest = ox_max(highest, height);
     }
-  const uint body = 1u - sheet;
-  const float3 middle = ox_place(pair, body, vload3(0, scene->meshes[pair->mesh[body]].box_centre));
-  return 2.0f * ox_dot(up, middle) >= lowest + highest ? OX_SHEET_FRONT : OX_SHEET_BACK;
+  const float height = ox_dot(up, ox_place(pair, body, vload3(0, mesh->box_centre)));
+  if (height > highest) return OX_SHEET_FRONT;
+  return height < lowest ? OX_SHEET_BACK : OX_SHEET_UNTOLD;
 }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid bodies on a sheet, which has no front: on which side they are is known by the side on which
-// more of them is.
+// Bodies on a sheet, which has no front: on which side they are is known by where their middle is.
+// And a sheet on a ground, of which it is not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,6 +53,17 @@ struct Shape {
   TestMesh mesh;
 };
 
+// Contacts point into the body.
+std::vector<Contact> contacts_of(const TestMesh& body, const TestPose& at, const TestMesh& sheet,
+                                 const TestPose& sheet_at) {
+  Scene scene;
+  scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(body))),
+                  deformable(soup_of(sheet), 0.02f)};
+  scene.objects = {{collider_pose(at), 0, 1}, {collider_pose(sheet_at), 1, 2}};
+  scene.pairs = {{0, 1}};
+  return collider().collide(scene, nullptr).contacts;
+}
+
 struct Dipped {
   double in;  // [m] how far its lowest vertex is below the sheet
   std::vector<Contact> found;
@@ -64,12 +75,14 @@ Dipped dip(Random& random, const TestMesh& body, int i) {
   const double in = std::pow(10, random.uniform(-3, -1.7));
   pose.position = {0.01, 0.02, -lowest_of(body, pose)[2] - in};
   const TestMesh sheet = make_sheet(4, i % 3 == 0 ? 4 : 40);
-  Scene scene;
-  scene.meshes = {std::make_shared<const Mesh>(build_mesh(soup_of(body))),
-                  deformable(soup_of(i % 2 == 0 ? inverted(sheet) : sheet), 0.02f)};
-  scene.objects = {{collider_pose(pose), 0, 1}, {Pose{}, 1, 2}};
-  scene.pairs = {{0, 1}};
-  return {in, collider().collide(scene, nullptr).contacts};
+  const TestPose frame = i % 4 == 0 ? TestPose{} : random.pose(2);
+  Dipped dipped{
+      in, contacts_of(body, composed(frame, pose), i % 2 == 0 ? inverted(sheet) : sheet, frame)};
+  for (Contact& c : dipped.found) {
+    const Point n = rotate_back(frame, point_of(c.normal));
+    c.normal = {n[0], n[1], n[2]};
+  }
+  return dipped;
 }
 
 // Before the side was known, contacts pointed down in 213 of these 1,000 poses, by up to 59 times
@@ -103,6 +116,24 @@ TEST(BodiesOnSheets, OnesWithThinWallsAreHeldUp) {
     if (deepest(dipped.found) < 0.5 * dipped.in) ++shallow;
   }
   EXPECT_LE(shallow, 4);  // by a rim that is in by more than the wall is thick
+}
+
+// A cloth of 1 m, tilted, whose lowest corner is in the top of a block of 24 m by 3 m: along the
+// normal of the cloth the middle of the block may be on either side.
+TEST(BodiesOnSheets, SheetsOnALargeGroundLeaveByItsTop) {
+  Random random(43);
+  const TestMesh ground = make_box({24, 24, 3}, 6, 6, 1);
+  const TestMesh cloth = make_sheet(1, 16);
+  for (int i = 0; i < 200; ++i) {
+    TestPose pose = tilted(random, radians(15), TestPose{});
+    const double in = random.uniform(0.002, 0.02);
+    pose.position = {random.uniform(-10, 10), random.uniform(-10, 10),
+                     1.5 - in - lowest_of(cloth, pose)[2]};
+    const auto found = contacts_of(ground, TestPose{}, i % 2 == 0 ? inverted(cloth) : cloth, pose);
+    ASSERT_FALSE(found.empty()) << i;
+    EXPECT_LE(deepest(found), 1.001 * in) << i;
+    for (const Contact& c : found) EXPECT_LT(c.normal.z, -0.9) << i;
+  }
 }
 
 }  // namespace
