@@ -275,7 +275,7 @@ ODE_EXT_API void dBatchColliderTriMeshDataUpdate(dBatchColliderID collider, dTri
  * Its normals are rounded otherwise than those of a rigid mesh, so contacts may differ in their
  * last bits. An open deformable mesh is a sheet with two sides: it pushes back from either. A
  * smaller mesh is on the side on which its middle is, where what it meets of the sheet faces about
- * one way; else the shorter way out counts (docs/meshes.md).
+ * one way; else each vertex leaves by the nearer side (docs/meshes.md).
  * ODE takes the bounding box of a mesh when it is built, and never again: build a mesh that will
  * move with two vertices at the corners of a box that holds every shape it can take, put them back,
  * and call dGeomTriMeshDataUpdate (dBatchStatusMeshLeftBox says when that box was too small).

@@ -24,19 +24,26 @@ static inline ox_plane_choice ox_choose_for_sheet(const ox_region_view* r) {
   return ox_choose_whole(&by_solid);
 }
 
-// A vertex that is behind a face, or in front of it where that is reversed.
+// [m] how far a vertex is behind a face, or in front of it where that is reversed.
+static inline float ox_depth_at_sheet(const ox_region_view* r, const ox_plane* plane, uint side,
+                                      uint vertex, bool reversed) {
+  const float depth = ox_plane_depth(plane, side, ox_vertex_of(r->scene, r->pair, side, vertex));
+  return reversed ? -depth : depth;
+}
+
+// Such a vertex.
 static inline void ox_add_behind_sheet(ox_manifold* m, const ox_plane_choice* choice, uint side,
                                        uint vertex, bool reversed, __global const ox_feature* f) {
   const ox_region_view* r = m->region;
-  const float3 position = ox_vertex_of(r->scene, r->pair, side, vertex);
-  const float depth = ox_plane_depth(&choice->plane, side, position);
+  const float depth = ox_depth_at_sheet(r, &choice->plane, side, vertex, reversed);
   ox_plane_choice turned = *choice;
   if (reversed) turned.plane.normal = -turned.plane.normal;
   ox_touch touch = ox_touch_of(f, f->triangle);
   touch.feature[side] = OX_OF(OX_OF_VERTEX, vertex);
   if (ox_is_first_item())
-    ox_add_candidate(m, &turned, side, position, ox_max(reversed ? -depth : depth, 0.0f),
-                     reversed ? OX_HIT_REVERSED : 0u, vertex, f->triangle, touch);
+    ox_add_candidate(m, &turned, side, ox_vertex_of(r->scene, r->pair, side, vertex),
+                     ox_max(depth, 0.0f), reversed ? OX_HIT_REVERSED : 0u, vertex, f->triangle,
+                     touch);
   ++m->manifold;
 }
 
@@ -77,13 +84,6 @@ static inline uint ox_first_through(const ox_region_view* r, uint side, uint ver
     if (ox_goes_through_once(r, f) && ox_find_end_behind(r, f, sheet_side) == vertex) return edge;
   }
   return OX_NONE;
-}
-
-// [m] how far a vertex is behind a face, or in front of it where that is reversed.
-static inline float ox_depth_at_sheet(const ox_region_view* r, const ox_plane* plane, uint side,
-                                      uint vertex, bool reversed) {
-  const float depth = ox_plane_depth(plane, side, ox_vertex_of(r->scene, r->pair, side, vertex));
-  return reversed ? -depth : depth;
 }
 
 // From a vertex to where no edge leads deeper that does not go through the sheet.

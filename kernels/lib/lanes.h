@@ -208,14 +208,10 @@ static inline void ox_pick_ints(const int* from, const ox_ints* lanes, ox_ints* 
 #if defined(OX_HAS_AVX512)
   const ox_native_ints all = (ox_native_ints)ox_load_own_ints(0, from);
   *picked = __builtin_astype(__builtin_ia32_permvarsi512(all, (ox_native_ints)*lanes), ox_ints);
-#elif defined(OX_HAS_AVX2)
-  const ox_native_ints lane = (ox_native_ints)*lanes;
-  const ox_native_ints low =
-      __builtin_ia32_permvarsi256((ox_native_ints)ox_load_own_ints(0, from), lane);
-  const ox_native_ints high =
-      __builtin_ia32_permvarsi256((ox_native_ints)ox_load_own_ints(1, from), lane);
-  const ox_ints is_high = (*lanes & 8) != 0;
-  *picked = is_high ? __builtin_astype(high, ox_ints) : __builtin_astype(low, ox_ints);
+#elif defined(OX_HAS_AVX2)  // which moves bits, whatever they stand for
+  ox_floats there;
+  ox_pick_lanes((const float*)from, lanes, &there);
+  *picked = __builtin_astype(there, ox_ints);
 #else
   int lane[OX_VECTOR_WIDTH];
   int there[OX_VECTOR_WIDTH];

@@ -13,6 +13,7 @@
 #include "lib/border.h"
 #include "lib/scene.h"
 #include "lib/transform.h"
+#include "lib/way_up.h"
 
 // The sheet of a pair, by its side; OX_NONE: there is none, or both are.
 static inline uint ox_sheet_of(const ox_scene* scene, __global const ox_pair* pair) {
@@ -38,7 +39,7 @@ static inline float3 ox_place_at_sheet(const ox_scene* scene, __global const ox_
   return side == sheet ? p : ox_transform_from_base(scene->pairs + (c->pair_side >> 1), side, p);
 }
 
-// OX_SHEET_... Crossings come in any order, so their normals are summed as whole numbers.
+// OX_SHEET_...
 static inline uint ox_find_sheet_side(const ox_scene* scene, uint p, uint sheet) {
   __global const ox_pair* pair = scene->pairs + p;
   const uint body = 1u - sheet;
@@ -50,13 +51,12 @@ static inline uint ox_find_sheet_side(const ox_scene* scene, uint p, uint sheet)
   uint count = 0u;
   for (uint side = 0u; side < 2u; ++side)
     for (uint i = scene->found[p].head[side]; i != OX_NONE; i = scene->crossings[i].before) {
-      const uint face = ox_sheet_face(scene, scene->crossings + i, sheet);
-      sum += convert_int3_rte(256.0f * vload3(0, scene->surfaces.triangles[face].normal));
+      sum += ox_whole_normal(scene, ox_sheet_face(scene, scene->crossings + i, sheet));
       ++count;
     }
   const float3 up = convert_float3(sum);
   const float length = sqrt(ox_dot(up, up));
-  if (count == 0u || length < OX_GROUND * 256.0f * (float)count) return OX_SHEET_UNTOLD;
+  if (count == 0u || length < OX_GROUND * OX_WHOLE_NORMAL * (float)count) return OX_SHEET_UNTOLD;
   float lowest = INFINITY;
   float highest = -INFINITY;
   for (uint side = 0u; side < 2u; ++side)

@@ -14,8 +14,14 @@ typedef struct {
   float height;  // [m] along it, of the highest crossing; -INFINITY: there is no way
 } ox_way_up;
 
-// Of the source of a side of a pair. Crossings come in any order, so their normals are summed as
-// whole numbers.
+// The normal of a triangle in whole numbers: crossings come in any order, which the sum of their
+// normals does not depend on then.
+#define OX_WHOLE_NORMAL 256.0f
+static inline int3 ox_whole_normal(const ox_scene* scene, uint triangle) {
+  return convert_int3_rte(OX_WHOLE_NORMAL * vload3(0, scene->surfaces.triangles[triangle].normal));
+}
+
+// Of the source of a side of a pair.
 static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
   ox_way_up way = {(float3)(0.0f), -INFINITY};
   __global const ox_pair* pair = scene->pairs + (pair_side >> 1);
@@ -24,10 +30,8 @@ static inline ox_way_up ox_find_way_up(const ox_scene* scene, uint pair_side) {
     return way;
   const uint head = scene->found[pair_side >> 1].head[side];
   int3 sum = (int3)(0);
-  for (uint c = head; c != OX_NONE; c = scene->crossings[c].before) {
-    __global const ox_triangle* t = scene->surfaces.triangles + scene->crossings[c].triangle;
-    sum += convert_int3_rte(256.0f * vload3(0, t->normal));
-  }
+  for (uint c = head; c != OX_NONE; c = scene->crossings[c].before)
+    sum += ox_whole_normal(scene, scene->crossings[c].triangle);
   const float3 up = ox_rotate(pair, 1u - side, convert_float3(sum));
   const float length = sqrt(ox_dot(up, up));
   if (length == 0.0f) return way;
