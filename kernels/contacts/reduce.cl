@@ -130,17 +130,14 @@ static void ox_rate(const ox_fields* list, uint count, uint block, const ox_crit
   const ox_floats value = OX_LOAD_FLOATS(list, by, block);
   const ox_ints taken = OX_LOAD_WORDS(list, OX_CANDIDATE_TAKEN, block);
   const ox_ints left = (int)(count - OX_VECTOR_WIDTH * block) - OX_LANE_NUMBERS;
-  *rating = left > 0 ? value : none;
-  const ox_ints out = taken & (ox_ints)(1 << criterion->what);
-  *rating = out == 0 ? *rating : none;
   const ox_floats depth = OX_LOAD_FLOATS(list, OX_CANDIDATE_DEPTH, block);
-  *rating = depth >= criterion->least_depth ? *rating : none;
-  if (criterion->region == OX_NONE) return;
-  const ox_ints region = OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block);
-  *rating = region == (int)criterion->region ? *rating : none;
-  if (criterion->manifold == OX_NONE) return;
-  const ox_ints manifold = OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block);
-  *rating = manifold == (int)criterion->manifold ? *rating : none;
+  ox_ints comes = (left > 0) & ((taken & (ox_ints)(1 << criterion->what)) == 0) &
+                  (depth >= criterion->least_depth);
+  if (criterion->region != OX_NONE)
+    comes &= OX_LOAD_WORDS(list, OX_CANDIDATE_REGION, block) == (int)criterion->region;
+  if (criterion->manifold != OX_NONE)
+    comes &= OX_LOAD_WORDS(list, OX_CANDIDATE_MANIFOLD, block) == (int)criterion->manifold;
+  *rating = comes ? value : none;
 }
 
 // Of as many blocks as are looked at at once.

@@ -84,6 +84,7 @@ static inline ox_nearest ox_cast_into(const ox_region_view* r, uint side, float3
   query.t_max = INFINITY;
   query.behind = query.entry = 0.0f;
   query.two_sided = false;
+  query.sheet_side = OX_SHEET_UNTOLD;
   query.known = false;
   return ox_trace(false, &query, ox_target_of(r, side), &r->scene->surfaces, OX_NONE, &work);
 }

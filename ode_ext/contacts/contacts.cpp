@@ -5,24 +5,10 @@
 #include <tuple>
 
 #include "contacts/contact_features.h"
+#include "contacts/known_depth.h"
 
 namespace ode_ext {
 namespace {
-
-// What is known of a depth. The vertices of either mesh are rounded to floats, by 2^-24 of their
-// distance from the origin at most, while ODE's broad phase sees the program's own. A body pushed
-// out to the last bit would be clear of ODE's boxes before it is clear of ours, and fall; so it is
-// left in by as much.
-//
-// But not all of it: ODE's dWorldStep finds no solution where two bodies that fall as one touch at
-// no depth, as of a stack that is put together without gaps, and lets them through the floor. What
-// is left, by how large they are, moves a body by what is not known in 2^24 steps and more.
-double known_depth(double depth, const Mesh& a, const Mesh& b) {
-  const double unknown = 0x1p-24 * (length(Vec3d(farthest_corner(box_as_given(a)))) +
-                                    length(Vec3d(farthest_corner(box_as_given(b)))));
-  const double least = 0x1p-48 * (static_cast<double>(a.radius) + static_cast<double>(b.radius));
-  return std::max(least, depth - unknown);
-}
 
 // The program's index of a triangle of the device's.
 std::uint32_t source_triangle(const DeviceMeshes& meshes, std::uint32_t mesh,
@@ -41,17 +27,16 @@ Contact to_point(const Scene& scene, const DeviceMeshes& meshes,
   result.position =
       frame_pose(frame.pose, meshes.mesh(frame.mesh)).transform(vector(contact.position));
   result.normal = (1.0 / length(normal)) * normal;
-  result.depth =
-      known_depth(static_cast<double>(contact.depth), meshes.mesh(scene.objects[pair[0]].mesh),
-                  meshes.mesh(scene.objects[pair[1]].mesh));
+  result.depth = static_cast<double>(contact.depth);
   result.triangles[side] = source_triangle(meshes, scene.objects[pair[side]].mesh, contact.vertex);
   result.triangles[1 - side] =
       source_triangle(meshes, scene.objects[pair[1 - side]].mesh, contact.triangle);
   return result;
 }
 
-Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
-                   const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
+// One of a vertex of a mesh and a face of the other.
+Contact to_vertex(const Scene& scene, const DeviceMeshes& meshes,
+                  const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
   const std::uint32_t side = (contact.side_kind & OX_HIT_SIDE) != 0 ? 1 : 0;
   const Scene::Object& source = scene.objects[pair[side]];
   const Scene::Object& target = scene.objects[pair[1 - side]];
@@ -59,7 +44,6 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const Mesh& target_mesh = meshes.mesh(target.mesh);
   const Pose source_pose = frame_pose(source.pose, source_mesh);
   const Pose target_pose = frame_pose(target.pose, target_mesh);
-  if ((contact.side_kind & OX_HIT_POINT) != 0) return to_point(scene, meshes, pair, contact);
   const std::uint32_t vertex = contact.vertex - meshes.range(source.mesh).vertex_first;
   const std::uint32_t triangle = contact.triangle - meshes.range(target.mesh).triangle_first;
 
@@ -78,15 +62,22 @@ Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
   const Vec3d apart = (corner - from) + (target_pose.position - source_pose.position);
   const double height = dot(apart, outward) / length(outward);
   const bool reversed = (contact.side_kind & OX_HIT_REVERSED) != 0;
-  result.depth = known_depth(reversed ? -height : height, source_mesh, target_mesh);
+  result.depth = reversed ? -height : height;
   result.triangles[side] = meshes.owner_triangle(contact.vertex);
   result.triangles[1 - side] = target_mesh.topology->source_triangle[triangle];
   return result;
 }
 
-Contact to_named_contact(const Scene& scene, const DeviceMeshes& meshes,
-                         const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
-  Contact result = to_contact(scene, meshes, pair, contact);
+Contact to_contact(const Scene& scene, const DeviceMeshes& meshes,
+                   const std::array<std::uint32_t, 2>& pair, const ox_contact& contact) {
+  const bool is_point = (contact.side_kind & OX_HIT_POINT) != 0;
+  Contact result =
+      is_point ? to_point(scene, meshes, pair, contact) : to_vertex(scene, meshes, pair, contact);
+  const auto placed = [&](std::size_t k) -> PlacedMesh {
+    const Scene::Object& object = scene.objects[pair[k]];
+    return {meshes.mesh(object.mesh), object.pose};
+  };
+  result.depth = known_depth(result, {placed(0), placed(1)});
   for (std::size_t k = 0; k < 2; ++k)
     result.features[k] = feature_of(meshes, scene.objects[pair[k]].mesh, contact.feature[k]);
   result.region = contact.region;
@@ -128,7 +119,7 @@ void append_contacts(const Scene& scene, const DeviceMeshes& meshes, std::size_t
     result.ranges.push_back({first, ranges[i].count, ranges[i].features});
     if (ranges[i].count == 0) continue;
     for (const ox_contact& contact : contacts.subspan(ranges[i].first, ranges[i].count))
-      result.contacts.push_back(to_named_contact(scene, meshes, pair, contact));
+      result.contacts.push_back(to_contact(scene, meshes, pair, contact));
     const std::span found = std::span(result.contacts).subspan(first);
     if (sort && is_deformable(scene, pair))
       std::sort(found.begin(), found.end(), comes_first);

@@ -24,6 +24,11 @@ struct Pose {
     return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
             r[6] * v.x + r[7] * v.y + r[8] * v.z};
   }
+  Vec3d rotate_back(Vec3d v) const {
+    const auto& r = rotation;
+    return {r[0] * v.x + r[3] * v.y + r[6] * v.z, r[1] * v.x + r[4] * v.y + r[7] * v.z,
+            r[2] * v.x + r[5] * v.y + r[8] * v.z};
+  }
   Vec3d transform(Vec3d p) const { return rotate(p) + position; }
 };
 
