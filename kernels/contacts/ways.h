@@ -77,15 +77,9 @@ static inline ox_nearest ox_cast_into(const ox_region_view* r, uint side, float3
                                       float3 direction) {
   __global const ox_pair* pair = r->scene->pairs + r->pair;
   uint work = 0u;
-  ox_query query;
-  query.direction = side == 0u ? direction : ox_rotate(pair, 1u, direction);
-  query.cast = ox_cast_from(ox_target_base(r, side), ox_in_target(r, side, p), query.direction);
-  query.epsilon = pair->epsilon;
-  query.t_max = INFINITY;
-  query.behind = query.entry = 0.0f;
-  query.two_sided = false;
-  query.sheet_side = OX_SHEET_UNTOLD;
-  query.known = false;
+  const ox_query query =
+      ox_endless_query(ox_target_base(r, side), ox_in_target(r, side, p),
+                       side == 0u ? direction : ox_rotate(pair, 1u, direction), pair->epsilon);
   return ox_trace(false, &query, ox_target_of(r, side), &r->scene->surfaces, OX_NONE, &work);
 }
 

@@ -80,19 +80,11 @@ static inline ox_nearest ox_trace(bool basic, const ox_query* query, __global co
 #define OX_ASKING_RAYS 3u
 static inline ox_query ox_asking_query(uint k, float3 base, float3 origin, float3 away,
                                        float epsilon) {
-  ox_query query;
-  query.direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
-                    : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
-                              : (float3)(0.3319f, -0.6203f, -0.7107f);
-  if (ox_dot(query.direction, away) < 0.0f) query.direction = -query.direction;
-  query.cast = ox_cast_from(base, origin, query.direction);
-  query.epsilon = epsilon;
-  query.t_max = INFINITY;
-  query.behind = query.entry = 0.0f;
-  query.two_sided = false;
-  query.sheet_side = OX_SHEET_UNTOLD;
-  query.known = false;
-  return query;
+  const float3 direction = k == 0u   ? (float3)(0.5481f, 0.3027f, 0.7797f)
+                           : k == 1u ? (float3)(-0.2379f, 0.8711f, -0.4297f)
+                                     : (float3)(0.3319f, -0.6203f, -0.7107f);
+  return ox_endless_query(base, origin, ox_dot(direction, away) < 0.0f ? -direction : direction,
+                          epsilon);
 }
 
 // Whether a vertex whose ray grazes is inside a closed target. Undecided after three: outside.

@@ -23,6 +23,22 @@ typedef struct {
   bool known;       // it is inside, whatever is met first: it leaves by the first back face
 } ox_query;
 
+// One that goes on for ever, of whose origin nothing is known, into a mesh with a front; from a
+// base on.
+static inline ox_query ox_endless_query(float3 base, float3 origin, float3 direction,
+                                        float epsilon) {
+  ox_query query;
+  query.cast = ox_cast_from(base, origin, direction);
+  query.direction = direction;
+  query.epsilon = epsilon;
+  query.t_max = INFINITY;
+  query.behind = query.entry = 0.0f;
+  query.two_sided = false;
+  query.sheet_side = OX_SHEET_UNTOLD;
+  query.known = false;
+  return query;
+}
+
 // A distance is finite exactly where there is a triangle: ox_consider_met sets both, of finite ones
 // only. So the lesser of two that are not equal has a triangle.
 typedef struct {

@@ -34,8 +34,8 @@ double beyond_box(const Contact& contact, const PlacedMesh& placed) {
 
 }  // namespace
 
-// Nor is a depth known to more than floats hold: coordinates of both meshes are counted from the
-// smaller (kernels/lib/bases.h).
+// Nor is a depth known to more than floats hold: 2^-24 of a coordinate of either mesh, which are
+// counted from the smaller one where that is small beside the other (kernels/lib/bases.h).
 //
 // But not all of it is taken off: ODE's dWorldStep finds no solution where two bodies that fall as
 // one touch at no depth, as of a stack that is put together without gaps, and lets them through the
