@@ -283,6 +283,18 @@ static inline ox_plane_choice ox_leave_jointly(const ox_region_view* r, const ox
   }
 }
 
+// How far its own mesh goes on from a unit along a direction [m], to its next wall, by a ray from
+// as far inside it as rounding may take it out. An open mesh has no inside, and is taken to go on.
+static inline float ox_own_way(const ox_region_view* r, const ox_seed* seed, float3 direction) {
+  if ((ox_target_of(r, 1u - seed->side)->flags & OX_MESH_CLOSED) == 0u) return INFINITY;
+  const float length = sqrt(ox_dot(seed->inward, seed->inward));
+  const float inside = OX_CLEARANCE * r->scene->pairs[r->pair].epsilon;
+  float3 p = ox_middle_of(r, seed->unit);
+  if (length > 0.0f) p += inside / length * seed->inward;
+  const ox_nearest met = ox_cast_into(r, 1u - seed->side, p, direction);
+  return met.back_t < met.front_t ? met.back_t : 0.0f;
+}
+
 // The best plane for a unit. Where one does not separate it, that and those that do not either may
 // do so together: then all of them are its. Else the way along its normal is past all of both
 // bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
@@ -339,12 +351,17 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
   if (!ox_take_better(r, unit, &nearest, far, &near) ||
-      ox_depth_behind(r, &seed, &nearest, near.depth, far) > far)
+      (ox_depth_behind(r, &seed, &nearest, near.depth, far) > far &&
+       ox_own_way(r, &seed, -ox_way_of(seed.side, nearest.normal)) > far))
     return known;
   // What of a body is more than halfway through a thin part goes back by the face that it came in
-  // by, as what is beside it does, which is not so deep.
-  const bool is_past_middle = ox_looks_back(nearest.normal, known.plane.normal) &&
-                              ox_is_crossed(r, &known.plane) && !ox_unit_stays(r, &seed, &known);
+  // by, as what is beside it does, which is not so deep: it has met that, and not the other side.
+  // Of a thread it has met both, and it came in from where its own body goes on.
+  const bool is_past_middle =
+      ox_looks_back(nearest.normal, known.plane.normal) && ox_is_crossed(r, &known.plane) &&
+      !ox_unit_stays(r, &seed, &known) &&
+      (!ox_is_crossed(r, &nearest) ||
+       ox_own_way(r, &seed, ox_way_of(seed.side, known.plane.normal)) > far);
   return is_past_middle ? known : near;
 }
 

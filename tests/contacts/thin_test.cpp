@@ -110,14 +110,15 @@ TEST(Thin, BodiesMoreThanHalfwayThroughABentPlateGoBackByTheSideTheyCameIn) {
 
 // Of a body that is not convex each vertex was asked alone by which face it leaves, and that is the
 // lower side of a board for what is past its middle, which nothing of the body has met. Up it is
-// as far as the body is in the board.
+// as far as the body is in the board. The wall of the pipe is thinner than half of that.
 TEST(Thin, ConcaveBodiesMoreThanHalfwayThroughABoardGoBackByTheSideTheyCameIn) {
   const double thickness = 0.03;
   const TestMesh board = make_box({0.6, 0.6, thickness});
+  const TestMesh pipe = hub(polygon(24, 0.077), 0.08, 0.16);
   Random random(11);
   for (const TestMesh& body :
        {make_l(0.2), make_torus(0.06, 0.02, 16, 8), make_torus(0.08, 0.02, 8, 6),
-        hub(polygon(24, 0.03), 0.06, 0.03), make_comb(3, 0.03, 0.08, 0.05)})
+        hub(polygon(24, 0.03), 0.06, 0.03), make_comb(3, 0.03, 0.08, 0.05), pipe})
     for (const double deep : {0.55, 0.7, 0.9})
       for (int i = 0; i < 20; ++i) {
         const double around = random.uniform(0, 2 * std::numbers::pi);
