@@ -2,9 +2,10 @@
 // Choose: by which planes does each region of overlap part, and where are its contacts?
 //
 // A region is whole where neither mesh has a valley in it, told by an edge or by a face that part
-// of the region is past, or where it is all of a part that is inside: then it parts by the least
-// plane that clears all of it. Elsewhere its units, vertices and chords, are cleared one by one,
-// the deepest first, then what is far from those, and each plane clears what it can.
+// of the region is past, or where it is all of a part that is inside, but not of two open bodies of
+// about one size: then it parts by the least plane that clears all of it. Elsewhere its units,
+// vertices and chords, are cleared one by one, the deepest first, then what is far from those, and
+// each plane clears what it can.
 //
 // in    regions, features, faces, edge_planes; pairs, and of meshes all but chunks
 // out   candidates for contacts of each pair, and their number
@@ -233,9 +234,22 @@ static bool ox_is_against_face(const ox_region_view* r, uint k) {
   return ox_dot(ox_way_of(side, face.normal), ox_inward_at(r, f)) > 0.0f;
 }
 
+// Whether both meshes are open, of about one size, and neither is the ground of the other: what is
+// behind them is known no farther than rays reach. Of a bowl in its like all is beside the other's
+// wall, and past the planes of its faces it would go by as much as it is high. What lies in an open
+// room is whole: of its units fewer contacts are known.
+static bool ox_is_of_open_bodies(const ox_region_view* r) {
+  __global const ox_mesh* a = ox_target_of(r, 1u);
+  __global const ox_mesh* b = ox_target_of(r, 0u);
+  return ((a->flags | b->flags) & OX_MESH_CLOSED) == 0u &&
+         ox_max(a->radius, b->radius) <= OX_WORTH * ox_min(a->radius, b->radius) &&
+         !ox_may_be_behind(a, b) && !ox_may_be_behind(b, a);
+}
+
 // Whether a region is separated in units. Where it has no crossings, a part of one mesh is inside
 // the other, and leaves as a whole; but not what lies on it all over, as a cavity on what fills it.
 static bool ox_is_in_units(const ox_region_view* r) {
+  if (ox_is_of_open_bodies(r)) return true;
   if ((r->flags & OX_REGION_VALLEY) == 0u) return false;
   if ((r->flags & OX_REGION_CROSSED) != 0u) return true;
   for (uint k = 0u; k < r->count; ++k)

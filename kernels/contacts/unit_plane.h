@@ -295,6 +295,18 @@ static inline float ox_own_way(const ox_region_view* r, const ox_seed* seed, flo
   return met.back_t < met.front_t ? met.back_t : 0.0f;
 }
 
+// Whether a unit may have come in by a plane: a chord that crosses its facet, of which two edges
+// have none. A vertex has no crossings to tell.
+static inline bool ox_may_come_by(const ox_region_view* r, const ox_seed* seed,
+                                  const ox_plane* plane) {
+  if (seed->count == 0u) return true;
+  if (plane->kind == OX_PLANE_EDGES) return false;
+  const uint facet = ox_facet_of(r->scene, plane->id[0]);
+  for (uint i = 0u; i < seed->count; ++i)
+    if (ox_facet_of(r->scene, r->scene->features[seed->through[i]].triangle) == facet) return true;
+  return false;
+}
+
 // The best plane for a unit. Where one does not separate it, that and those that do not either may
 // do so together: then all of them are its. Else the way along its normal is past all of both
 // bodies. Of a surface that bends inwards there are many that cost less than what the unit proposes
@@ -348,7 +360,7 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   // What the moves before have taken out goes no other way.
   if (known.judged <= OX_MARGIN * r->scene->pairs[r->pair].epsilon) return known;
   const float far = ox_min(known.depth, known.judged) / OX_WORTH;
-  const ox_plane nearest = ox_surface_near(r, seed.side, ox_middle_of(r, unit), far);
+  const ox_plane nearest = ox_nearest_behind(r, seed.side, ox_middle_of(r, unit), far);
   ox_plane_choice near = ox_no_choice();
   if (!ox_take_better(r, unit, &nearest, far, &near) ||
       (ox_depth_behind(r, &seed, &nearest, near.depth, far) > far &&
@@ -360,9 +372,16 @@ static inline ox_plane_choice ox_choose_for(const ox_region_view* r, uint unit,
   const bool is_past_middle =
       ox_looks_back(nearest.normal, known.plane.normal) && ox_is_crossed(r, &known.plane) &&
       !ox_unit_stays(r, &seed, &known) &&
-      (!ox_is_crossed(r, &nearest) ||
+      ((!ox_is_crossed(r, &nearest) && ox_may_come_by(r, &seed, &known.plane)) ||
        ox_own_way(r, &seed, ox_way_of(seed.side, known.plane.normal)) > far);
-  return is_past_middle ? known : near;
+  if (is_past_middle) return known;
+  if (!ox_unit_stays(r, &seed, &near)) return near;
+  // Where that takes it into another face, past that too.
+  joint = ox_begin_joint();
+  joint.first = near;
+  ox_add_to_joint(r, &near.plane, near.depth, &joint);
+  near = ox_leave_jointly(r, &seed, &joint, &known, together);
+  return near.plane.kind == OX_PLANE_NONE ? known : near;
 }
 
 // Has a unit propose the face that was found for it, once, where that costs less than what it

@@ -125,6 +125,31 @@ TEST(OpenBodies, OfOneFaceAreHeldByOpenHills) {
   EXPECT_LE(shallow, 6);
 }
 
+// Of two bowls of one layer, one in the other, no point is farther from the other's wall than they
+// are out of place. In 93 of the 182 of these poses in which they meet they were sent out past all
+// of the other, by up to 0.29 m: a stack of them burst.
+TEST(OpenBodies, InTheirLikeAreSentNoFartherThanTheyAreOutOfPlace) {
+  Random random(42);
+  int crossing = 0;
+  for (const bool is_inverted : {false, true})
+    for (const int rows : {3, 8}) {
+      const TestMesh outward = make_bowl(rows, 3 * rows + 2);
+      const TestMesh bowl = is_inverted ? inverted(outward) : outward;
+      for (int i = 0; i < 60; ++i) {
+        const double up = random.uniform(0.005, 0.06), aside = random.uniform(0, 0.02);
+        const double tilt = random.uniform(0, 0.1);
+        const TestPose pose = turned({1, 0.3, 0}, tilt, {aside, 0.0007, up});
+        if (!surfaces_intersect(bowl, pose, bowl, TestPose{})) continue;
+        ++crossing;
+        const std::vector<Contact> found =
+            Placed{bowl, bowl, pose, TestPose{}}.contacts(TestPose{});
+        EXPECT_FALSE(found.empty()) << rows << " rows, " << i;
+        EXPECT_LT(deepest(found), std::hypot(aside, up) + 0.3 * tilt) << rows << " rows, " << i;
+      }
+    }
+  EXPECT_GT(crossing, 150);
+}
+
 // A tile that is smaller than the bowl on it is no body behind the bowl.
 TEST(OpenBodies, AreNotSentAsideByTilesThatAreSmaller) {
   Random random(41);

@@ -46,6 +46,41 @@ TEST(Profiles, ADovetailLeavesItsGuideByTheFlanks) {
   }
 }
 
+// A tail that fills its guide and was then made larger, and moved, so that no point of either is
+// farther from where it touches the other than that. A corner of the guide is nearest to the end of
+// the tail, beyond which it does not go on. Of these 1,440 poses 7 had contacts up to 8.1 mm deep,
+// straight out of the guide: no tail comes out that way.
+TEST(Profiles, ATailThatIsTightIsHeldByItsFlanks) {
+  Random random(11);
+  std::size_t colliding = 0;
+  for (const double slope : {0.15, 0.3, 0.45, 0.6})
+    for (const double larger : {0.02, 0.05, 0.2})
+      for (const double along : {0.0, 13.0, 31.0}) {
+        const double mouth = 5, bottom = 5 + 8 * slope;
+        const Profile tail{{-mouth - larger, -larger},
+                           {mouth + larger, -larger},
+                           {bottom + larger, 8 + larger},
+                           {-bottom - larger, 8 + larger}};
+        const Profile guide{{35, 20},     {-35, 20},   {-35, 0},   {-mouth, 0},
+                            {-bottom, 8}, {bottom, 8}, {mouth, 0}, {35, 0}};
+        const TestMesh a = scaled(extruded(tail, 30), 0.001);
+        const TestMesh b = scaled(extruded(guide, 50), 0.001);
+        for (int i = 0; i < 40; ++i) {
+          const double x = random.uniform(-0.05, 0.05), y = random.uniform(-0.05, 0.05);
+          const double angle = random.uniform(0, 0.003);
+          const Point axis = random.direction();
+          const TestPose pose = turned(axis, angle, {0.001 * x, 0.001 * y, 0.001 * along});
+          const double farthest = std::hypot(bottom, 8, 15) + larger;  // from the middle of A
+          const double out_of_place = std::sqrt(2) * larger + std::hypot(x, y) + farthest * angle;
+          const std::vector<Contact> found = Placed{a, b, pose, TestPose{}}.contacts(TestPose{});
+          colliding += found.empty() ? 0 : 1;
+          EXPECT_LT(deepest(found), 0.002 * out_of_place)
+              << slope << ", " << larger << " larger, at " << along << ", " << i;
+        }
+      }
+  EXPECT_GT(colliding, 1000u);
+}
+
 // Whatever its angle is: acute ones take both walls at once.
 TEST(Profiles, ABarLeavesAVBlockByItsWalls) {
   Random random(9);
