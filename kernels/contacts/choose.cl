@@ -236,8 +236,8 @@ static bool ox_is_against_face(const ox_region_view* r, uint k) {
 
 // Whether both meshes are open, of about one size, and neither is the ground of the other: what is
 // behind them is known no farther than rays reach. Of a bowl in its like all is beside the other's
-// wall, and past the planes of its faces it would go by as much as it is high. What lies in an open
-// room is whole: of its units fewer contacts are known.
+// wall, and past the planes of its faces it would go by as much as it is high. What falls on
+// the floor of an open room is whole: unit by unit cones fell through.
 static bool ox_is_of_open_bodies(const ox_region_view* r) {
   __global const ox_mesh* a = ox_target_of(r, 1u);
   __global const ox_mesh* b = ox_target_of(r, 0u);

@@ -2,6 +2,7 @@
 // Bodies that a program puts exactly on one another, in ODE's own steps.
 #include <gtest/gtest.h>
 
+#include "support/attach_contacts.h"
 #include "support/batch_collider.h"
 
 namespace ode_ext::test {
@@ -39,14 +40,7 @@ struct Stack {
   void step(double seconds) {
     for (std::size_t i = 0; i < boxes.size(); ++i)
       for (std::size_t k = i + 1; k < boxes.size(); ++k)
-        for (const dContactGeom& geom : answer_of(collider, boxes[i], boxes[k])) {
-          dContact contact{};
-          contact.surface.mode = dContactApprox1;
-          contact.surface.mu = 0.5;
-          contact.geom = geom;
-          const dJointID joint = dJointCreateContact(id, joints, &contact);
-          dJointAttach(joint, dGeomGetBody(geom.g1), dGeomGetBody(geom.g2));
-        }
+        attach_contacts(id, joints, answer_of(collider, boxes[i], boxes[k]));
     dWorldStep(id, seconds);
     dJointGroupEmpty(joints);
   }
