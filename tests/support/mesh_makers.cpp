@@ -295,6 +295,18 @@ TestMesh make_soup(int triangles, std::uint64_t seed) {
   return mesh;
 }
 
+TestMesh opened(TestMesh mesh, double z) {
+  std::vector<unsigned> kept;
+  for (auto t = mesh.indices.begin(); t != mesh.indices.end(); t += 3) {
+    const auto is_at = [&](unsigned v) {
+      return mesh.vertices[3 * v + 2] == static_cast<float>(z);
+    };
+    if (!std::all_of(t, t + 3, is_at)) kept.insert(kept.end(), t, t + 3);
+  }
+  mesh.indices = kept;
+  return mesh;
+}
+
 TestMesh inverted(TestMesh mesh) {
   for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
     std::swap(mesh.indices[t + 1], mesh.indices[t + 2]);

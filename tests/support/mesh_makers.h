@@ -59,7 +59,8 @@ TestMesh make_triangle(double size);      // one triangle in z = 0, facing +z
 // Triangles as large as all of it, in a cube of 2 m about 0, each of corners of its own.
 TestMesh make_soup(int triangles, std::uint64_t seed);
 
-TestMesh inverted(TestMesh mesh);  // every triangle wound the other way
+TestMesh opened(TestMesh mesh, double z);  // its faces at that height left out
+TestMesh inverted(TestMesh mesh);          // every triangle wound the other way
 TestMesh scaled(TestMesh mesh, double factor);
 TestMesh moved(TestMesh mesh, const Point& offset);     // in its own frame, rounded to float
 TestMesh merged(const TestMesh& a, const TestMesh& b);  // b's triangles follow a's
