@@ -15,60 +15,17 @@
 // out   rays, of the sides that are flooded (lib/flooded.h)
 //       tasks: of all others, and of those where the flood got round a border
 //       crossings: `of_edge`, which strings those of an edge together
-//       found: on which side of a sheet another mesh is
+//       found: on which side of a sheet another mesh is; which mesh is just below its ground
 // room  flood_words: a table for each side (lib/flood_table.h)
 // item  1 side of a pair (of a queue); of a work-group, where lanes are one (lib/group.h)
 // may overflow: OX_LIST_RAYS, OX_LIST_CHUNKS, OX_LIST_FLOOD_WORDS
+#include "lib/below_ground.h"
 #include "lib/closest.h"
 #include "lib/crossed_edges.h"
-#include "lib/flat.h"
+#include "lib/flood_rays.h"
 #include "lib/flooded.h"
 #include "lib/general_position.h"
 #include "lib/sheet_side.h"
-#include "lib/vertex_ray.h"
-#include "lib/way_up.h"
-
-typedef struct {
-  const ox_scene* scene;
-  __global const ox_pair* pair;
-  uint pair_side;
-  __global const ox_mesh* source;
-  __global const ox_mesh* target;
-  uint vertex_first;  // of the source
-  ox_flood_table table;
-  bool leaks;         // the flood got round the border of an open target
-  bool told;          // a crossing tells of an end of its edge
-  bool asks;          // it goes on from vertices of which none tells
-  bool refuted;       // and got to one that is outside by a crossing
-  bool lies;          // it goes to vertices alone that lie on an open target
-  bool is_near_only;  // and to those alone that can reach it
-  uint crossed;       // so many of the queue are of parts that have crossings
-} ox_flood_state;
-
-static bool ox_is_open(const ox_flood_state* s) {
-  return (s->target->flags & OX_MESH_CLOSED) == 0u;
-}
-
-static uint ox_chunk_of(const ox_flood_state* s, uint vertex) {
-  return s->source->chunk_first + (vertex - s->vertex_first) / OX_CHUNK_VERTICES;
-}
-static uint ox_bit_in_chunk(const ox_flood_state* s, uint vertex) {
-  return 1u << (vertex - s->vertex_first) % OX_CHUNK_VERTICES;
-}
-
-static bool ox_is_looked_at(const ox_flood_state* s, uint vertex) {
-  if (s->table.places == 0u) return false;
-  const uint key = OX_KEY(ox_chunk_of(s, vertex), OX_KEY_CHUNK);
-  const uint word = ox_find_key(s->scene, &s->table, key);
-  return s->scene->flood_words[word] != 0u &&
-         (s->scene->flood_words[word + 1u] & ox_bit_in_chunk(s, vertex)) != 0u;
-}
-
-// Bits of a vertex in the queue, whose index is below both: it is the first of those that hang
-// together; all of its chunk are queued from it on, the first, and no edge at them crosses.
-#define OX_QUEUE_BEGINS 0x80000000u
-#define OX_QUEUE_CHUNK 0x40000000u
-#define OX_QUEUE_VERTEX (~(OX_QUEUE_BEGINS | OX_QUEUE_CHUNK))
 
 // Whether a vertex lies on the surface of a target that is larger in general position. Rays of
 // vertices start as far out of their own mesh.
@@ -124,84 +81,6 @@ static bool ox_flood_vertex(ox_flood_state* s, uint vertex, uint begins) {
   else
     ox_queue(s->scene, &s->table)[s->table.queued++] = vertex | begins;
   return true;
-}
-
-static uint ox_queued(const ox_flood_state* s, uint i) {
-  return ox_queue(s->scene, &s->table)[i] & OX_QUEUE_VERTEX;
-}
-
-static bool ox_is_chunk_queued(const ox_flood_state* s, uint i) {
-  return i < s->table.queued && (ox_queue(s->scene, &s->table)[i] & OX_QUEUE_CHUNK) != 0u;
-}
-
-// How deep what of a solid is behind an open target is by the rays of its vertices, which go as far
-// as it is thick [m]. What is deeper, as of a plank or a post that went in by its end, is behind it
-// all the same. What bounds nothing, as a vertex in the midst of a flat end, tells nothing of the
-// rest. Not so of what no crossing tells, nor of a finely cut solid that came from behind, all of
-// which would be as deep as it is large: each vertex takes a walk.
-#define OX_MANY_BEHIND 64u
-static float ox_depth_of_rays(const ox_flood_state* s, const ox_way_up* way) {
-  const bool is_from_behind = 2u * s->crossed > OX_CHUNK_VERTICES * s->source->chunk_count;
-  if (way->height == -INFINITY || (s->crossed > OX_MANY_BEHIND && is_from_behind)) return INFINITY;
-  float deepest = 0.0f;
-  for (uint i = OX_ITEM; i < s->crossed; i += OX_ITEMS) {
-    const uint vertex = ox_queued(s, i);
-    if (ox_ray_gets_above(s->scene, vertex, way) &&
-        !ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex))
-      deepest = ox_max(deepest, ox_depth_below(s->scene, vertex, way));
-  }
-  return -ox_least_of_items(-deepest);
-}
-
-// What hangs together lies in the queue one after the other; all of it names the first of it that
-// bounds anything.
-static void ox_cast_queue(const ox_flood_state* s) {
-  const ox_way_up way = ox_find_way_up(s->scene, s->pair_side);
-  const float known = ox_depth_of_rays(s, &way);
-  // Of a fine mesh other vertices are as near the border as matters.
-  const bool has_no_border =
-      known < INFINITY && s->crossed <= OX_MANY_BEHIND &&
-      s->scene->found[s->pair_side >> 1].at_border[1u - (s->pair_side & 1u)] == 0u;
-  uint last = OX_NONE;  // the first of what the block before ended in
-  for (uint begin = 0u; begin < s->table.queued; begin += OX_ITEMS) {
-    const uint i = begin + OX_ITEM;
-    const bool is_queued = i < s->table.queued;
-    const uint vertex = is_queued ? ox_queued(s, i) : OX_NONE;
-    if (ox_is_open(s)) {
-      const bool lies = i >= s->crossed;
-      const bool is_deep = is_queued && !lies && ox_depth_below(s->scene, vertex, &way) > known;
-      const bool is_reached = is_queued && !lies && !is_deep && has_no_border;
-      const bool casts = is_queued && (lies || is_deep || is_reached
-                                           ? ox_casts_ray(s->scene->vertices + vertex)
-                                           : ox_may_cast(s->scene, s->pair_side, vertex));
-      const uint index = ox_append_each(s->scene, OX_LIST_RAYS, casts);
-      if (casts)
-        ox_store_ray(s->scene, index, s->pair_side, vertex,
-                     lies         ? OX_RAY_CONTAINED
-                     : is_deep    ? OX_RAY_BEHIND
-                     : is_reached ? OX_RAY_REACHED
-                                  : OX_RAY_ASKING,
-                     OX_NONE);
-      continue;
-    }
-    const bool begins = is_queued && (ox_queue(s->scene, &s->table)[i] & OX_QUEUE_BEGINS) != 0u;
-    const bool bounds =
-        is_queued && !ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex);
-    const uint index = ox_append_each(s->scene, OX_LIST_RAYS, bounds);
-    const uint all_bounding = ox_group_bits(bounds);
-    // Of a work-item and those before it: from the last that begins on.
-    const uint up_to_own = (2u << OX_ITEM) - 1u;
-    const uint beginning = ox_group_bits(begins) & up_to_own;
-    const uint together = beginning == 0u ? ~0u : ~((1u << (31u - clz(beginning))) - 1u);
-    const uint bounding = all_bounding & up_to_own & together;
-    const uint there = ox_of_item(vertex, bounding == 0u ? 0u : ox_lowest(bounding));
-    uint first = bounding == 0u ? OX_NONE : there;
-    if (beginning == 0u && last != OX_NONE) first = last;
-    if (bounds)
-      ox_store_ray(s->scene, index, s->pair_side, vertex,
-                   i < s->crossed ? OX_RAY_INSIDE : OX_RAY_CONTAINED, first);
-    last = ox_of_item(first, OX_ITEMS - 1u);
-  }
 }
 
 // Every vertex of the source is the vertex step's.
@@ -412,14 +291,10 @@ static bool ox_flood_component(ox_flood_state* s, uint first, uint* next) {
   return ox_flood_if_inside(s, first, true, next);
 }
 
-// Parts of the source that no crossing told of. Behind an open target they are not, unless they lie
-// on it: what of it is inside of them is so with all of its vertices. Their faces may be crossed
-// all the same.
-static bool ox_flood_components(ox_flood_state* s, uint* next) {
-  s->lies = ox_is_open(s);
-  s->asks = !s->lies;
+// Of each part of the source its first vertex is asked.
+static bool ox_flood_firsts(ox_flood_state* s, uint* next) {
   if (s->source->component_count == 1u)
-    return s->told || ox_flood_component(s, s->scene->chunks[s->source->chunk_first].first, next);
+    return ox_flood_component(s, s->scene->chunks[s->source->chunk_first].first, next);
   // What is inside of the target is in its box.
   const ox_box box = ox_target_box(s->pair, s->pair_side & 1u, s->target);
   ox_box_walk walk = ox_begin_box_walk(s->source);
@@ -430,6 +305,26 @@ static bool ox_flood_components(ox_flood_state* s, uint* next) {
     for (uint firsts = meshlet->firsts; firsts != 0u; firsts &= firsts - 1u)
       if (!ox_flood_component(s, meshlet->vertex_index[ox_lowest(firsts)], next)) return false;
   }
+}
+
+static bool ox_flood_all(ox_flood_state* s, uint* next) {
+  for (uint k = 0u; k < s->source->chunk_count; ++k) {
+    __global const ox_chunk* chunk = s->scene->chunks + s->source->chunk_first + k;
+    for (uint v = chunk->first; v < chunk->first + chunk->count; ++v)
+      if (!ox_is_looked_at(s, v) && !ox_flood_from(s, v, next)) return false;
+  }
+  return true;
+}
+
+// Parts of the source that no crossing told of. Behind an open target they are not, unless they lie
+// on it, or it is a ground just above all of the body: what of it is inside of them is so with all
+// of its vertices. Their faces may be crossed all the same.
+static bool ox_flood_components(ox_flood_state* s, uint* next) {
+  s->is_below = !s->told && ox_is_just_below_ground(s);
+  if (s->is_below) return ox_flood_all(s, next);
+  s->lies = ox_is_open(s);
+  s->asks = !s->lies;
+  return (s->told && s->source->component_count == 1u) || ox_flood_firsts(s, next);
 }
 
 // False: there is no room, or the flood leaks.
@@ -472,13 +367,14 @@ static void ox_flood_sides(const ox_scene* scene) {
     state.source = scene->meshes + pair->mesh[i & 1u];
     state.target = scene->meshes + pair->mesh[1u - (i & 1u)];
     state.vertex_first = scene->chunks[state.source->chunk_first].first;
-    state.told = state.asks = state.refuted = state.lies = false;
+    state.told = state.asks = state.refuted = state.lies = state.is_below = false;
     state.crossed = 0u;
     state.is_near_only = ((state.source->flags | state.target->flags) & OX_MESH_CLOSED) == 0u;
     state.leaks = !ox_is_flooded(scene, state.source, state.target);
     if ((i & 1u) == 1u - ox_sheet_of(scene, pair) && ox_is_first_item())
       scene->found[i >> 1].sheet_side = ox_find_sheet_side(scene, i >> 1, 1u - (i & 1u));
     if (!state.leaks) ox_flood(&state, scene->found[i >> 1].head[i & 1u]);
+    if (state.is_below && ox_is_first_item()) scene->found[i >> 1].is_below[i & 1u] = 1u;
     if (state.leaks)
       ox_look_at_all(&state);
     else

@@ -80,6 +80,8 @@ static void ox_begin_found(__global ox_found* found) {
   found->head[1] = OX_NONE;
   found->at_border[0] = 0u;
   found->at_border[1] = 0u;
+  found->is_below[0] = 0u;
+  found->is_below[1] = 0u;
   found->sheet_side = OX_SHEET_UNTOLD;
 }
 

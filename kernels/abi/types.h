@@ -275,9 +275,10 @@ typedef struct {
   ox_u32 placed;    // of its members, so far
   ox_u32 candidates;
   ox_u32 at_border[2];  // per side whether one of those crossings is of an edge at its border
+  ox_u32 is_below[2];   // per side whether all of it is just below the other (lib/below_ground.h)
   ox_u32 sheet_side;    // OX_SHEET_...: of a sheet and another mesh, where that is
 } ox_found;
-OX_STATIC_ASSERT(sizeof(ox_found) == 36, ox_found_is_36_bytes);
+OX_STATIC_ASSERT(sizeof(ox_found) == 44, ox_found_is_44_bytes);
 
 #define OX_SHEET_UNTOLD 0u  // or the pair is no such
 #define OX_SHEET_FRONT 1u   // in front of the faces of the sheet

@@ -136,9 +136,12 @@ static inline void ox_add_rim(const ox_region_view* r, uint side, uint triangle,
 }
 
 // From a plane to the best of those next to it on the map of directions (Gauss): the edges of its
-// face, or its own, with the edges at what is farthest past it, and the faces at those edges.
+// face, or its own, with the edges at what is farthest past it, and the faces at those edges. Of
+// what is just below its ground that is as far as the border, past which it would go down.
 // False: none is better.
 static inline bool ox_walk_on(const ox_region_view* r, ox_search* search, ox_plane_choice* best) {
+  __global const ox_found* found = r->scene->found + r->pair;
+  if ((found->is_below[0] | found->is_below[1]) != 0u) return false;
   const ox_plane from = best->plane;
   for (uint side = 0u; side < 2u; ++side) {
     if (!ox_clears_side(&from, side)) continue;

@@ -16,14 +16,19 @@
 // than 45 degrees, as those of hills. That of half of a ball is 0.5, of half of a pipe 0.64.
 #define OX_GROUND 0.7f
 
+// Whether an open mesh is the ground of a smaller body. A sheet is neither.
+static inline bool ox_is_ground_of(__global const ox_mesh* mesh, __global const ox_mesh* body) {
+  return (mesh->flags & OX_MESH_CLOSED) == 0u &&
+         ((body->flags | mesh->flags) & OX_MESH_TWO_SIDED) == 0u && body->radius < mesh->radius &&
+         mesh->vector_area > OX_GROUND;
+}
+
 // Whether a mesh is a body that may be behind another: that is open, and the mesh is a solid, or
-// smaller than that, which is a ground. The rim of a bowl of one layer is behind the ground that it
-// is in; the ground within the bowl goes on on the other side of it. A sheet is neither.
+// that is its ground. The rim of a bowl of one layer is behind the ground that it is in; the ground
+// within the bowl goes on on the other side of it.
 static inline bool ox_may_be_behind(__global const ox_mesh* mesh, __global const ox_mesh* other) {
   if ((other->flags & OX_MESH_CLOSED) != 0u) return false;
-  if ((mesh->flags & OX_MESH_CLOSED) != 0u) return true;
-  return ((mesh->flags | other->flags) & OX_MESH_TWO_SIDED) == 0u && mesh->radius < other->radius &&
-         other->vector_area > OX_GROUND;
+  return (mesh->flags & OX_MESH_CLOSED) != 0u || ox_is_ground_of(other, mesh);
 }
 
 static inline bool ox_is_border(const ox_scene* scene, uint edge) {

@@ -40,8 +40,8 @@ TEST(OpenBodies, AreHeldByOpenGroundAsDeepAsTheyAre) {
         }
 }
 
-TestMesh make_hills() {
-  TestMesh hills = make_sheet(4, 40);
+TestMesh make_hills(double size, int cells) {
+  TestMesh hills = make_sheet(size, cells);
   for (std::size_t i = 0; i < hills.vertices.size(); i += 3)
     hills.vertices[i + 2] = static_cast<float>(0.1 * std::sin(3 * hills.vertices[i]) *
                                                std::cos(4 * hills.vertices[i + 1]));
@@ -52,7 +52,7 @@ TestMesh make_hills() {
 // it touches them.
 std::vector<Contact> contacts_on_hills(Random& random, const TestMesh& body, double most,
                                        double by) {
-  static const TestMesh hills = make_hills();
+  static const TestMesh hills = make_hills(4, 40);
   static const FclSurface surface(hills);
   TestPose pose = tilted(random, most, TestPose{});
   pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
@@ -123,6 +123,106 @@ TEST(OpenBodies, OfOneFaceAreHeldByOpenHills) {
       }
   }
   EXPECT_LE(shallow, 6);
+}
+
+// A card in a pose in which all of it is below z = 0, by up to `most`, and how far the lowest of it
+// is.
+struct Sunk {
+  Sunk(Random& random, const TestMesh& card, double most) {
+    depth = most * std::pow(10, random.uniform(-1.8, 0));
+    pose = tilted(random, depth / 2, TestPose{});
+    pose.position = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
+    pose.position[2] = -depth - lowest_of(card, pose)[2];
+  }
+  TestPose pose;
+  double depth;
+};
+
+// Where it is through it crosses nothing any more, and no part of it is left above: it fell.
+TEST(OpenBodies, OfOneFaceAreHeldByGroundThatTheyAreBehindAllOver) {
+  Random random(43);
+  for (const bool is_inverted : {false, true})
+    for (const int card_cells : {1, 6})
+      for (const int cells : {2, 40}) {
+        const TestMesh upright = make_sheet(0.5, card_cells);
+        const TestMesh card = is_inverted ? inverted(upright) : upright;
+        for (int i = 0; i < 20; ++i) {
+          const Sunk sunk(random, card, 0.007);
+          const Placed placed{card, make_sheet(4, cells), sunk.pose, TestPose{}};
+          const TestPose frame = i % 2 == 0 ? TestPose{} : random.pose(2);
+          const std::vector<Contact> found = placed.contacts(frame);
+          EXPECT_GE(found.size(), 3) << card_cells << " in " << cells << " cells, " << i;
+          EXPECT_NEAR(deepest(found), sunk.depth, 1e-3 * sunk.depth + placed.tolerance(frame))
+              << card_cells << " in " << cells << " cells, " << i;
+          for (const Contact& c : found) EXPECT_GT(c.normal.z, 0.99);
+        }
+      }
+}
+
+// Of a card that juts out over the border of the ground the first vertex may be beyond that.
+TEST(OpenBodies, OfOneFaceAreHeldUpToTheBorderOfTheGround) {
+  Random random(44);
+  for (int i = 0; i < 40; ++i) {
+    Sunk sunk(random, make_sheet(0.5, 1), 0.007);
+    sunk.pose.position[0] = 2;
+    const Placed placed{make_sheet(0.5, 1), make_sheet(4, 20), sunk.pose, TestPose{}};
+    const std::vector<Contact> found = placed.contacts(TestPose{});
+    EXPECT_FALSE(found.empty()) << i;
+    for (const Contact& c : found) {
+      EXPECT_LT(c.position.x, 2 + placed.tolerance(TestPose{})) << i;
+      EXPECT_GT(c.normal.z, 0.99) << i;
+    }
+  }
+}
+
+// What is on the shelf below, or hangs from there, is not lifted through that above it.
+TEST(OpenBodies, AreNotHeldByGroundThatIsNotJustAboveAllOfThem) {
+  Random random(45);
+  const TestMesh card = make_sheet(0.5, 6), bowl = make_bowl(6, 20);
+  for (int i = 0; i < 20; ++i) {
+    Sunk sunk(random, card, 0.007);
+    sunk.pose.position[2] -= 0.01;
+    EXPECT_TRUE(
+        (Placed{card, make_sheet(4, 20), sunk.pose, TestPose{}}).contacts(TestPose{}).empty())
+        << i;
+    TestPose leaning = turned({1, 0, 0}, random.uniform(0.05, 1.5), {0, 0, 0});
+    leaning.position[2] = lowest_of(card, leaning)[2] - random.uniform(1e-4, 0.004);
+    EXPECT_TRUE((Placed{card, make_sheet(4, 20), leaning, TestPose{}}).contacts(TestPose{}).empty())
+        << i;
+    TestPose hanging = tilted(random, std::numbers::pi, TestPose{});
+    const TestPose upside_down = composed(turned({1, 0, 0}, std::numbers::pi), hanging);
+    hanging.position[2] = lowest_of(bowl, upside_down)[2] - random.uniform(1e-4, 0.004);
+    EXPECT_TRUE((Placed{bowl, make_sheet(4, 20), hanging, TestPose{}}).contacts(TestPose{}).empty())
+        << i;
+  }
+}
+
+// A curved card would leave by one plane, and be as deep as it is curved, 0.22 m, and thrown.
+TEST(OpenBodies, AreNotAsDeepAsTheyAreCurvedWithTheGround) {
+  Random random(47);
+  const TestMesh hills = make_hills(4, 40), card = make_hills(1, 10);
+  for (int i = 0; i < 20; ++i) {
+    const double below = random.uniform(5e-4, 0.005);
+    const Placed placed{card, hills, at(0, 0, -below), TestPose{}};
+    EXPECT_LT(deepest(placed.contacts(TestPose{})), 0.03) << i;
+  }
+}
+
+// Tiles side by side, also where they meet at the border, or a card beside one. Were it enough that
+// some vertex is straight below, 21 of these 40 would be below the ground.
+TEST(OpenBodies, AreApartFromGroundBesideThem) {
+  Random random(46);
+  for (int i = 0; i < 20; ++i) {
+    const double gap = i % 2 == 0 ? 0 : random.uniform(1e-4, 0.004);
+    const double below = random.uniform(1e-4, 0.004);
+    for (const double size : {0.5, 3.0}) {
+      const TestPose pose = at(2 + size / 2 + gap, random.uniform(-1, 1), -below);
+      EXPECT_TRUE((Placed{make_sheet(size, 6), make_sheet(4, 20), pose, TestPose{}})
+                      .contacts(TestPose{})
+                      .empty())
+          << size << ", " << i;
+    }
+  }
 }
 
 // Of two bowls of one layer, one in the other, no point is farther from the other's wall than they

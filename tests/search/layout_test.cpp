@@ -129,6 +129,7 @@ const std::vector<Member> kMembers = {
     OFFSET_OF(ox_found, placed),
     OFFSET_OF(ox_found, candidates),
     OFFSET_OF(ox_found, at_border),
+    OFFSET_OF(ox_found, is_below),
     SIZE_OF(ox_list),
     OFFSET_OF(ox_list, first),
     OFFSET_OF(ox_list, capacity),
