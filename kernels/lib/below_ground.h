@@ -18,24 +18,10 @@
 // The cosine of what is straight below, within 26 degrees: as of what faces the same way.
 #define OX_STRAIGHT_BELOW 0.9f
 
-// [m] how far a point, from `base` on, is behind the plane of a triangle.
-static inline float ox_below_plane(__global const ox_triangle* t, float3 base, float3 p) {
-  return ox_dot(vload3(0, t->normal), vload3(0, t->a) - base - p);
-}
-
-// Squared, from a point, from `base` on, to a triangle that it is so high above or below [m2].
-static inline float ox_distance2_to_triangle(__global const ox_triangle* t, float3 base, float3 p,
-                                             float height) {
-  const float3 normal = vload3(0, t->normal);
-  const float3 corner[3] = {vload3(0, t->a) - base, vload3(0, t->b) - base, vload3(0, t->c) - base};
-  float distance2 = INFINITY;
-  bool is_within = true;
-  for (uint k = 0u; k < 3u; ++k) {
-    const float3 along = corner[(k + 1u) % 3u] - corner[k];
-    is_within = is_within && ox_dot(ox_plain_cross(normal, along), p - corner[k]) >= 0.0f;
-    distance2 = ox_min(distance2, ox_distance2_to_segment(p, corner[k], corner[(k + 1u) % 3u]));
-  }
-  return is_within ? height * height : distance2;
+// The closest triangle of the target within a bound [m].
+static inline uint ox_closest_of_target(const ox_flood_state* s, float3 base, float3 p,
+                                        float bound) {
+  return ox_closest_triangle(&s->scene->surfaces, s->target, base, p, bound, s->pair->epsilon);
 }
 
 // Whether the source is a body of one layer, its target the ground of that, and all of it is below
@@ -57,20 +43,17 @@ static inline bool ox_is_just_below_ground(const ox_flood_state* s) {
       if (ox_is_flat_vertex(s->scene, s->pair, side, v)) continue;
       const float3 p = ox_place(s->pair, side, vload3(0, s->scene->vertices[v].position));
       // It is near, mostly.
-      uint closest =
-          ox_closest_triangle(&s->scene->surfaces, s->target, base, p, depth, s->pair->epsilon);
-      if (closest == OX_NONE)
-        closest = ox_closest_triangle(&s->scene->surfaces, s->target, base, p,
-                                      2.0f * s->source->radius, s->pair->epsilon);
+      uint closest = ox_closest_of_target(s, base, p, depth);
+      if (closest == OX_NONE) closest = ox_closest_of_target(s, base, p, 2.0f * s->source->radius);
       if (closest == OX_NONE) return false;
       __global const ox_triangle* t = s->scene->surfaces.triangles + closest;
       if (asked == 0u) first = t;
-      const float below = ox_below_plane(t, base, p);
-      if (below < 0.0f || below > depth || fabs(ox_below_plane(first, base, p)) > depth)
+      const float below = -ox_height_over(t, base, p);
+      if (below < 0.0f || below > depth || fabs(ox_height_over(first, base, p)) > depth)
         return false;
-      const float near = below / OX_STRAIGHT_BELOW + s->pair->margin;
       ++asked;
-      if (ox_distance2_to_triangle(t, base, p, below) <= near * near) ++straight;
+      const float near = below / OX_STRAIGHT_BELOW + s->pair->margin;
+      if (ox_closest_of_target(s, base, p, near) != OX_NONE) ++straight;
     }
   }
   return straight != 0u && 2u * straight >= asked;

@@ -199,10 +199,15 @@ static inline uint ox_closest_of(const ox_surfaces* surfaces, __global const ox_
   return closest.triangle;
 }
 
+// [m] how far a point, from `base` on, is in front of the plane of a triangle.
+static inline float ox_height_over(__global const ox_triangle* triangle, float3 base, float3 p) {
+  return ox_dot(vload3(0, triangle->normal), p - (vload3(0, triangle->a) - base));
+}
+
 // Whether a point, from `base` on, is behind a triangle, or in front by no more than a margin [m].
 static inline bool ox_is_behind(__global const ox_triangle* triangle, float3 base, float3 p,
                                 float margin) {
-  return ox_dot(vload3(0, triangle->normal), p - (vload3(0, triangle->a) - base)) <= margin;
+  return ox_height_over(triangle, base, p) <= margin;
 }
 
 static inline uint ox_closest_triangle(const ox_surfaces* surfaces, __global const ox_mesh* mesh,

@@ -43,18 +43,17 @@ static inline void ox_cast_queue(const ox_flood_state* s) {
     const uint vertex = is_queued ? ox_queued(s, i) : OX_NONE;
     if (ox_is_open(s)) {
       const bool lies = i >= s->crossed;
-      const bool is_below = lies && s->is_below;
       const bool is_deep = is_queued && !lies && ox_depth_below(s->scene, vertex, &way) > known;
       const bool is_reached = is_queued && !lies && !is_deep && has_no_border;
       const bool casts =
           is_queued &&
           (lies || is_deep || is_reached ? ox_casts_ray(s->scene->vertices + vertex)
                                          : ox_may_cast(s->scene, s->pair_side, vertex)) &&
-          !(is_below && ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex));
+          !(s->is_below && ox_is_flat_vertex(s->scene, s->pair, s->pair_side & 1u, vertex));
       const uint index = ox_append_each(s->scene, OX_LIST_RAYS, casts);
       if (casts)
         ox_store_ray(s->scene, index, s->pair_side, vertex,
-                     is_below     ? OX_RAY_BEHIND
+                     s->is_below  ? OX_RAY_BEHIND
                      : lies       ? OX_RAY_CONTAINED
                      : is_deep    ? OX_RAY_BEHIND
                      : is_reached ? OX_RAY_REACHED

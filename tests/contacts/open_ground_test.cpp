@@ -180,6 +180,34 @@ TEST(OpenGround, PushesAPlateUpOfWhichACornerAloneSticksOut) {
   }
 }
 
+// The way out of a convex body along a direction, of what is in it.
+double way_out(const TestMesh& body, const TestPose& pose, const TestMesh& inside,
+               const Point& direction) {
+  double to = -INFINITY, from = INFINITY;
+  for (int i = 0; i < body.vertex_count(); ++i)
+    to = std::max(to, dot(direction, to_world(pose, body.vertex(static_cast<std::size_t>(i)))));
+  for (int i = 0; i < inside.vertex_count(); ++i)
+    from = std::min(from, dot(direction, inside.vertex(static_cast<std::size_t>(i))));
+  return to - from;
+}
+
+// A loose piece of the ground, all of it in a body that the rest is far below.
+TEST(OpenGround, OfWhichAPieceIsInABodyIsTakenOutTheShortestWay) {
+  Random random(36);
+  const TestMesh islet = moved(make_sheet(0.2, 2), {0, 0, 1});
+  const TestMesh ground = merged(make_sheet(4, 20), islet);
+  const TestMesh ball = make_icosphere(0.6, 1);
+  for (int i = 0; i < 40; ++i) {
+    TestPose pose = random.pose(0.1);
+    pose.position[2] += 1;
+    double least = INFINITY;
+    for (int k = 0; k < 5000; ++k)
+      least = std::min(least, way_out(ball, pose, islet, random.direction()));
+    const Placed placed{ball, ground, pose, TestPose{}};
+    EXPECT_LT(deepest(placed.contacts(TestPose{})), 1.02 * least) << i;
+  }
+}
+
 // Peaks of the ground that are past the middle of the plate are nearer to its top. What the moves
 // before take the plate up by costs nothing any more, so that they do not push it down again: they
 // did in 20 of 50.
