@@ -11,6 +11,7 @@ static void near_callback(void* joints, dGeomID g1, dGeomID g2) {
   dContact contact[16] = {0};
   int count = dCollide(g1, g2, 16, &contact[0].geom, sizeof contact[0]);
   for (int i = 0; i < count; ++i) {
+    contact[i].surface.mode = dContactApprox1; /* or mu is a force */
     contact[i].surface.mu = 0.5;
     dJointID joint = dJointCreateContact(world, joints, &contact[i]);
     dJointAttach(joint, dGeomGetBody(g1), dGeomGetBody(g2));
