@@ -254,6 +254,29 @@ TEST(Concave, ContactsOfLinksOfAChainAreAsDeepAsTheyOverlapHoweverTheyAreCut) {
   }
 }
 
+// Farther in, what is nearest to a point of one is the far side of the other: there units go either
+// way (docs/contacts.md, limits).
+TEST(Concave, LinksOfAChainThatAreUpToHalfwayThroughOneAnotherGoBack) {
+  const double tube = 0.1;
+  const TestMesh link = make_torus(0.4, tube, 96, 48);
+  Random random(5);
+  for (const double share : {0.2, 0.3, 0.4, 0.5}) {  // of how thick they are
+    const double deep = 2 * tube * share;
+    for (int i = 0; i < 25; ++i) {
+      SCOPED_TRACE(std::to_string(share) + ", " + std::to_string(i));
+      const TestPose turn =
+          turned({1, 0, 0}, std::numbers::pi / 2 + random.uniform(-0.3, 0.3), {0.6 + deep, 0, 0});
+      const Placed placed{link, link, at(0, 0, 0), turn};
+      const std::vector<Contact> found = placed.contacts(TestPose{});
+      ASSERT_FALSE(found.empty());
+      const Contact deepest = deepest_of(found);
+      EXPECT_GT(deepest.depth, 0.9 * deep);
+      EXPECT_LT(deepest.depth, 1.1 * deep);
+      for (const Contact& contact : found) EXPECT_GT(contact.normal.x, -0.1) << contact.depth;
+    }
+  }
+}
+
 // Rings that hang in each other, as a link on a hook does, meet over several faces of each; where
 // edges of theirs part them, one point where these pass would let a ring turn about it.
 TEST(Concave, ARingThatHangsInARingIsHeldAtMoreThanTwoPoints) {
